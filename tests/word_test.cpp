@@ -63,7 +63,8 @@ static_assert(evaluates<word<kick, drift, kick>>(std::array{unshared, none, unsh
 static_assert(evaluates<word<drift, kick, drift>>(std::array{none, unshared, none},
                                                   std::array{none, unshared, none},
                                                   std::array{none, unshared, none}));
-static_assert(evaluates<alternating_word<kick, drift, 5>>(std::array{unshared, none, unshared, none, unshared},
+static_assert(evaluates<alternating_word<kick, drift, 5>>(std::array{unshared, none, unshared, none,
+                                                                     unshared},
                                                           std::array{none, none, unshared, none, unshared},
                                                           std::array{none, none, unshared, none, shared}));
 // The next letter, or the next step, reads it too.
@@ -89,7 +90,8 @@ static_assert(evaluates<word<O, kick, drift, kick, O>>(std::array{none, unshared
 static_assert(word<kick, drift, kick>::merges);
 static_assert(!word<O, drift, O>::merges && word<O, drift, O>::merges_half_steps);
 static_assert(!word<O, drift>::merges_half_steps && !word<drift, O>::merges_half_steps);
-static_assert(!word<kick, drift, O, drift, kick>::merges_half_steps && word<kick, drift, O, drift, kick>::merges);
+static_assert(!word<kick, drift, O, drift, kick>::merges_half_steps &&
+              word<kick, drift, O, drift, kick>::merges);
 static_assert(word<O, drift, O, kick, O>::stochastic_letters == 3);
 static_assert(word<O, drift, O, kick, O>::stochastic_number(0) == 0 &&
               word<O, drift, O, kick, O>::stochastic_number(2) == 1 &&

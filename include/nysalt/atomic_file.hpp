@@ -40,9 +40,9 @@ class atomic_file {
   /// Appends the text. Throws std::runtime_error if it cannot be written.
   void write(std::string_view text);
 
-  /// Gives the file its name. Throws std::runtime_error if what was written did not arrive; then an older
-  /// file is as it was. If it is to be `durable`, it outlasts the machine's power too, which costs some
-  /// milliseconds.
+  /// Renames the finished file to the name asked for. Throws std::runtime_error if what was written did not
+  /// arrive; then an older file is as it was. If it is to be `durable`, it outlasts the machine's power too,
+  /// which costs some milliseconds.
   void commit(bool durable = false);
 
  private:

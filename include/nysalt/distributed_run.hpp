@@ -30,13 +30,13 @@ class distributed_run {
   /// site.
   using start = std::function<void(Eigen::Index first, std::span<double> q, std::span<double> p)>;
 
-  /// At its start. The communicator must outlive the run. Throws std::invalid_argument on all ranks if the
-  /// system is no LocalSystem or is in a bath that acts, if the word is not drifts and kicks in turn or is
-  /// processed, if the step is zero or not finite, if a start is not finite, or if there are more ranks than
-  /// the sites can be shared by.
+  /// A run at the initial state. The communicator must outlive the run. Throws std::invalid_argument on all
+  /// ranks if the system is no LocalSystem or is in a bath that acts, if the word is not drifts and kicks in
+  /// turn or is processed, if the step is zero or not finite, if a start is not finite, or if there are more
+  /// ranks than the sites can be shared by.
   distributed_run(const model& system, const tabulated& method, double step, const start& at,
                   const communicator& ranks = one_rank);
-  /// The same of any other method.
+  /// A run of any other method.
   template <Method M>
   distributed_run(const model& system, const M& method, double step, const start& at,
                   const communicator& ranks = one_rank)
@@ -49,7 +49,7 @@ class distributed_run {
   void advance(std::int64_t steps);
   /// The synchronous state of this rank's sites.
   phase_point<double, Eigen::Dynamic> synchronous() const;
-  /// H, summed in a tree whose shape depends on the number of sites alone. Throws std::invalid_argument if
+  /// H, summed in a tree whose shape depends on the number of sites only. Throws std::invalid_argument if
   /// the system has no potential_in_range().
   double energy() const;
   /// Whether all numbers of all ranks are finite.
@@ -61,9 +61,9 @@ class distributed_run {
   /// Goes on from a state that open() gave: read(first, q, p) as a start. Throws as the constructor.
   void resume(std::int64_t step, const start& read);
 
-  std::int64_t step() const;        ///< how many are done
-  Eigen::Index first_site() const;  ///< of this rank
-  Eigen::Index sites() const;       ///< of this rank
+  std::int64_t step() const;        ///< number of steps done
+  Eigen::Index first_site() const;  ///< first site of this rank
+  Eigen::Index sites() const;       ///< sites of this rank
 
  private:
   struct parts;

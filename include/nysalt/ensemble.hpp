@@ -60,8 +60,8 @@ phase_point<double, S::dimension> sound_start(const S& system, const E& ensemble
   return detail::require_sound(system, ensemble, n, ensemble(seed, static_cast<std::uint64_t>(n)));
 }
 
-/// Those of `count` trajectories from the first on, one in each lane of T; lanes beyond them repeat the
-/// first.
+/// Initial states of `count` trajectories from the first on, one in each lane of T; lanes beyond them repeat
+/// the first.
 template <class T, System S, Ensemble<S> E>
 phase_point<T, S::dimension> sound_starts(const S& system, const E& ensemble, std::uint64_t seed,
                                           std::int64_t first, int count) {

@@ -45,7 +45,7 @@ class ensemble_run {
   using state = phase_point<T, N>;
 
  public:
-  /// At their starts. Throws std::invalid_argument if there are none, or one does not fit.
+  /// A run at the initial states. Throws std::invalid_argument if there are none, or one does not fit.
   template <Ensemble<typename Stepper::system_type> E>
   ensemble_run(const Stepper& stepper, const E& ensemble, std::uint64_t seed, std::int64_t first,
                std::int64_t count, int threads = 1)
@@ -55,8 +55,8 @@ class ensemble_run {
     });
   }
 
-  /// Where `saved` left them. Throws std::invalid_argument if it is of another number of trajectories or
-  /// coordinates.
+  /// A run that resumes from `saved`. Throws std::invalid_argument if it is of another number of trajectories
+  /// or coordinates.
   template <Ensemble<typename Stepper::system_type> E>
   ensemble_run(const Stepper& stepper, const E& ensemble, std::uint64_t seed, std::int64_t first,
                std::int64_t count, const saved_runs& saved, int threads = 1)
@@ -169,7 +169,7 @@ class ensemble_run {
     return runs(stepper_of(block), start, count, std::move(run), lost);
   }
 
-  /// Of a black box, whose force may have memory: a copy of the system that only one block uses.
+  /// For a black box, whose force may have memory, a copy of the system that only one block uses.
   struct own_system {
     explicit own_system(const Stepper& of)
         : system(of.system().separate()), stepper(of.with_system(system)) {}

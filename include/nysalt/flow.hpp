@@ -16,17 +16,17 @@ struct flow_state : phase_point<T, N> {
   vector<T, N> f;  ///< the force, as its word needs it
 };
 
-/// Nothing: what letters that need no room take.
+/// Empty work space, of letters that need none.
 struct no_room {};
 
 /// Room for letters that need more than the state: made once a run, so that stepping does not allocate.
 template <Scalar T, int N>
 struct flow_room : lifted_room<T, N> {
   flow_room() = default;
-  /// For a number of degrees of freedom.
+  /// Work space for a number of degrees of freedom.
   explicit flow_room(Eigen::Index size) : lifted_room<T, N>(size), x(size), y(size) {}
-  vector<T, N> x;  ///< of a rotation, M^-1 f of a gradient kick, or the displaced q
-  vector<T, N> y;  ///< of a rotation, f'(q) M^-1 f, or the force at the displaced q
+  vector<T, N> x;  ///< work space: modal x of a rotation, M^-1 f of a gradient kick, or the displaced q
+  vector<T, N> y;  ///< work space: modal y of a rotation, f'(q) M^-1 f, or the force at the displaced q
 };
 
 /// The flow of the bath: its `stochastic` is true, and it draws noise.

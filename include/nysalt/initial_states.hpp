@@ -19,9 +19,9 @@ namespace nysalt {
 /// that is known while running.
 class initial_states {
  public:
-  using state = phase_point<double, Eigen::Dynamic>;  ///< of one trajectory
+  using state = phase_point<double, Eigen::Dynamic>;  ///< state of one trajectory
 
-  /// Those of an ensemble(seed, n) with a description(), which is copied.
+  /// The initial states of an ensemble(seed, n) with a description(), which is copied.
   template <class E>
     requires(!std::same_as<E, initial_states>) && requires(const E& e) {
       e(std::uint64_t{}, std::uint64_t{}).q;
@@ -52,8 +52,8 @@ class initial_states {
 
   /// The start of trajectory n.
   state operator()(std::uint64_t seed, std::uint64_t n) const { return at_(seed, n); }
-  /// Those of `count` trajectories from the first on, one in each lane of T; lanes beyond them repeat the
-  /// first. At most default_lanes.
+  /// Initial states of `count` trajectories from the first on, one in each lane of T; lanes beyond them
+  /// repeat the first. At most default_lanes.
   template <class T>
   phase_point<T, Eigen::Dynamic> block(std::uint64_t seed, std::int64_t first, int count) const {
     if (several_) {
@@ -64,9 +64,9 @@ class initial_states {
                                      [&](int k) { return at_(seed, static_cast<std::uint64_t>(first + k)); });
   }
   bool makes_blocks() const { return several_ != nullptr; }  ///< several at a time cost less
-  const std::string& description() const { return text_; }   ///< that of the ensemble
-  bool is_expensive() const { return is_expensive_; }    ///< whether a state takes a simulation of its own
-  std::int64_t size() const { return size_; }  ///< how many there are
+  const std::string& description() const { return text_; }   ///< description of the ensemble
+  bool is_expensive() const { return is_expensive_; }  ///< whether a state takes a simulation of its own
+  std::int64_t size() const { return size_; }          ///< number of states
 
  private:
   std::function<state(std::uint64_t, std::uint64_t)> at_;

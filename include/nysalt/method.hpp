@@ -37,7 +37,7 @@ concept Method = Word<typename M::word> && requires(const M& method) {
 template <Family F>
 class member {
  public:
-  using family = F;  ///< whose member it is
+  using family = F;  ///< family of the method
   using word = typename F::word;
   static constexpr int order = F::order;
   static constexpr bool symmetric = F::symmetric;
@@ -65,7 +65,7 @@ class member {
 template <Family F>
 class tuned_method {
  public:
-  using family = F;  ///< whose member it is
+  using family = F;  ///< family of the method
   using word = typename F::word;
   static constexpr int order = F::order;
   static constexpr bool symmetric = F::symmetric;
@@ -85,14 +85,14 @@ class tuned_method {
   typename word::template coefficients<double> coefficients() const { return member_.coefficients(); }
   word letters() const { return member_.letters(); }
   std::string name() const { return "learned:" + member_.name(); }
-  double step() const { return step_; }                  ///< at which it was learned
-  const std::string& system() const { return system_; }  ///< for which it was learned: what describe() says
-  /// Of which kind that system is; empty where that is not known.
+  double step() const { return step_; }                  ///< step of learning
+  const std::string& system() const { return system_; }  ///< system of learning, as describe() returns it
+  /// Kind of that system; empty where unknown.
   const std::string& kind() const { return kind_; }
-  /// The energies of the trajectories that it was learned from; nothing where nobody told.
+  /// Energies of the training data; empty where they are not known.
   const std::optional<energy_range>& energies() const { return energies_; }
   /// Whether it was learned on energies like that of a state. Outside it runs all the same, and may err more:
-  /// of many starts learning/energies_outside.hpp tells whether that is chance.
+  /// of many starts learning/energies_outside.hpp computes whether that is chance.
   template <HasEnergy<double> S>
   bool has_seen(const S& system, const phase_point<double, S::dimension>& state) const {
     return !energies_ || energies_->contains(energy<double>(system, state));

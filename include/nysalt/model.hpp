@@ -32,7 +32,7 @@ class model {
  public:
   static constexpr int dimension = Eigen::Dynamic;  ///< known while running
   static constexpr int lanes = default_lanes;       ///< most trajectories side by side
-  static constexpr bool is_erased = true;           ///< what it can do is known while running
+  static constexpr bool is_erased = true;  ///< true: the members that the system offers are known at run time
 
   /// The model of a system, which is copied; it converts by itself. Cost: a copy, and one description.
   template <class S>
@@ -50,7 +50,9 @@ class model {
   std::string kind() const {
     return facts_->in.acts() ? base_kind_ + " in " + facts_->in.description() : base_kind_;
   }
-  const nysalt::bath& bath() const { return facts_->in; }  ///< one that does not act, if it is in none
+  const nysalt::bath& bath() const {
+    return facts_->in;
+  }  ///< bath of the system; without one, a bath that does not act
   /// The system without its bath.
   model base() const {
     auto facts = std::make_shared<detail::model_facts>(*facts_);
@@ -70,7 +72,7 @@ class model {
     result.facts_ = std::move(facts);
     return result;
   }
-  /// The same, whose steps `threads` threads share if it is a LocalSystem; of another system they do not. The
+  /// A model whose steps `threads` threads share if it is a LocalSystem; of another system they do not. The
   /// bits are those of one thread. Throws std::invalid_argument unless threads >= 1.
   model on_threads(int threads) const {
     if (threads < 1)
@@ -79,16 +81,16 @@ class model {
     result.threads_ = threads;
     return result;
   }
-  int threads() const { return threads_; }  ///< that share a step of one trajectory
-  /// Of a LocalSystem: the functions of its sites, else null.
+  int threads() const { return threads_; }  ///< number of threads that share a step of one trajectory
+  /// Functions of the sites of a LocalSystem, else null.
   const detail::site_kernels* sites() const { return system_->sites(); }
-  /// With a copy of the system of its own, for a thread whose system may change while it computes.
+  /// A model with an own copy of the system, for a thread whose system may change while it computes.
   model separate() const {
     model result = *this;
     result.system_ = system_->clone();
     return result;
   }
-  /// What the system can do: has_energy(system) and its like ask it.
+  /// Members that the system offers: has_energy(system) and its like ask it.
   const detail::model_facts& facts() const { return *facts_; }
   /// Force evaluations of this copy so far, of a black box.
   std::int64_t calls() const { return system_->calls(); }
@@ -103,8 +105,8 @@ class model {
     return facts_->inverse_root_masses.empty() ? 1.0
                                                : facts_->inverse_root_masses[static_cast<std::size_t>(i)];
   }
-  normal_modes modes() const { return system_->modes(); }  ///< of its quadratic part, if it has_modes()
-  /// Those that the system declares, or none.
+  normal_modes modes() const { return system_->modes(); }  ///< modes of the quadratic part, if has_modes()
+  /// Frequency bands that the system declares, or none.
   std::vector<frequency_band> frequency_bands() const {
     return system_->frequency_bands(is_in_bath_ ? &facts_->in : nullptr);
   }
@@ -124,11 +126,11 @@ class model {
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     kernels<T>().force(field::soft, q, f);
   }
-  /// Over numbers with one derivative: those of two, the second of which is zero.
+  /// Force over numbers with one derivative: two derivatives are carried, the second zero.
   void force(const vector<dual<double, 1>, dimension>& q, vector<dual<double, 1>, dimension>& f) const {
     with_one_slope(field::whole, q, f);
   }
-  /// The same of the soft force.
+  /// Soft force over numbers with one derivative.
   void soft_force(const vector<dual<double, 1>, dimension>& q, vector<dual<double, 1>, dimension>& f) const {
     with_one_slope(field::soft, q, f);
   }
@@ -152,7 +154,7 @@ class model {
   }
   /// K''(p), of a kinetic energy of the system's own.
   Eigen::MatrixXd kinetic_hessian(const Eigen::VectorXd& p) const;
-  /// By the system's own kick.
+  /// Kicks by the system's own kick.
   void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const { system_->own_kick(q, p, c); }
 
  private:

@@ -175,8 +175,8 @@ detail::member_parameter<S> parameter(std::string name, Number S::*member, std::
           }};
 }
 
-/// The initial distribution: an ensemble, such as normal_around, from law(system), or from law(system,
-/// spread), where deviations are to be multiplied by the spread.
+/// The initial distribution: an ensemble, such as normal_around, from `law(system)`, or from `law(system,
+/// spread)`, where deviations are to be multiplied by the spread.
 template <class F>
 detail::starts_of_system<F> starts(F law) {
   return {std::move(law)};
@@ -277,7 +277,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
 }  // namespace nysalt
 
 #ifndef NYSALT_PLUGIN_SOURCE
-/// By what files know the source; nysalt build defines it.
+/// Fingerprint of the source, for files; nysalt build defines it.
 #define NYSALT_PLUGIN_SOURCE "unknown"
 #endif
 /// Declares SYSTEM to the program, once in a file: NYSALT_SYSTEM(type, "title", parameter(...)...,

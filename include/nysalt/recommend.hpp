@@ -16,7 +16,7 @@ namespace nysalt {
 /// Result of recommend().
 class recommendation {
  public:
-  class contest_result;  ///< how the library holds what was found
+  class contest_result;  ///< internal form of the results
   /// Made by recommend() and recommend_for_sampling().
   explicit recommendation(std::shared_ptr<const contest_result> found) : found_(std::move(found)) {}
 

@@ -56,11 +56,13 @@ class shard {
     ranks_->broadcast(std::as_writable_bytes(detail::numbers_in(result)), 0);
     return result;
   }
-  double sum(const std::vector<double>& terms) const { return sum(terms, 0.0); }  ///< the same of numbers
+  double sum(const std::vector<double>& terms) const {
+    return sum(terms, 0.0);
+  }  ///< sum of numbers over all trajectories
 
-  /// Of all trajectories each rank has filled in the items of its own: all get them all. Memory and messages
-  /// grow with the trajectories: for what is small, and once. Throws std::invalid_argument if there is not
-  /// an item for each of them.
+  /// All-gather of items: each rank has filled in those of its own trajectories, and all ranks get all.
+  /// Memory and messages grow with the trajectories: for what is small, and once. Throws
+  /// std::invalid_argument if there is not an item for each of them.
   template <class Item>
     requires std::is_trivially_copyable_v<Item>
   void gather(std::vector<Item>& all) const {

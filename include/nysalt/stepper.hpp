@@ -27,8 +27,8 @@ namespace nysalt {
 template <Scalar T, int N>
 struct open_run {
   flow_state<T, N> state;        ///< ahead or behind, as said above
-  std::int64_t step = 0;         ///< how many are done
-  std::uint64_t trajectory = 0;  ///< whose noise it sees; that of lane 0
+  std::int64_t step = 0;         ///< number of steps done
+  std::uint64_t trajectory = 0;  ///< trajectory number of the noise, of lane 0
 };
 
 /// A word with coefficients, a step, a system, and the noise of its bath if it has one. The system is
@@ -45,11 +45,11 @@ class stepper {
   }();
 
  public:
-  using system_type = S;                          ///< what it steps
-  using noise_type = Noise;                       ///< where its noise comes from
+  using system_type = S;                          ///< type of the system
+  using noise_type = Noise;                       ///< type of the noise source
   static constexpr int dimension = S::dimension;  ///< degrees of freedom
 
-  /// One for each slot of the word.
+  /// Coefficients, one for each slot of the word.
   using coefficients_type = typename W::template coefficients<C>;
 
   /// Prepares the letters for the step, once for all runs. Throws std::invalid_argument if the step is zero
@@ -72,7 +72,7 @@ class stepper {
     }
     if (acts_) require_thermostat(word.letters());
   }
-  /// The same for a word that is known by its type.
+  /// A stepper of a word that is known by type.
   stepper(const S& system, const coefficients_type& coefficients, double step, const Noise& noise = {})
     requires TypeLevelWord<W>
       : stepper(system, W{}, coefficients, step, noise) {}
@@ -80,7 +80,7 @@ class stepper {
   stepper(const S&&, const coefficients_type&, double, const Noise& = {}) = delete;
 
   double step_size() const { return step_; }     ///< h; back in time it is negative
-  const S& system() const { return *system_; }   ///< that it steps, no copy
+  const S& system() const { return *system_; }   ///< reference to the stepped system
   const Noise& noise() const { return noise_; }  ///< a copy of its source
 
   /// Begins a run at x, with the noise of that trajectory and of those after it in further lanes. Cost: the
@@ -116,9 +116,9 @@ class stepper {
     run.step += steps;
   }
 
-  /// The same, watched: calls observe(n, x) with the synchronous state at each step n that `every` divides. The
-  /// run stays in a local copy, and looking does not change it. Cost: the word's evaluations_to_observe each
-  /// time.
+  /// Advances with an observer: calls observe(n, x) with the synchronous state at each step n that `every`
+  /// divides. The run stays in a local copy, and looking does not change it. Cost: the word's
+  /// evaluations_to_observe each time.
   template <Scalar T, class Observe>
   void advance(open_run<T, dimension>& run, std::int64_t steps, std::int64_t every, Observe&& observe) const {
     if (steps < 0 || every < 1) {
@@ -166,7 +166,7 @@ class stepper {
     return {std::move(x.q), std::move(x.p)};
   }
 
-  /// The same of the kernel of a processed word, without P(-h), else that of synchronous(), in x. No
+  /// State of the kernel of a processed word, without P(-h), else the synchronous state, in x. No
   /// evaluation, and no allocation where x has the system's dimension.
   template <Scalar T>
   void of_kernel(const open_run<T, dimension>& run, flow_state<T, dimension>& x) const {
@@ -196,7 +196,7 @@ class stepper {
     x = {std::move(state.q), std::move(state.p)};
   }
 
-  /// The same steps of another copy of the system, which outlives them.
+  /// A stepper of another copy of the system, which outlives them.
   stepper with_system(const S& copy) const {
     stepper result = *this;
     result.system_ = &copy;

@@ -93,10 +93,11 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
                                 std::uint64_t seed) {
   const trajectories_plan plan = plan_at(step, count, seed);
   shown_.part(fmt::format("comparing {} at step {:g}", group.size() == 1 ? "one" : "some", step));
-  const auto of_further_observations = [&](const candidate& contender) {  // the first one is counted with the run
-    return static_cast<double>((options_.looks - 1) * contender.source.evaluations_to_observe) /
-           options_.horizon;
-  };
+  const auto of_further_observations =
+      [&](const candidate& contender) {  // the first one is counted with the run
+        return static_cast<double>((options_.looks - 1) * contender.source.evaluations_to_observe) /
+               options_.horizon;
+      };
   const auto take = [&](candidate& contender, estimate mean, std::vector<double> scores,
                         const auto& diverged_at) {
     contender.error = {mean, std::move(scores), false, std::ssize(diverged_at)};

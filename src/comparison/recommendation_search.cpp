@@ -111,8 +111,9 @@ void recommendation::probe(candidate& contender, int k) {
 void recommendation::judge(candidate& contender, int k) const {
   const auto judged = statistic(searches_by_quantiles_);
   const auto& scores = contender.error.scores;
-  const bool holds = contender.is_eligible() && (contender.search.is_fine ? judged.upper_bound(scores)
-                                                                     : judged(scores)) <= *options_.error;
+  const bool holds =
+      contender.is_eligible() &&
+      (contender.search.is_fine ? judged.upper_bound(scores) : judged(scores)) <= *options_.error;
   if (holds) {
     contender.search.below = k;
     contender.search.is_found = contender.search.is_fine;

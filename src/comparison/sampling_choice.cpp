@@ -277,8 +277,8 @@ const sampling_candidate* sampling_choice::best_of(bool learned) const {
 }
 
 const sampling_candidate* sampling_choice::named(const std::string& name) const {
-  const auto found =
-      std::ranges::find_if(all_, [&](const auto& one) { return one.source.typed == name && one.is_eligible(); });
+  const auto found = std::ranges::find_if(
+      all_, [&](const auto& one) { return one.source.typed == name && one.is_eligible(); });
   return found == all_.end() ? nullptr : &*found;
 }
 

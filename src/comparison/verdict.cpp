@@ -251,7 +251,8 @@ std::string verdict_of(const std::vector<best_at_cost>& found, const std::string
                        words_of(ranges.front()), unit);
   }
   const bool has_error_bars = std::ranges::all_of(found, &best_at_cost::has_error_bars);
-  if (!has_error_bars && !is_only_row) text += " Some errors have no error bar, and differences may be chance.";
+  if (!has_error_bars && !is_only_row)
+    text += " Some errors have no error bar, and differences may be chance.";
   return text;
 }
 

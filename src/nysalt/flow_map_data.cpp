@@ -12,9 +12,9 @@
 #include <stdexcept>
 
 #include "learning/redistribute.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
-#include "nysalt/detail/collectively.hpp"
 #include "nysalt/ensembles/typical_and_energetic.hpp"
 
 namespace nysalt {

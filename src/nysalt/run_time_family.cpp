@@ -160,7 +160,8 @@ run_time_family processed(const run_time_family& kernel, int pairs) {
     result.ranges.push_back({-1.0, 1.0, false});
   }
   for (auto& start : result.starts) start.theta = with_identity(start.theta, further);
-  if (result.most_stable_member) result.most_stable_member = with_identity(*result.most_stable_member, further);
+  if (result.most_stable_member)
+    result.most_stable_member = with_identity(*result.most_stable_member, further);
   result.coefficients_ = [kernel, known, pairs](const Eigen::VectorXd& theta) {
     auto all = kernel.coefficients(theta.head(known));
     append_processor(all, theta, known, pairs);

@@ -36,16 +36,16 @@ struct shaded_interval {
 
 /// A pair of axes and what is drawn on them.
 struct panel {
-  std::string title;                 ///< written above
-  std::string x_label;               ///< written at the x axis
-  std::string y_label;               ///< written at the y axis
-  bool log_log = false;              ///< with points; else plain lines
-  std::vector<curve> curves;         ///< in the order of the key
-  std::string y_range = "[*:*]";     ///< as gnuplot reads it; if not given, what the points need
-  bool linear_y = false;             ///< where log_log would be, of what does not go to 0
-  bool linear_x = false;             ///< where log_log would be, of a time
-  bool points = false;               ///< where axes are plain: points with bars as well as lines
-  std::vector<level> levels{};       ///< lines to compare with
+  std::string title;                         ///< written above
+  std::string x_label;                       ///< written at the x axis
+  std::string y_label;                       ///< written at the y axis
+  bool log_log = false;                      ///< with points; else plain lines
+  std::vector<curve> curves;                 ///< in the order of the key
+  std::string y_range = "[*:*]";             ///< as gnuplot reads it; if not given, what the points need
+  bool linear_y = false;                     ///< where log_log would be, of what does not go to 0
+  bool linear_x = false;                     ///< where log_log would be, of a time
+  bool points = false;                       ///< where axes are plain: points with bars as well as lines
+  std::vector<level> levels{};               ///< lines to compare with
   std::vector<shaded_interval> intervals{};  ///< shaded parts, behind all else
 };
 

@@ -134,7 +134,8 @@ std::string recommendation::advice_on_observations() const {
   return fmt::format(
       " {} is counted with {} observation{} of each trajectory (--looks): every further one takes {} "
       "evaluations.",
-      best->source.typed, options_.looks, options_.looks == 1 ? "" : "s", best->source.evaluations_to_observe);
+      best->source.typed, options_.looks, options_.looks == 1 ? "" : "s",
+      best->source.evaluations_to_observe);
 }
 
 std::string recommendation::advice() const {

@@ -78,7 +78,7 @@ tested_claim slope_of_two(const both_laws& all, const std::string& name) {
   return {
       "T = 0.5: the error of " + name + " grows with slope 2",         "exponent over gaps 10 .. 100",
       both(all, [&](const sweep& s) { return with_error(slope(s)); }), verdict_of(choice_of_law, readings),
-      listed(readings) + "; 2 to a tenth and two standard errors",       ""};
+      listed(readings) + "; 2 to a tenth and two standard errors",     ""};
 }
 
 tested_claim two_magnitudes(const both_laws& all) {

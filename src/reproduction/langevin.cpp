@@ -26,13 +26,13 @@ constexpr const char* choice_of_starts = "the starts";
 tested_claim threshold(const both_starts& all, const std::string& name, double printed, double distance) {
   const auto at = [&](const sweep& s) { return crossing(s.of(name), 0.1); };
   const auto readings = in_both(all, [&](const sweep& s) { return is_gap(at(s), printed, distance); });
-  return {
-      fmt::format("{}: 10 % up to gap {:g}", name, printed),
-      "gap at which the average relative RMSE of I reaches 10 %",
-      both(all, [&](const sweep& s) { return with_error(at(s)); }),
-      verdict_of(choice_of_starts, readings),
-      fmt::format("{}; within one distance of gaps ({:g}) and two standard errors", listed(readings), distance),
-      ""};
+  return {fmt::format("{}: 10 % up to gap {:g}", name, printed),
+          "gap at which the average relative RMSE of I reaches 10 %",
+          both(all, [&](const sweep& s) { return with_error(at(s)); }),
+          verdict_of(choice_of_starts, readings),
+          fmt::format("{}; within one distance of gaps ({:g}) and two standard errors", listed(readings),
+                      distance),
+          ""};
 }
 
 tested_claim slope_until(const both_starts& all, const std::string& name, double printed, double last) {

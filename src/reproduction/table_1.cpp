@@ -130,7 +130,7 @@ exhibit table_1(const setting& setup) {
             "the same, from M = 100 trajectories by generators with h = 1e-6", ours,
             verdict_of("the coordinates of the loss and the training time", readings),
             listed(readings) + "; each number, rounded or cut off, within a unit of its last digit and two "
-                             "standard errors. The text says Ttr = 1/2, and not which coordinates",
+                               "standard errors. The text says Ttr = 1/2, and not which coordinates",
             "nysalt learn --system fpu --loss state:1 --step 0.01 --trajectories 100 --horizon 1 "
             "--coordinates modes"},
            {"the parameters are the same for three generators",

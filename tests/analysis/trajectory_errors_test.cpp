@@ -198,7 +198,9 @@ BOOST_AUTO_TEST_CASE(a_relative_error_needs_an_observable_of_one_sign) {
   const auto elongation = [](const state& x) { return x.q[1] - x.q[0]; };
   trajectory_options longer{.step = .002, .steps = 100, .trajectories = 1};
   BOOST_TEST(refuses<std::invalid_argument>(
-      [&] { trajectory_errors(chain, reference, law, verlet(), relative_measure(chain, elongation), longer); },
+      [&] {
+        trajectory_errors(chain, reference, law, verlet(), relative_measure(chain, elongation), longer);
+      },
       {"relative error", "changes its sign"}));
   BOOST_CHECK_NO_THROW(
       trajectory_errors(chain, reference, law, verlet(), path_measure(chain, elongation), longer));

@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(what_is_learned_does_not_depend_on_the_ranks) {
   for (const std::int64_t trajectories : {20, 150}) {
     const auto expected = learned_from(trajectories, one_rank);
     BOOST_TEST(!same_bits(learned_from(trajectories + 1, one_rank), expected));  // so the test can tell
-    for (const int size : {2, 3, 11}) {                                       // some have nothing
+    for (const int size : {2, 3, 11}) {                                          // some have nothing
       std::mutex guard;
       run_ranks(size, [&](const thread_communicator& ours) {
         const auto found = learned_from(trajectories, ours);

@@ -73,8 +73,8 @@ BOOST_AUTO_TEST_CASE(an_optimum_that_is_unstable_on_the_systems_frequencies_is_f
     return integrate(oscillator, fit.method, fit.method.step(), start, 10000).diverged_at.has_value();
   };
   const auto stable = fit_oscillator(1.25, {.coordinates = coordinates::energy});
-  // z = 2.8, where the start is unstable too; the guard has a most stable member there, and without it the optimum is
-  // found.
+  // z = 2.8, where the start is unstable too; the guard has a most stable member there, and without it the
+  // optimum is found.
   const auto guarded = fit_oscillator(1.4, {.coordinates = coordinates::energy});
   const auto unstable = fit_oscillator(1.4, {.coordinates = coordinates::energy, .guarded = false});
   BOOST_TEST_CONTEXT(stable.summary.full() << guarded.summary.full() << unstable.summary.full()) {

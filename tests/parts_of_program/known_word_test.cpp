@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// A method is known by what it does: the start, the most stable member and the classical members of every family, and
-// equal steps.
+// A method is known by what it does: the start, the most stable member and the classical members of every
+// family, and equal steps.
 #include <boost/test/unit_test.hpp>
 
 #include <random>

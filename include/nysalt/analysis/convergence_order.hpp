@@ -17,7 +17,7 @@ namespace nysalt {
 
 /// Global error at the horizon for steps that are halved, and the order that they show.
 struct order_measurement {
-  std::vector<double> steps;   ///< from large to small
+  std::vector<double> steps;   ///< steps from large to small
   std::vector<double> errors;  ///< largest coordinate; infinite where the run diverged
   /// The slope of ln error by ln step; NaN where it does not show.
   double order = std::numeric_limits<double>::quiet_NaN();

@@ -24,7 +24,7 @@ enum class averaging { mean, root_of_each, root_of_all };
 /// side, over packs: lambdas of `auto` do. They may be called from several threads at once, and with lanes
 /// that hold no sound trajectory.
 struct error_measure {
-  std::string name;   ///< as reports call it
+  std::string name;   ///< name in reports
   std::size_t width;  ///< numbers that are read of a state
   /// read(x, result) writes the `width` numbers of a state to a span.
   detail::over_scalars<detail::reads_numbers> read;

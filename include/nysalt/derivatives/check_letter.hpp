@@ -77,9 +77,9 @@ letter_trial try_letter(const S& system, const phase_point<double, S::dimension>
 
 /// Tries a letter, of one's own or of the library, over the step h at some points, and compares what it does
 /// with what it claims: that it is symplectic (by its exact Jacobian), that negated coefficients take it
-/// back, that coefficients add up, that it is reversible, that it leaves q alone; and the derivative by its
-/// coefficients, which learning needs, with a difference. The coefficients are 1 unless given. Points should
-/// be typical of the motion: two or more tell the unit of each coordinate.
+/// back, that coefficients add up, that it is reversible, that it leaves q unchanged; and the derivative by
+/// its coefficients, which learning needs, with a difference. The coefficients are 1 unless given. Points
+/// should be typical of the motion: two or more show the unit of each coordinate.
 ///
 /// Throws std::invalid_argument if there are no points, if one has not the system's dimension, or unless
 /// there is a coefficient for each slot. Cost: 2 N + 8 letters a point, most over dual numbers.

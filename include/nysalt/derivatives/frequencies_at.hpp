@@ -105,7 +105,7 @@ std::vector<double> frequencies_at(const S& system, force_jacobian<field::whole,
   return detail::frequencies_of(stiffness);
 }
 
-/// The same at a single state.
+/// Frequencies at a single state.
 template <SeparableSystem S>
   requires detail::HasDifferentiableVelocity<S>
 std::vector<double> frequencies_at(const S& system, const phase_point<double, S::dimension>& state) {
@@ -115,12 +115,12 @@ std::vector<double> frequencies_at(const S& system, const phase_point<double, S:
 
 /// Frequencies along some states.
 struct frequencies_along {
-  std::vector<std::vector<double>> of_state;  ///< of each state, from low to high
+  std::vector<std::vector<double>> of_state;  ///< frequencies of each state, from low to high
   bool are_complete = false;                  ///< false: of each state only the highest, or none at all
 
   /// A frequency and where it is met.
   struct maximum {
-    double frequency = 0.0;  ///< of the linearised motion
+    double frequency = 0.0;  ///< frequency of the linearised motion
     std::size_t state = 0;   ///< number of the state
   };
   /// The highest of all, and where it is met; 0 and 0 if none is known.

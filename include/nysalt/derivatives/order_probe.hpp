@@ -96,7 +96,7 @@ class order_probe {
 
   phase_point<taylor, 3> start() const { return start_.cast<taylor>(); }  ///< generic q and p, constant in h
 
-  /// Where the flow leads in the time h, by Picard's iteration x <- start + integral of x': each sweep gains
+  /// The flow over the time h, by Picard's iteration x <- start + integral of x': each sweep gains
   /// an order. As the series holds h x', integration divides the k-th coefficient by k.
   phase_point<taylor, 3> flow() const {
     auto x = start();

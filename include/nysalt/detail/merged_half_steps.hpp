@@ -60,7 +60,7 @@ class merged_half_steps {
   merged_half_steps() = default;
   /// From the letters as they are prepared. `bath_is_warm`: sigma > 0, so that there is noise.
   merged_half_steps(const ornstein_uhlenbeck::prepared<C>& end, const ornstein_uhlenbeck::prepared<C>& begin,
-             bool bath_is_warm)
+                    bool bath_is_warm)
       : end_(end), begin_(begin) {
     using std::sqrt;
     both_.decay = begin.decay * end.decay;

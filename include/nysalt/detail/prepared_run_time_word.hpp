@@ -28,7 +28,9 @@ class prepared_word<run_time_word, C, N> {
   /// Folds step and surroundings into the coefficients. Throws std::invalid_argument unless there is a
   /// coefficient for each slot.
   prepared_word(const run_time_word& w, const std::vector<C>& c, double h, const surroundings_of_word& around)
-      : merges_(w.merges), merges_half_steps_(w.merges_half_steps), evaluates_to_open_(w.plan().is_known_when_open) {
+      : merges_(w.merges),
+        merges_half_steps_(w.merges_half_steps),
+        evaluates_to_open_(w.plan().is_known_when_open) {
     w.require_one_for_each_slot(c);
     if (w.is_processed()) {
       before_ = plain(detail::pre_processor(w), detail::pre_processor_coefficients(w, c), h, around);

@@ -11,8 +11,8 @@
 #include <tuple>
 #include <utility>
 
-#include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/merged_half_steps.hpp"
+#include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/own_letter.hpp"
 #include "nysalt/detail/pairs_in_loop.hpp"
 #include "nysalt/word.hpp"
@@ -82,7 +82,7 @@ class prepared_word<word<L...>, C, N> {
       undo_ = detail::prepare_letter<first, N>(back.data(), h, around);
     } else if constexpr (W::merges_half_steps) {
       merged_ = merged_half_steps<C>(std::get<W::length - 1>(letters_), std::get<0>(letters_),
-                            around.heat_bath->sigma() > 0.0);
+                                     around.heat_bath->sigma() > 0.0);
     }
   }
 
@@ -137,7 +137,8 @@ class prepared_word<word<L...>, C, N> {
 
  private:
   using first = typename W::template letter<0>;
-  static constexpr std::size_t end = W::merges_half_steps ? W::length - 1 : W::length;  // of loop and plain step
+  static constexpr std::size_t end =
+      W::merges_half_steps ? W::length - 1 : W::length;  // of loop and plain step
 
   /// Whether a step of an open run is drifts and kicks in turn, several of each, whose forces nothing else
   /// needs.
@@ -222,8 +223,9 @@ class prepared_word<word<L...>, C, N> {
   using first_type = std::tuple_element_t<0, letters_type>;
 
   letters_type letters_;
-  std::conditional_t<W::merges_half_steps, merged_half_steps<C>, first_type> merged_{};  // last and first letter in one
-  first_type undo_{};                                                     // the first letter taken back
+  std::conditional_t<W::merges_half_steps, merged_half_steps<C>, first_type>
+      merged_{};       // last and first letter in one
+  first_type undo_{};  // the first letter taken back
 };
 
 }  // namespace nysalt

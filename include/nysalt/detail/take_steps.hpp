@@ -175,7 +175,8 @@ template <class S, class T>
   const auto observe = [&] { show<field::whole, S, T, double>(system, x, room, letters, watched); };
   if (letters.begins_with_kick) {
     watch_steps(
-        steps, watched, [&](std::int64_t count) { take.template operator()<with_kick>(count, all); }, observe);
+        steps, watched, [&](std::int64_t count) { take.template operator()<with_kick>(count, all); },
+        observe);
   } else if (letters.keeps_last_force) {
     const auto keep_last_force = [&](std::int64_t count) {
       take.template operator()<with_drift>(count - 1, all);
@@ -188,7 +189,8 @@ template <class S, class T>
     watch_steps(steps, watched, keep_last_force, observe);
   } else {
     watch_steps(
-        steps, watched, [&](std::int64_t count) { take.template operator()<with_drift>(count, all); }, observe);
+        steps, watched, [&](std::int64_t count) { take.template operator()<with_drift>(count, all); },
+        observe);
   }
 }
 

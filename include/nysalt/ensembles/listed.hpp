@@ -27,7 +27,7 @@ class listed {
     }
     return states_[n];
   }
-  std::size_t size() const { return states_.size(); }  ///< how many are given
+  std::size_t size() const { return states_.size(); }  ///< number of states
   std::string description() const { return sentence("listed({} states)", states_.size()); }
 
  private:

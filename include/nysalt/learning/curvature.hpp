@@ -15,12 +15,12 @@ namespace nysalt {
 
 /// Contributions of trajectories, or other blocks of data, to the gradient of a loss: those of this rank.
 struct trajectory_scores {
-  std::vector<Eigen::VectorXd> of_each;  ///< one gradient for each block of this rank
-  shard share;                           ///< which blocks this rank has
+  std::vector<Eigen::VectorXd> of_each;  ///< gradients, one for each block of this rank
+  shard share;                           ///< distribution of the blocks over ranks
 
   /// All blocks are here.
   trajectory_scores(std::vector<Eigen::VectorXd> all) : of_each(std::move(all)), share(std::ssize(of_each)) {}
-  /// This rank's blocks of those that ranks share.
+  /// Scores of the blocks of this rank.
   trajectory_scores(std::vector<Eigen::VectorXd> ours, const shard& whose)
       : of_each(std::move(ours)), share(whose) {}
 
@@ -35,7 +35,7 @@ struct trajectory_scores {
 /// box has not; two more for each step that is too long.
 Eigen::MatrixXd hessian(const objective& loss, const Eigen::VectorXd& theta);
 
-/// The same of a loss over data.
+/// Hessian of a loss over data.
 template <class Loss>
   requires requires(const Loss& loss) { loss.residuals(); }
 Eigen::MatrixXd hessian(const Loss& loss, const Eigen::VectorXd& theta) {

@@ -13,8 +13,8 @@ namespace nysalt {
 template <Family F>
 struct learned_enough {
   tuned_method<F> method;  ///< carries its step and system, and refuses others
-  fit_summary summary;     ///< of the last fit
-  enough_course course;    ///< of all fits
+  fit_summary summary;     ///< summary of the last fit
+  enough_course course;    ///< history of all fits
 };
 
 /// learn() with as many trajectories as it takes, see until_enough(): from first.trajectories on, at most as

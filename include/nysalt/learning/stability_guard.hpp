@@ -20,7 +20,7 @@
 
 namespace nysalt {
 
-/// Which frequencies a criterion uses: all that were met, or those that are declared or met in a tenth of
+/// Frequencies of a stability criterion: all that were met, or those that are declared or met in a tenth of
 /// the states. A rare one lasts for a part of its period, as that of a close pair of atoms; what it does to a
 /// run only a trial run shows.
 enum class met { ever, often };
@@ -50,7 +50,7 @@ class stability_guard {
   stability_guard(const model& system, const phase_points& states, bool rotations = true,
                   std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max());
 
-  /// The same for one word, whose letters it examines where they are kicks of parts. Cost: beside, of such a
+  /// A guard for one word, whose letters are examined where they are kicks of parts. Cost: beside, of such a
   /// word, that of word_on_parts.
   stability_guard(const model& system, const phase_points& states, const run_time_word& word,
                   std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max());
@@ -59,15 +59,15 @@ class stability_guard {
   bool admits(const run_time_word& word, const std::vector<double>& coefficients, double step,
               met which = met::ever) const;
 
-  /// One sentence, or nothing if the word may be used. Cost: some 5 us for 9 evaluations; with rotations some
-  /// 20 us a mode, and 1 us a pair of modes and state.
-  /// Throws std::invalid_argument unless there is a coefficient for each slot, and of a word with kicks of
-  /// parts if the guard was made for another such word.
+  /// Objection to a word, one sentence; empty if the word is stable. Cost: some 5 us for 9 evaluations; with
+  /// rotations some 20 us a mode, and 1 us a pair of modes and state. Throws std::invalid_argument unless
+  /// there is a coefficient for each slot, and of a word with kicks of parts if the guard was made for
+  /// another such word.
   std::string objection(const run_time_word& word, const std::vector<double>& coefficients, double step,
                         met which = met::ever) const;
 
-  /// Where z = step omega is unstable between 0 and the system's highest frequency: outside its bands, if the
-  /// word is admitted. None for words with rotations. Cost: that of stability_windows().
+  /// Unstable intervals of z = step omega between 0 and the system's highest frequency: outside its bands, if
+  /// the word is admitted. None for words with rotations. Cost: that of stability_windows().
   std::vector<stability_window> gaps(const run_time_word& word, const std::vector<double>& coefficients,
                                      double step) const;
 
@@ -97,7 +97,9 @@ class stability_guard {
   const std::vector<frequency_band>& frequencies(met which = met::ever) const {
     return which == met::ever ? bands_ : often_;
   }
-  double highest_along() const { return highest_along_; }  ///< along the states; 0 if not known
+  double highest_along() const {
+    return highest_along_;
+  }  ///< highest frequency along the states; 0 if not known
   /// Number of the state with that frequency.
   std::size_t state_of_highest() const { return state_of_highest_; }
   /// Frequencies on which words with rotations are watched: none, or those of the quadratic part.
@@ -107,7 +109,7 @@ class stability_guard {
   const word_on_parts* parts() const { return parts_.get(); }
   /// Number of steps over which growth is bounded.
   std::int64_t steps() const { return steps_; }
-  const std::string& description() const { return description_; }  ///< what it knows, and where from
+  const std::string& description() const { return description_; }  ///< known frequencies, and their origin
 
  private:
   void declare(const std::vector<frequency_band>& bands);

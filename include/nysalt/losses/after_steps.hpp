@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/collectively.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/losses/windows_in_lanes.hpp"
 #include "nysalt/run_time_family.hpp"
@@ -21,7 +21,7 @@
 
 namespace nysalt {
 
-/// After how many steps an error counts.
+/// Numbers of steps after which an error counts.
 struct after_steps_options {
   std::vector<int> steps{1};  ///< rising numbers; the last is the length K of a window
   int apart = 1;              ///< steps from the beginning of one window to that of the next
@@ -32,9 +32,9 @@ struct after_steps_options {
 /// The residuals of one window, and their derivatives by theta.
 template <Scalar R>
 struct residuals_of_window {
-  std::size_t parameters;  ///< how many there are
+  std::size_t parameters;  ///< number of parameters
   std::vector<R> values;   ///< r_k, in the lanes of R; those of an earlier time first
-  std::vector<R> slopes;   ///< of residual k by parameter i at [k parameters + i]
+  std::vector<R> slopes;   ///< derivatives of residual k by parameter i at [k parameters + i]
 
   /// The derivative of residual k by parameter i.
   const R& slope(std::size_t k, std::size_t i) const { return slopes[k * parameters + i]; }
@@ -106,10 +106,10 @@ class after_steps {
 
   Eigen::Index parameters() const { return family_.parameters(); }          ///< length of theta
   std::size_t trajectories() const { return starts_.first_of.size() - 1; }  ///< number of trajectories here
-  const shard& share() const { return share_; }  ///< which trajectories this rank has
+  const shard& share() const { return share_; }  ///< distribution of the trajectories over ranks
   /// Number of those of a window, at all of its times.
   std::size_t residuals() const { return error_.residuals * options_.steps.size(); }
-  const window_error<R>& error() const { return error_; }  ///< what they are
+  const window_error<R>& error() const { return error_; }  ///< the residuals
   /// Force evaluations of all passes so far at this rank, as `counted` counts them for one window after the
   /// other.
   std::int64_t evaluations() const { return evaluations_; }
@@ -143,7 +143,7 @@ class after_steps {
       auto x = make_state(watched);
       auto y = make_state(watched);
       residuals_of_window<R> r{static_cast<std::size_t>(parameters()), std::vector<R>(residuals(), R(0.0)),
-                                std::vector<R>(residuals() * static_cast<std::size_t>(parameters()), R(0.0))};
+                               std::vector<R>(residuals() * static_cast<std::size_t>(parameters()), R(0.0))};
       std::vector<C> of_directions(residuals());
       std::vector<R> added(static_cast<std::size_t>(terms));
       std::size_t trajectory = part.first_trajectory;

@@ -11,10 +11,10 @@ namespace nysalt {
 /// (x, y) <- (xx x + xy y, yx x + yy y); the identity by default.
 template <Scalar T>
 struct plane_map {
-  T xx{1.0};  ///< to x from x
-  T xy{0.0};  ///< to x from y
-  T yx{0.0};  ///< to y from x
-  T yy{1.0};  ///< to y from y
+  T xx{1.0};  ///< matrix entry to x from x
+  T xy{0.0};  ///< matrix entry to x from y
+  T yx{0.0};  ///< matrix entry to y from x
+  T yy{1.0};  ///< matrix entry to y from y
 
   T trace() const { return xx + yy; }                  ///< sum of the eigenvalues
   T determinant() const { return xx * yy - xy * yx; }  ///< product of the eigenvalues
@@ -81,9 +81,9 @@ plane_covariance<T> no_covariance() {
   return {infinity, infinity, infinity};
 }
 
-/// The D with D = M D M^T + R; infinite unless M is Schur stable. With L the map D -> M D M^T, whose eigenvalues are
-/// d, the determinant of M, and the squares of its two, Cayley-Hamilton says L^3 - e L^2 + d e L - d^3 = 0
-/// with e = t^2 - d, t the trace. Dividing by L - 1 gives
+/// The D with D = M D M^T + R; infinite unless M is Schur stable. With L the map D -> M D M^T, whose
+/// eigenvalues are d, the determinant of M, and the squares of its two, Cayley-Hamilton says L^3 - e L^2 + d
+/// e L - d^3 = 0 with e = t^2 - d, t the trace. Dividing by L - 1 gives
 ///   D = (L^2 + (1 - e) L + 1 - e + d e) R / ((1 - d) (1 + d - t) (1 + d + t)).
 /// Rounding errs by some eps |R| over that denominator.
 template <Scalar T>

@@ -29,11 +29,11 @@ namespace nysalt {
 /// own, given and not estimated. It is called from several threads at a time.
 template <class Error>
 struct own_loss {
-  std::string name;  ///< what a fit_summary calls it, with K behind: one line, not that of another loss
+  std::string name;  ///< name in a fit_summary, followed by K: one line, unlike that of any other loss
   int steps;         ///< K, steps of a window
   Error error;       ///< error(start, finish, wanted): the residuals
 
-  /// As of the library's losses, such as "place:5".
+  /// Description, in the form of the library's losses, such as "place:5".
   std::string description() const { return name + ":" + std::to_string(steps); }
 };
 /// Deduced from its three parts.

@@ -14,14 +14,14 @@
 
 namespace nysalt {
 
-/// Of residuals r with the Jacobian J by theta: the loss r^T r, half its gradient J^T r, and J^T J, which is
-/// half of Gauss-Newton's Hessian.
+/// Sums of residuals r with the Jacobian J by theta: the loss r^T r, half its gradient J^T r, and J^T J,
+/// which is half of Gauss-Newton's Hessian.
 struct squares {
   double value = 0.0;             ///< r^T r
   Eigen::VectorXd half_gradient;  ///< J^T r
   Eigen::MatrixXd normal_matrix;  ///< J^T J
 
-  Eigen::VectorXd gradient() const;  ///< of the loss: 2 J^T r
+  Eigen::VectorXd gradient() const;  ///< gradient of the loss: 2 J^T r
   /// Whether all numbers are.
   bool is_finite() const;
 };

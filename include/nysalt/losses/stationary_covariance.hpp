@@ -60,7 +60,7 @@ struct single_mode {
 /// that is not quadratic.
 class stationary_covariance {
  public:
-  /// Of the word with its letters O. Throws std::invalid_argument if it has none, or a letter that the system
+  /// Loss of a word with letters O. Throws std::invalid_argument if it has none, or a letter that the system
   /// does not serve; if the bath has no friction or no temperature; if no frequency is above zero; or if the
   /// step is not positive and finite.
   template <System S>

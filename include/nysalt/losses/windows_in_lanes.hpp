@@ -26,13 +26,13 @@ struct windows_in_lanes {
   static constexpr int N = Eigen::Dynamic;  ///< the dimension is known while running
   /// One window in each lane.
   struct entry {
-    phase_point<R, N> start;                ///< where the windows begin
-    std::vector<phase_point<R, N>> finish;  ///< where the data are at each time that counts
-    std::vector<vector<R, N>> noise;        ///< that of each letter O of the word, step after step
+    phase_point<R, N> start;                ///< initial states of the windows
+    std::vector<phase_point<R, N>> finish;  ///< states of the data at each time that counts
+    std::vector<vector<R, N>> noise;        ///< noise of each letter O of the word, step after step
   };
-  std::size_t first_trajectory;  ///< that of the first window, at this rank
+  std::size_t first_trajectory;  ///< number of the trajectory of the first window, at this rank
   std::size_t begin;             ///< number of the first window, as in window_starts
-  std::size_t end;               ///< one more than that of the last
+  std::size_t end;               ///< number of the last window, plus one
   std::vector<entry> entries;    ///< all windows, lane by lane
 };
 
@@ -57,18 +57,18 @@ struct noise_of_entries {
 
 /// The noise in data that the letters O of a word need.
 struct wanted_noise {
-  noise_intervals intervals;   ///< in the parts of the data
+  noise_intervals intervals;   ///< intervals of the letters O, in parts of the data
   double damping_of_part = 0;  ///< gamma times the length of a part
 };
 
 /// The pairs with which windows of a number of steps begin, trajectory by trajectory. first_of is as in
 /// flow_map_data.
 struct window_starts {
-  std::vector<std::size_t> pairs;        ///< where windows begin
+  std::vector<std::size_t> pairs;        ///< pairs with which windows begin
   std::vector<std::size_t> first_of{0};  ///< trajectory m has windows first_of[m] .. first_of[m + 1] - 1
 
-  /// Of the windows of `steps` steps that fit into trajectories of the data whose number, among those of
-  /// all ranks, `every` divides, and begin `apart` steps apart.
+  /// First pairs of the windows of `steps` steps that fit into trajectories of the data whose number, among
+  /// those of all ranks, `every` divides, and begin `apart` steps apart.
   window_starts(const flow_map_data& data, std::size_t steps, std::size_t apart, std::int64_t every = 1) {
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
       const bool counts = (data.share().first() + static_cast<std::int64_t>(m)) % every == 0;
@@ -85,8 +85,8 @@ namespace detail {
 
 template <Scalar R>
 windows_in_lanes<R> gather_windows(const flow_map_data& data, const window_starts& starts,
-                                       std::span<const int> after, const wanted_noise& wanted,
-                                       std::size_t first_trajectory, std::size_t end_trajectory) {
+                                   std::span<const int> after, const wanted_noise& wanted,
+                                   std::size_t first_trajectory, std::size_t end_trajectory) {
   constexpr std::size_t width = lanes_in<R>;
   windows_in_lanes<R> result{
       first_trajectory, starts.first_of[first_trajectory], starts.first_of[end_trajectory], {}};
@@ -126,12 +126,11 @@ windows_in_lanes<R> gather_windows(const flow_map_data& data, const window_start
 /// can take: of some thousand steps or more, so that lanes are left idle for one in a hundred at most.
 template <Scalar R>
 std::vector<windows_in_lanes<R>> gather_windows(const flow_map_data& data, const window_starts& starts,
-                                                    std::span<const int> after, const wanted_noise& wanted) {
+                                                std::span<const int> after, const wanted_noise& wanted) {
   constexpr std::size_t enough = 1600;
   const auto is_part = [&](std::size_t windows) {
     const bool fills_lanes = windows % lanes_in<R> == 0;
-    return windows >= enough ||
-           (fills_lanes && windows * static_cast<std::size_t>(after.back()) >= enough);
+    return windows >= enough || (fills_lanes && windows * static_cast<std::size_t>(after.back()) >= enough);
   };
   std::vector<windows_in_lanes<R>> result;
   for (std::size_t first = 0, end = 0; first < data.trajectories(); first = end) {

@@ -15,7 +15,7 @@ namespace nysalt {
 
 /// Declared properties of a method beside its coefficients.
 struct method_properties {
-  int order;                        ///< in h, as declared
+  int order;                        ///< order in h, as declared
   bool symmetric;                   ///< whether a step back undoes a step
   bool requires_quadratic_kinetic;  ///< whether the order is for quadratic K(p) only
 };
@@ -27,8 +27,8 @@ class tabulated : public method_properties {
  public:
   using word = run_time_word;
 
-  /// From letters, one coefficient for each of their slots, and promises. Throws std::invalid_argument unless
-  /// there is a finite coefficient for each slot.
+  /// A method from letters, one coefficient for each of their slots, and promises. Throws
+  /// std::invalid_argument unless there is a finite coefficient for each slot.
   tabulated(std::string name, run_time_word letters, std::vector<double> coefficients,
             const method_properties& properties)
       : method_properties(properties),

@@ -20,8 +20,8 @@ class along_path {
  public:
   static constexpr bool draws_freely = false;
 
-  /// For a word whose letters O cover `intervals` of a step. Throws std::invalid_argument unless the parts of
-  /// a step are whole intervals of the path.
+  /// A path for a word whose letters O cover `intervals` of a step. Throws std::invalid_argument unless the
+  /// parts of a step are whole intervals of the path.
   along_path(const recorded_path<T, N>& path, noise_intervals intervals, double step)
       : path_(&path), intervals_(std::move(intervals)) {
     if (intervals_.parts == 0) return;

@@ -52,7 +52,7 @@ class coarse_graining {
   void over(std::span<const vector<T, N>> intervals, vector<T, N>& xi) const {
     over(intervals, 0, intervals.size(), xi);
   }
-  /// The same of `count` intervals of a list, from one on.
+  /// Noise over `count` intervals of a list, from one on.
   template <class T, int N>
   void over(const auto& intervals, std::size_t from, std::size_t count, vector<T, N>& xi) const {
     first(xi);
@@ -80,12 +80,14 @@ class recorded_path {
   }
 
   double interval() const { return interval_; }             ///< length of each in time
-  std::uint64_t trajectory() const { return trajectory_; }  ///< whose it is; that of lane 0
+  std::uint64_t trajectory() const { return trajectory_; }  ///< trajectory number, of lane 0
   /// Number of the first interval that is held.
   std::int64_t begin() const { return begin_; }
   std::int64_t end() const { return begin_ + std::ssize(normals_); }  ///< number of the one after the last
 
-  void add(vector<T, N> normals) { normals_.push_back(std::move(normals)); }  ///< of interval end()
+  void add(vector<T, N> normals) {
+    normals_.push_back(std::move(normals));
+  }  ///< appends the noise of interval end()
   /// Forgets the intervals before that number: a reader that advances in intervals keeps little of the path.
   void forget_before(std::int64_t interval) {
     const std::int64_t known = std::clamp(interval, begin_, end());

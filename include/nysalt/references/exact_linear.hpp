@@ -54,8 +54,8 @@ class exact_linear {
     modes_->from_modes(x, y, point.q, point.p);
   }
 
-  exact_linear finer() const { return *this; }                         ///< itself: nothing is finer
-  std::string description() const { return "the exact linear flow"; }  ///< for provenance
+  exact_linear finer() const { return *this; }                         ///< the same object: the flow is exact
+  std::string description() const { return "the exact linear flow"; }  ///< description for provenance
 
  private:
   static constexpr double eps = std::numeric_limits<double>::epsilon();

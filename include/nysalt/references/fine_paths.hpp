@@ -35,9 +35,9 @@ class fine_paths {
     detail::advance_on_path(system, method_, step_, halvings_, x, t, at, xi);
   }
 
-  double step() const { return step_; }        ///< of its method
-  const M& method() const { return method_; }  ///< that takes the steps
-  int halvings() const { return halvings_; }   ///< of the step whose noise is fresh
+  double step() const { return step_; }        ///< step of the method
+  const M& method() const { return method_; }  ///< method of the steps
+  int halvings() const { return halvings_; }   ///< halvings of the step with fresh noise
 
   /// Half the step, on the same path.
   fine_paths finer() const { return fine_paths(0.5 * step_, method_, halvings_ + 1); }

@@ -41,9 +41,9 @@ class fine_steps {
     x = fine.synchronous(run);
   }
 
-  double step() const { return step_; }                                  ///< of its method
-  const M& method() const { return method_; }                            ///< that takes the steps
-  fine_steps finer() const { return fine_steps(0.5 * step_, method_); }  ///< with half the step
+  double step() const { return step_; }                                  ///< step of the method
+  const M& method() const { return method_; }                            ///< method of the steps
+  fine_steps finer() const { return fine_steps(0.5 * step_, method_); }  ///< reference with half the step
   std::string description() const {
     return sentence("{} with step {}", method_.name(), in_digits(step_, 12));
   }

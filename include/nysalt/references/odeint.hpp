@@ -59,8 +59,10 @@ class odeint_reference {
     }
   }
 
-  double tolerance() const { return tolerance_; }  ///< of a step's error, absolute and relative
-  /// With a hundredth of the tolerance.
+  double tolerance() const {
+    return tolerance_;
+  }  ///< tolerance of the error of a step, absolute and relative
+  /// A reference with a hundredth of the tolerance.
   odeint_reference finer() const { return odeint_reference(0.01 * tolerance_); }
   std::string description() const {
     return sentence("Boost.Odeint Runge-Kutta-Fehlberg 7(8) with tolerance {}", tolerance_);

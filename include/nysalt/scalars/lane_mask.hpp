@@ -10,7 +10,7 @@
 
 namespace nysalt {
 
-/// Which lanes: what comparing packs gives. It is no bool, as lanes may differ.
+/// Mask of lanes, the result of comparing packs. Not a bool, as lanes may differ.
 template <int W>
 class lane_mask {
  public:

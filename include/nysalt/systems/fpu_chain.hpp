@@ -39,7 +39,7 @@ class fpu_chain {
 
   Eigen::Index pairs() const { return Pairs == Eigen::Dynamic ? pairs_ : Pairs; }  ///< m, stiff springs
   Eigen::Index size() const { return 2 * pairs(); }
-  double omega() const { return omega_; }  ///< of the stiff springs
+  double omega() const { return omega_; }  ///< frequency of the stiff springs
 
   template <class T>
   T potential(const vector<T, dimension>& q) const {
@@ -56,7 +56,7 @@ class fpu_chain {
     return stiff * (0.25 * omega_ * omega_) + soft;
   }
 
-  /// What a soft bond stretched by u pulls with, 4 u^3.
+  /// Force of a soft bond with the elongation u, 4 u^3.
   template <class T>
   static T quartic_pull(const T& u) {
     return u * u * (u * 4.0);  // two products at once
@@ -75,7 +75,7 @@ class fpu_chain {
     }
   }
 
-  /// By how much that changes where u changes by w, 12 u^2 w.
+  /// Derivative of quartic_pull(u) in the direction w, 12 u^2 w.
   template <class T>
   static T slope_of_pull(const T& u, const T& w) {
     return u * u * (w * 12.0);
@@ -132,7 +132,7 @@ class fpu_chain {
   static constexpr int components = 2;                   ///< coordinates of a site
   Eigen::Index sites() const { return pairs(); }         ///< m
   static constexpr Eigen::Index reach() { return 1; }    ///< sites between a force and what the force reads
-  static constexpr bool is_periodic() { return false; }  ///< its ends are fixed
+  static constexpr bool is_periodic() { return false; }  ///< false: the ends are fixed
   /// The force on both ends of stiff springs begin .. end - 1, as a LocalSystem has it.
   template <class T>
   void force_in_range(const site_columns<const T>& q, const site_columns<T>& f, Eigen::Index begin,
@@ -210,7 +210,8 @@ class fpu_chain {
     const double soft = std::sqrt(24.0 * std::sqrt(soft_energy));
     return {{0.0, soft}, {omega_, std::sqrt(omega_ * omega_ + soft * soft)}};
   }
-  /// In a bath: a bond holds less than 12.5 kT, the energy of five deviations, but for one in 10^5.
+  /// Frequency bands in a bath: a bond holds less than 12.5 kT, the energy of five deviations, but for one in
+  /// 10^5.
   std::vector<frequency_band> frequency_bands_at(double temperature) const {
     return frequency_bands(std::max(2.0, 12.5 * temperature));
   }

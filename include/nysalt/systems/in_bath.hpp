@@ -32,9 +32,9 @@ class in_bath : public S {
   in_bath(S system, nysalt::bath heat_bath) : S(std::move(system)), bath_(std::move(heat_bath)) {}
 
   const nysalt::bath& bath() const { return bath_; }
-  const S& base() const { return *this; }  ///< without the bath
+  const S& base() const { return *this; }  ///< system without the bath
 
-  /// Those of the system in this bath.
+  /// Frequency bands of the system in this bath.
   std::vector<frequency_band> frequency_bands() const
     requires HasFrequencyBands<S>
   {
@@ -46,7 +46,7 @@ class in_bath : public S {
     if (!bath_.acts()) return describe(base());
     return sentence("{} in {}", describe(base()), bath_.description());
   }
-  /// That of the system, and the bath.
+  /// Kind of the system, and the bath.
   std::string kind() const {
     if (!bath_.acts()) return kind_of(base());
     return sentence("{} in {}", kind_of(base()), bath_.description());

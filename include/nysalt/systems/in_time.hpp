@@ -37,7 +37,7 @@ class in_time {
   /// The system that P describes.
   explicit in_time(const P& driven = {}) : driven_(driven) {}
 
-  const P& driven() const { return driven_; }  ///< what was written
+  const P& driven() const { return driven_; }  ///< the system P with time
   template <class T>
   T potential(const vector<T, dimension>& q) const {
     vector<T, P::dimension> x;

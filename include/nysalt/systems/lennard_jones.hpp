@@ -43,7 +43,9 @@ class lennard_jones {
   }
 
   Eigen::Index space() const { return Space == Eigen::Dynamic ? space_ : Space; }  ///< 2 or 3 dimensions
-  Eigen::Index atoms() const { return Atoms == Eigen::Dynamic ? atoms_ : Atoms; }  ///< at least 2
+  Eigen::Index atoms() const {
+    return Atoms == Eigen::Dynamic ? atoms_ : Atoms;
+  }  ///< number of atoms, 2 or more
   Eigen::Index size() const { return space() * atoms(); }
 
   template <class T>

@@ -93,7 +93,7 @@ class linear_chain {
   std::string description() const { return description_; }
 
  private:
-  /// Of K, by columns, and the inverse masses: what distinguishes one chain from another of its size.
+  /// Fingerprint of K, by columns, and the inverse masses, which distinguishes chains of one size.
   std::string fingerprint() const {
     detail::fingerprint sum;
     sum.add_all(stiffness_.reshaped());

@@ -88,7 +88,7 @@ class phi4_chain {
     return springs * 0.5 + wells * 0.25;
   }
 
-  /// The force of the wells alone, -q_i^3.
+  /// The force of the wells only, -q_i^3.
   template <class T>
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     for (Eigen::Index i = 0; i < size(); ++i) f[i] = -(q[i] * q[i] * q[i]);
@@ -123,7 +123,8 @@ class phi4_chain {
   std::vector<frequency_band> frequency_bands(double well_energy = usual_well_energy) const {
     return {{0.0, std::sqrt(4.0 + 6.0 * std::sqrt(well_energy))}};
   }
-  /// In a bath: a well holds less than 12.5 kT, the energy of five deviations, but for one in 10^5.
+  /// Frequency bands in a bath: a well holds less than 12.5 kT, the energy of five deviations, but for one in
+  /// 10^5.
   std::vector<frequency_band> frequency_bands_at(double temperature) const {
     return frequency_bands(std::max(usual_well_energy, 12.5 * temperature));
   }

@@ -27,9 +27,9 @@ class with_quadratic_part : public S {
     modes_ = stiffness_modes(stiffness_, inverse_masses, "with_quadratic_part");
   }
 
-  const S& base() const { return *this; }  ///< as it was given
+  const S& base() const { return *this; }  ///< system as given
   normal_modes modes() const { return modes_; }
-  bool has_modes() const { return true; }  ///< whatever S says of its own
+  bool has_modes() const { return true; }  ///< true, for every S
 
   /// The rest of the force, f + K q. Cost: a force and N^2 products.
   template <class T>
@@ -47,7 +47,7 @@ class with_quadratic_part : public S {
     return sentence("{} with a quadratic part of frequencies up to {}", describe(base()),
                     modes_.frequencies.maxCoeff());
   }
-  /// One of its own: the quadratic part at another size is another.
+  /// Kind: the description, as a quadratic part belongs to one size.
   std::string kind() const { return description(); }
 
  private:

@@ -10,8 +10,8 @@
 
 #include "../sampling/metropolis.hpp"
 #include "nysalt/analysis/evaluations.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/collectively.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/shard.hpp"
 

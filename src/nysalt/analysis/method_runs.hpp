@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "reference_tracker.hpp"
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/along_path.hpp"
+#include "reference_tracker.hpp"
 
 namespace nysalt {
 
@@ -33,9 +33,9 @@ class method_runs {
 
   /// Refers to all but the start, and partly to itself.
   method_runs(const model& system, const detail::reference_value& reference,
-                 std::span<const tabulated> methods, double step, std::span<const error_measure> measures,
-                 const state& start, int count, const reference_checks& checks, const shared_noise& noise,
-                 const sample_weights& weights)
+              std::span<const tabulated> methods, double step, std::span<const error_measure> measures,
+              const state& start, int count, const reference_checks& checks, const shared_noise& noise,
+              const sample_weights& weights)
       : measures_(measures),
         step_(step),
         weights_(weights),

@@ -36,9 +36,9 @@ class reference_tracker {
 
   /// Refers to all but the start, and to itself. The noise is added to the path in `parts` parts of a step.
   reference_tracker(const model& system, const detail::reference_value& reference,
-                     std::span<const error_measure> measures, double step, const state& start, int count,
-                     const reference_checks& checks, const path_place& at, path_type& path, int noise_parts,
-                     const sample_weights& weights)
+                    std::span<const error_measure> measures, double step, const state& start, int count,
+                    const reference_checks& checks, const path_place& at, path_type& path, int noise_parts,
+                    const sample_weights& weights)
       : measures_(measures, joined_measures::which::of_reference),
         step_(step),
         weights_(weights),

@@ -9,13 +9,13 @@
 #include <stdexcept>
 #include <vector>
 
-#include "method_runs.hpp"
 #include "measured_trajectories.hpp"
+#include "method_runs.hpp"
 #include "nysalt/analysis/evaluations.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/collectively.hpp"
 #include "nysalt/langevin.hpp"
 
 namespace nysalt::detail {
@@ -72,8 +72,8 @@ struct comparison {
       return static_cast<int>(std::clamp<std::int64_t>(static_cast<std::int64_t>(wanted) - first, 0, n));
     };
     method_runs<T> block(own, reference, methods, options.step, measures, start, n,
-                            {of_block(checks), of_block(perturbed), options.perturbation, options.null_model},
-                            {parts, options.seed, first}, weights);
+                         {of_block(checks), of_block(perturbed), options.perturbation, options.null_model},
+                         {parts, options.seed, first}, weights);
     block.run(options.steps);
     block.reference().require_sound(first);
     for (std::size_t i = 0; i < measures.size(); ++i) {

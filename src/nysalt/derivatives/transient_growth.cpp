@@ -22,7 +22,7 @@ double spectral_norm(double a, double b, double c, double d) {
 }  // namespace
 
 double transient_growth(const run_time_word& word, const std::vector<double>& coefficients, double theta,
-                     double k, std::int64_t steps) {
+                        double k, std::int64_t steps) {
   const auto times_k = [k](double x) { return k * x; };
   double qq = 1.0, pq = 0.0, qp = 0.0, pp = 1.0;
   step_on_oscillator(word, coefficients, theta, times_k, qq, pq);

@@ -49,8 +49,8 @@ class burn_in_pilot {
       const int here = std::min(width, count - first);
       const state start = sound_starts<T>(base, from, options.seed, first, here);
       const auto chains = !is_black_box(base) ? chains_
-                                               : std::make_shared<const burn_in_chains>(
-                                                     base, temperature, friction, step, options.seed);
+                                              : std::make_shared<const burn_in_chains>(
+                                                    base, temperature, friction, step, options.seed);
       blocks_.push_back({chains, start, here, chains->open(start, first_noise + first, here)});
     }
     zero_ = lane(potential_of(*chains_, blocks_.front().start), 0);

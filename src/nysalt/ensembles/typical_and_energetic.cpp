@@ -14,7 +14,8 @@ using state = phase_point<double, Eigen::Dynamic>;
 /// Those of the ensemble are made as many at a time as T has lanes.
 template <class T>
 std::vector<state> starts_made_in_lanes(const model& system, const initial_states& ensemble,
-                                        std::uint64_t seed, std::int64_t first, std::int64_t most_if_expensive) {
+                                        std::uint64_t seed, std::int64_t first,
+                                        std::int64_t most_if_expensive) {
   constexpr auto plain = static_cast<std::int64_t>(plain_starts);
   constexpr std::int64_t energetic = 64;
   constexpr std::int64_t pool = 896;

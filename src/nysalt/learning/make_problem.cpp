@@ -159,7 +159,8 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
     rival_method result;
     result.name = method.name();
     result.held_out_losses = held.by_trajectory_of(as_family);
-    result.trial = [run, letters = as_family.letters, coefficients](std::int64_t trajectories, std::int64_t n) {
+    result.trial = [run, letters = as_family.letters, coefficients](std::int64_t trajectories,
+                                                                    std::int64_t n) {
       return run(letters, coefficients, trajectories, n);
     };
     return result;

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <stdexcept>
 
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/collectively.hpp"
+#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 

@@ -263,7 +263,8 @@ search_result search(const search_task& task, const std::vector<named_parameters
     }
     keep_least(from, task.loss, most_to_the_end);
   }
-  if (task.most_stable_member && is_allowed(task.most_stable_member->theta)) from.push_back(*task.most_stable_member);
+  if (task.most_stable_member && is_allowed(task.most_stable_member->theta))
+    from.push_back(*task.most_stable_member);
   for (const auto& start : from) {
     candidate one{
         .from = start.name, .theta = start.theta, .hessian = {}, .free = task.free, .is_held = true};

@@ -11,9 +11,9 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "nysalt/derivatives/transient_growth.hpp"
 #include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/derivatives/sum_resonance.hpp"
+#include "nysalt/derivatives/transient_growth.hpp"
 #include "nysalt/derivatives/word_on_oscillator.hpp"
 #include "nysalt/detail/served_letters.hpp"
 

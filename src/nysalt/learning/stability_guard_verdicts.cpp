@@ -7,11 +7,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "nysalt/derivatives/linear_stability.hpp"
-#include "nysalt/derivatives/transient_growth.hpp"
 #include "nysalt/derivatives/hessian_spectrum.hpp"
+#include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/strong_stability.hpp"
 #include "nysalt/derivatives/sum_resonance.hpp"
+#include "nysalt/derivatives/transient_growth.hpp"
 #include "nysalt/detail/conservative_part.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/learning/stability_guard.hpp"

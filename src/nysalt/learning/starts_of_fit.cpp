@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "nysalt/detail/oscillator_loss.hpp"
 #include "nysalt/detail/collectively.hpp"
+#include "nysalt/detail/oscillator_loss.hpp"
 #include "nysalt/learning/minimise.hpp"
 #include "nysalt/learning/search.hpp"
 

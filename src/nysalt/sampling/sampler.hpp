@@ -19,10 +19,10 @@
 
 #include "block_of_chains.hpp"
 #include "dual_averaging.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/collectively.hpp"
 #include "nysalt/hmc.hpp"
 #include "nysalt/shard.hpp"
 #include "rescaled.hpp"
@@ -50,7 +50,7 @@ class sampler {
         options_(options),
         mine_(options.chains, *options.ranks),
         report_(progress_of_share(*options.ranks, mine_.count() * (options.burn_in + options.draws),
-                                options.chains * (options.burn_in + options.draws), options.progress)) {
+                                  options.chains * (options.burn_in + options.draws), options.progress)) {
     result_.step = options.step;
     const std::int64_t blocks = (mine_.count() + lanes_in<T> - 1) / lanes_in<T>;
     blocks_.resize(static_cast<std::size_t>(blocks));
