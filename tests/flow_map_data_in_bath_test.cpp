@@ -202,7 +202,7 @@ BOOST_AUTO_TEST_CASE(an_exact_flow_is_of_no_bath) {
   const auto make = [&] {
     make_flow_map_data(oscillator, starts, of_the_alone, {.step = 0.1, .trajectories = 1});
   };
-  BOOST_TEST(refuses<wrong>(make, {"made for harmonic_oscillator", "in bath(friction=0.1"}));
+  BOOST_TEST(refuses<wrong>(make, {"that of the constructor, harmonic_oscillator", "in bath(friction=0.1"}));
 }
 
 BOOST_AUTO_TEST_CASE(more_trajectories_of_the_same_are_those_made_at_once) {

@@ -421,9 +421,8 @@ BOOST_AUTO_TEST_CASE(what_the_library_finds_out_of_a_system_it_finds_out_of_its_
 
 BOOST_AUTO_TEST_CASE(starts_of_another_dimension_are_refused) {
   const normal_around<2> of_two({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
-  BOOST_TEST(
-      refuses<std::invalid_argument>([&] { typical_and_energetic_starts(pendulum(), of_two, 1, 0, 10); },
-                                     {"has not the dimension of pendulum"}));
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] { typical_and_energetic_starts(pendulum(), of_two, 1, 0, 10); }, {"the dimension of pendulum"}));
   BOOST_TEST(!typical_and_energetic_starts(henon_heiles(), of_two, 1, 0, 10).empty());
 }
 

@@ -9,7 +9,8 @@
 
 namespace nysalt {
 
-/// So that a file which has just got its name keeps it when the power fails; as far as the system can.
+/// Synchronises a folder with the disk, so that a renamed file survives a power failure; as far as the system
+/// can.
 void put_folder_on_disk(const std::filesystem::path& file);
 
 namespace detail {

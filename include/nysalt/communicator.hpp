@@ -67,7 +67,7 @@ void gather_items(const communicator& ranks, std::vector<Item>& all, std::vector
   ranks.gather(std::as_writable_bytes(std::span(all)), first_of);
 }
 
-/// A value of each rank, at all of them.
+/// All-gather of one value of each rank.
 template <class T>
   requires std::is_trivially_copyable_v<T>
 std::vector<T> in_order_of_ranks(const communicator& ranks, const T& value) {
@@ -79,7 +79,7 @@ std::vector<T> in_order_of_ranks(const communicator& ranks, const T& value) {
   return all;
 }
 
-/// The items of rank 0, then those of rank 1, and so on, at all of them.
+/// All-gather of lists: the items of rank 0, then those of rank 1, and so on.
 template <class T>
   requires std::is_trivially_copyable_v<T>
 std::vector<T> one_after_the_other(const communicator& ranks, const std::vector<T>& ours) {

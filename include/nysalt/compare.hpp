@@ -23,7 +23,7 @@ struct compared_method {
   double evaluations_per_time;  ///< force evaluations of one trajectory per unit time
   double seconds_per_time;      ///< wall time of one trajectory per unit time, minimum over rounds
   estimate value;         ///< the error (of acceptance the probability) with its standard error; NaN: none
-  std::int64_t diverged;  ///< trajectories that did
+  std::int64_t diverged;  ///< number of diverged trajectories
   std::string reason;     ///< why there is no value; else empty
 };
 

@@ -15,7 +15,7 @@ namespace nysalt {
 struct execution_options {
   std::uint64_t seed = 1;  ///< below 2^51: learning, judging and testing draw apart from each other by it
   int threads = 1;         ///< results are the same bits for any number
-  bool force = false;      ///< a scheme is taken at another step or system than it was learned for
+  bool force = false;      ///< whether a scheme may be used at another step or system than that of learning
 };
 
 /// Options of learning at a step that is given elsewhere.
@@ -46,7 +46,8 @@ using held_methods = std::map<std::string, std::string>;
 struct comparison_options {
   std::vector<std::string> methods{};  ///< names, "learned:FAMILY", paths of files, or names of `held`
   std::vector<double> steps{};         ///< sizes: of a whole step, or (equal_cost) of a force evaluation
-  bool equal_cost = false;          ///< steps are per force evaluation, so that rows of a step cost the same
+  bool equal_cost =
+      false;  ///< whether steps are per force evaluation, so that rows of one step have equal cost
   std::optional<double> horizon{};  ///< horizon of each trajectory. None: 0.5, or ten of the largest steps
   std::int64_t trajectories = 400;  ///< trajectories to compare on; none of them is learned from
   std::vector<std::string> metrics{"path"};  ///< path, relative, state, exchange, energy, acceptance,

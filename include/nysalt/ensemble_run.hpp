@@ -25,7 +25,7 @@ namespace nysalt {
 struct saved_runs {
   std::int64_t step = 0;        ///< steps that every trajectory has done
   std::vector<double> numbers;  ///< q, p and f of one trajectory after the other; 0 of those that diverged
-  std::vector<std::optional<std::int64_t>> diverged_at;  ///< the step of each that did
+  std::vector<std::optional<std::int64_t>> diverged_at;  ///< step of divergence of each trajectory, if any
 };
 
 /// Trajectories m = first .. first + count - 1 from ensemble(seed, m), with the noise of their numbers. As
@@ -112,7 +112,7 @@ class ensemble_run {
   }
 
   std::int64_t step() const { return step_; }  ///< steps that every trajectory has done
-  /// The step at which trajectory m, by its number, diverged, if it did.
+  /// Step of divergence of trajectory m, if any.
   std::optional<std::int64_t> diverged_at(std::int64_t m) const {
     const std::int64_t at = m - first_;
     return blocks_[static_cast<std::size_t>(at / width)]->diverged_at(static_cast<int>(at % width));

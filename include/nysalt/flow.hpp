@@ -13,7 +13,7 @@ namespace nysalt {
 /// known.
 template <Scalar T, int N>
 struct flow_state : phase_point<T, N> {
-  vector<T, N> f;  ///< the force, as its word needs it
+  vector<T, N> f;  ///< force at q, where the word needs the force
 };
 
 /// Empty work space, of letters that need none.
@@ -44,9 +44,9 @@ enum class splitting {
   quadratic_part_and_rest  ///< K with the quadratic part of V, and the rest of V: R, S, H
 };
 
-/// The oscillator q'' = -(theta^2 + k) q of which theta^2 is the quadratic part, as letters act on it over a
-/// step of 1. times_k(x) is k x, so that k may be a number, the variable of a polynomial, or, for two modes,
-/// a matrix; theta is a number, or an array of two.
+/// The oscillator q'' = -(theta^2 + k) q of which theta^2 is the quadratic part, for letters over a step
+/// of 1. times_k(x) is k x, so that k may be a number, the variable of a polynomial, or, for two modes, a
+/// matrix; theta is a number, or an array of two.
 template <class Theta, class TimesK>
 struct split_stiffness {
   const Theta& theta;     ///< frequency of the quadratic part

@@ -57,7 +57,7 @@ struct flow_map_data {
   std::string ensemble;                  ///< description of the ensemble
   std::string reference;                 ///< description of the reference
   std::uint64_t seed = 0;                ///< seed of starts and noise
-  std::int64_t evaluations = 0;          ///< force evaluations of all ranks that it took, checks included
+  std::int64_t evaluations = 0;          ///< force evaluations of the data on all ranks, checks included
   double seconds = 0.0;                  ///< wall time at this rank
   std::optional<energy_range> energies;  ///< energies of all starts and finishes; none where H is not known
 

@@ -22,7 +22,8 @@ namespace nysalt {
 /// ranks, threads and lanes.
 struct hmc_state {
   std::int64_t trajectories = 0;  ///< trajectories of each chain so far, burn-in included
-  std::vector<double> numbers{};  ///< positions, sums, the step and what tunes it; for `hmc` only to read
+  std::vector<double>
+      numbers{};  ///< positions, sums, the step and the state of the tuning; for `hmc` only to read
 };
 
 /// Options of chains.

@@ -75,7 +75,7 @@ template <int W>
 void set_lane(pack<double, W>& x, int k, double value) {
   x.set(k, value);
 }
-/// Sets lane k, or clears it.
+/// Sets or clears lane k.
 template <int W>
 void set_lane(lane_mask<W>& x, int k, bool value) {
   x.set(k, value);

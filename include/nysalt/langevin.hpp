@@ -28,7 +28,7 @@ enum class placement { end, symmetric, middle };
 /// All placements, in that order.
 inline constexpr std::array placements{placement::end, placement::symmetric, placement::middle};
 
-/// end, symmetric or middle, as programs and files write it.
+/// Name of a placement in programs and files: end, symmetric or middle.
 constexpr std::string_view to_string(placement p) {
   constexpr std::array<std::string_view, 3> names{"end", "symmetric", "middle"};
   return names[static_cast<std::size_t>(p)];
@@ -136,7 +136,7 @@ noise_intervals intervals_of_noise(const W& word, const auto& coefficients) {
 inline run_time_word thermostatted(const run_time_word& w, placement where) {
   const std::string& letters = w.letters();
   if (w.stochastic_letters > 0) {
-    throw std::invalid_argument(sentence("the word {} has its letters O already", letters));
+    throw std::invalid_argument(sentence("thermostat: the word must have no letters O, got {}", letters));
   }
   if (w.is_processed()) {
     throw std::invalid_argument(sentence(
@@ -149,7 +149,9 @@ inline run_time_word thermostatted(const run_time_word& w, placement where) {
   if (where == placement::symmetric) return w.with_letters(o + letters + o);
   if (letters.size() % 2 == 0) {
     throw std::invalid_argument(
-        sentence("the word {} has no central letter to split: place O at the end, or symmetric", letters));
+        sentence("thermostat: the word must have a central letter to split, got {}; place O at the "
+                 "end, or symmetric",
+                 letters));
   }
   const std::size_t central = letters.size() / 2;
   return w.with_letters(letters.substr(0, central + 1) + o + letters.substr(central));

@@ -36,7 +36,7 @@ struct learn_options {
   std::uint64_t seed = 1;               ///< seed of the random starts
 };
 
-/// A learned method and what there is to know of it.
+/// A learned method with the summary of the fit.
 template <Family F>
 struct learned {
   tuned_method<F> method;  ///< carries its step and system, and refuses others

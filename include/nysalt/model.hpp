@@ -21,9 +21,9 @@ template <int Lanes>
 void library_is_compiled_for();
 }  // namespace detail
 
-/// Any system, in its bath if it is in one, behind one type: what the library's compiled half takes. A system
-/// converts to it. Copies share the system. Its dimension is known while running; it is a System itself, and
-/// steps by words as data with the bits of the system.
+/// A type-erased system, with its bath if any: the argument of the compiled library. Any system converts to a
+/// model. Copies share the system. Its dimension is known while running; it is a System itself, and steps by
+/// words as data with the bits of the system.
 ///
 /// The system's functions are compiled where a model is made of it, for one trajectory and for as many as
 /// suit the processor, each with and without derivatives by two parameters. A system with `lanes = 1` is

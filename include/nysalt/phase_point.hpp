@@ -23,7 +23,7 @@ struct phase_point {
 
   Eigen::Index size() const { return q.size(); }  ///< degrees of freedom
 
-  /// The state in another scalar type (constants of it).
+  /// The state in another scalar type, as constants.
   template <Scalar U>
   phase_point<U, N> cast() const {
     phase_point<U, N> result{vector<U, N>(size()), vector<U, N>(size())};

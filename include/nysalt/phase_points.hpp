@@ -111,7 +111,7 @@ struct listed_point {
   operator phase_point<double, N>() const {  // NOLINT(google-explicit-constructor)
     return {q, p};
   }
-  /// The state in another scalar type (constants of it).
+  /// The state in another scalar type, as constants.
   template <Scalar T>
   phase_point<T, Eigen::Dynamic> cast() const {
     return phase_point<double, Eigen::Dynamic>{q, p}.template cast<T>();

@@ -182,7 +182,7 @@ detail::starts_of_system<F> starts(F law) {
   return {std::move(law)};
 }
 
-/// A function value(system, x) of a state x, for any scalar in it.
+/// A function value(system, x) of a state x over any scalar.
 template <class F>
 detail::observable_of_system<F> observable(std::string name, F value) {
   return {std::move(name), std::move(value)};
@@ -195,7 +195,7 @@ detail::frequency_of_system<F> frequency(F highest) {
   return {std::move(highest)};
 }
 
-/// Letters of one's own, as exact_flow describes them, by whose names words are then written: word:tct. The
+/// Letters of the user's own, of the form of exact_flow, whose names spell words: word:tct. The
 /// program tries what they state by check_letter() where a word with them is first taken.
 template <Flow... L>
 detail::letters_of_system<L...> letters() {

@@ -45,7 +45,7 @@ class run_time_word {
   template <TypeLevelWord W, System S>
   run_time_word(W, const S& system) : run_time_word(W::letters(), detail::bound_letters<W>(system)) {}
 
-  /// Other letters, of which those of one's own are what they are here.
+  /// A word with other letters; the user's own letters are those of this word.
   run_time_word with_letters(std::string letters) const { return {std::move(letters), own_letters_}; }
 
  private:
@@ -58,7 +58,7 @@ class run_time_word {
       : length(std::min(letters.find(processor_mark), letters.size())),
         letters_(std::move(letters)),
         own_letters_(std::move(own)) {
-    if (length == 0) throw std::invalid_argument("a word needs at least one letter");
+    if (length == 0) throw std::invalid_argument("run_time_word: letters must be one or more, got none");
     std::erase_if(own_letters_,
                   [&](const auto& own) { return letters_.find(own->facts.letter) == std::string::npos; });
     bool additive = false;
@@ -96,7 +96,8 @@ class run_time_word {
     merges_half_steps = length > 1 && is_of_bath.front() && is_of_bath.back();
     stochastic_letters = static_cast<int>(std::count(is_of_bath.begin(), is_of_bath.end(), true));
     if (stochastic_letters == static_cast<int>(length)) {
-      throw std::invalid_argument(sentence("the word {} needs a letter beside those of the bath", letters_));
+      throw std::invalid_argument(
+          sentence("run_time_word: a word must have a letter other than O, got {}", letters_));
     }
     plan_ = {reads, moves, first_in_loop(), std::vector<evaluation>(length)};
     if (merges)
@@ -117,8 +118,10 @@ class run_time_word {
   void require_one_for_each_slot(const auto& coefficients) const {
     if (coefficients.size() == slots) return;
     const std::string two = slots > length ? sentence(" and {} coefficients", slots) : "";
-    throw std::invalid_argument(sentence("the word {} has {} letters{}, but {} coefficients are given",
-                                         letters_, length, two, coefficients.size()));
+    throw std::invalid_argument(
+        sentence("run_time_word: coefficients must fit the word {} with {} letters{}, got {} "
+                 "coefficients",
+                 letters_, length, two, coefficients.size()));
   }
 
   /// Index of the first coefficient of letter i.
@@ -130,7 +133,7 @@ class run_time_word {
 
   const std::string& letters() const { return letters_; }         ///< letters as given
   bool has_own_letters() const { return !own_letters_.empty(); }  ///< whether the word was made with a system
-  /// A letter of one's own; null where the letter is another one.
+  /// A letter of the user's own; null where the letter is another one.
   const detail::own_letter* own_letter(char letter) const {
     for (const auto& own : own_letters_) {
       if (own->facts.letter == letter) return own.get();
@@ -210,8 +213,10 @@ class run_time_word {
     const bool is_known = detail::with_letter(
         letters_[i], known_letters{}, [&](auto flow) { result = detail::facts_of_letter<decltype(flow)>(); });
     if (is_known) return result;
-    throw std::invalid_argument(sentence("the word {} holds the letter {}; known letters are {}", letters_,
-                                         letters_[i], listed([](auto) { return true; })));
+    throw std::invalid_argument(
+        sentence("run_time_word: letters must be known, got {} with the letter {}; known letters are "
+                 "{}",
+                 letters_, letters_[i], listed([](auto) { return true; })));
   }
 
   std::string letters_;

@@ -31,7 +31,7 @@ struct open_run {
   std::uint64_t trajectory = 0;  ///< trajectory number of the noise, of lane 0
 };
 
-/// A word with coefficients, a step, a system, and the noise of its bath if it has one. The system is
+/// A word with coefficients, a step, a system, and the noise of the system's bath, if any. The system is
 /// referred to, not copied. C is double, or the scalar of the states that are stepped (learning).
 ///
 /// The letters O act if the system is in a bath; in none, or in one that does not act, they are deleted from
@@ -104,7 +104,7 @@ class stepper {
   /// throws, the run is lost: go on from a copy.
   template <Scalar T>
   void advance(open_run<T, dimension>& run, std::int64_t steps) const {
-    if (steps < 0) throw std::invalid_argument(sentence("a run cannot advance by {} steps", steps));
+    if (steps < 0) throw std::invalid_argument(sentence("stepper: steps must be >= 0, got {}", steps));
     flow_state<T, dimension> x = std::move(run.state);  // local: it cannot alias the system
     auto cursor = cursor_at<T>(run.trajectory, run.step);
     with_letters([&](const auto& all) __attribute__((always_inline)) {
@@ -123,7 +123,7 @@ class stepper {
   void advance(open_run<T, dimension>& run, std::int64_t steps, std::int64_t every, Observe&& observe) const {
     if (steps < 0 || every < 1) {
       throw std::invalid_argument(
-          sentence("a run cannot advance by {} steps, watched every {}", steps, every));
+          sentence("stepper: steps must be >= 0 and every >= 1, got {} and {}", steps, every));
     }
     flow_state<T, dimension> x = std::move(run.state);
     flow_state<T, dimension> y = x;
@@ -196,7 +196,7 @@ class stepper {
     x = {std::move(state.q), std::move(state.p)};
   }
 
-  /// A stepper of another copy of the system, which outlives them.
+  /// A stepper of another copy of the system, which must outlive the stepper.
   stepper with_system(const S& copy) const {
     stepper result = *this;
     result.system_ = &copy;
@@ -331,8 +331,10 @@ class stepper {
   template <Scalar T>
   void require_size(const phase_point<T, dimension>& x) const {
     if (x.q.size() == size(*system_) && x.p.size() == x.q.size()) return;
-    throw std::invalid_argument(sentence("the state has {} positions and {} momenta, the system {} of each",
-                                         x.q.size(), x.p.size(), size(*system_)));
+    throw std::invalid_argument(
+        sentence("stepper: the state must fit the system, got {} positions and {} momenta for {} "
+                 "degrees of freedom",
+                 x.q.size(), x.p.size(), size(*system_)));
   }
 
   const S* system_;

@@ -47,7 +47,7 @@ struct mode_entry {
 /// with angular frequency `frequencies[k]` (0: the quadratic part does not act on it).
 struct normal_modes {
   Eigen::MatrixXd basis;        ///< N x N, orthogonal; 0 x 0 where `entries` hold the basis
-  Eigen::VectorXd frequencies;  ///< N of them, none negative
+  Eigen::VectorXd frequencies;  ///< N frequencies, none negative
   /// Non-zero entries of the basis, row by row, where modes are sums of a few of many coordinates.
   std::vector<mode_entry> entries{};
 };

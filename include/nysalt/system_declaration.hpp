@@ -53,7 +53,7 @@ class parameter_values {
  public:
   /// Appends one value.
   void add(std::string name, parameter_value value) { all_.emplace_back(std::move(name), value); }
-  /// Names and values.
+  /// All parameters: names and values.
   const std::vector<std::pair<std::string, parameter_value>>& all() const { return all_; }
   /// Throws std::invalid_argument if none has the name.
   const parameter_value& operator[](std::string_view name) const;
@@ -69,14 +69,14 @@ class parameter_values {
 
 /// A function of a state, by name.
 struct named_observable {
-  std::string name;                              ///< name by which --observables knows it
+  std::string name;                              ///< name in --observables
   detail::over_scalars<detail::of_state> value;  ///< function of one state, or of those in the lanes of packs
 };
 
-/// A letter of one's own by name, as it acts on a system.
+/// A letter of the user's own by name, bound to a system.
 struct declared_letter {
   detail::named_letter named;  ///< bound to the system
-  /// check_letter() of it at some states, over the step h.
+  /// check_letter() of the letter at some states, over the step h.
   std::function<letter_check(const std::vector<phase_point<double, Eigen::Dynamic>>&, double h)> check;
 };
 
@@ -138,7 +138,7 @@ struct initial_value_problem {
   double fine_angle = 5e-3;  ///< step of a reference times the frequency: there srkn11b errs by rounding
   detail::stiff_springs springs{};  ///< number of springs of a system with stiff_energy(x, j)
   bool has_exact_flow = false;      ///< small steps then have a fixed angle
-  std::shared_ptr<const detail::any_reference> exact{};  ///< the exact flow of the system, if it is known
+  std::shared_ptr<const detail::any_reference> exact{};  ///< exact flow of the system, if known
 };
 
 namespace detail {
@@ -154,7 +154,7 @@ initial_value_problem made_of(const S& system, const bath& in, initial_states st
 
 /// All that there is to say of a system before its parameters are known.
 struct system_declaration {
-  std::string name;   ///< name by which commands and files know it
+  std::string name;   ///< name in commands and files
   std::string title;  ///< title, one line: the Hamiltonian, in words or as a formula
   std::vector<declared_parameter> parameters{};  ///< parameters in the order of help and files
   /// Makes the system with a value for each parameter. The deviations of the starts are multiplied by the

@@ -45,7 +45,7 @@ struct trial_result {
   double kinetic_energy = 0.0;      ///< mean over trajectories and time
   double relative_deviation =
       0.0;                      ///< largest over trajectories of |H - H_0|/(the largest K of the trajectory)
-  std::int64_t unconfined = 0;  ///< trajectories left out, as an accurate method loses them as well
+  std::int64_t unconfined = 0;  ///< number of trajectories left out, which diverge by an accurate method, too
   diverged_trajectory farthest{};  ///< trajectory with the largest deviation
   std::string not_run{};           ///< why no trial was run; else empty
 

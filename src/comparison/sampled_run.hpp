@@ -56,7 +56,7 @@ inline std::int64_t longest_segment(std::int64_t steps, std::optional<std::int64
 }
 
 /// Hands records over at rank 0, batch by batch of as many trajectories as fit into memory; in a batch
-/// interval by interval, and in an interval in the order of the trajectories. An interval ends at the first
+/// segment by segment, and in a segment in the order of the trajectories. A segment ends at the first
 /// multiple of 64 at or beyond each multiple of `segment`: divergence is checked there anyway, so that
 /// cutting changes nothing in the run. Rank 0's plan says where to begin. Progress is reported in
 /// thousandths. Collective.

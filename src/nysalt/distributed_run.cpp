@@ -112,7 +112,7 @@ struct distributed_run::parts {
     });
   }
 
-  /// Halos for `kicks` kicks from the ranks on both sides, or of a rank alone from itself.
+  /// Halos for `kicks` kicks from the ranks on both sides, or of a single rank from itself.
   void exchange(int kicks, const double* q, const double* p) {
     const std::size_t size = window->halo_size(kicks);
     edge.resize(size);

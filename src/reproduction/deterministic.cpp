@@ -8,7 +8,7 @@ namespace nysalt::program::paper {
 
 namespace {
 
-constexpr const char* choice_of_law = "the law of the starts";
+constexpr const char* choice_of_law = "the initial distribution";
 
 /// "(1/omega) N(0, 1)" as a standard deviation 1/omega, and as a variance.
 struct both_laws {

@@ -159,8 +159,9 @@ exhibit law_of_energy(const setting& setup) {
     distances.push_back(panel_of_laws(one.methods, one.name, "total variation", one.floor));
     densities.push_back({one.name + ", gap 330", "I", "density", false, one.densities});
   }
-  result.pictures.push_back({{"law_distance", distances, 1200, 520},
-                             "Total variation of the law of I over [0, 40] from that of fine steps."});
+  result.pictures.push_back(
+      {{"law_distance", distances, 1200, 520},
+       "Total variation of the distribution of I over [0, 40] from that of fine steps."});
   result.pictures.push_back({{"law_density", densities, 1200, 480}, "Density of I at gap 330."});
   for (auto& one : result.claims) {
     one.command = fmt::format(

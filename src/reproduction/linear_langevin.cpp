@@ -106,7 +106,7 @@ exhibit linear_langevin_order(const setting&) {
           "Remark on the order, section 4.2",
           {{"the local strong order is 1.5",
             "exponent of the root mean square error of one step, Omega = 1, gamma = 0.5",
-            fmt::format("{:.3f} (noise of q alone {:.3f}, of p alone {:.3f})", order.mean,
+            fmt::format("{:.3f} (noise of q only {:.3f}, of p only {:.3f})", order.mean,
                         exponent(steps, of_q).mean, exponent(steps, of_p).mean),
             verdict_of(agrees(order, 1.5, 0.1)),
             "to the printed digits; the covariance of the noise is integrated, no sampling", ""}},

@@ -489,7 +489,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   BOOST_TEST(refused({.step = .01, .steps = 1, .threads = 0}, "thread"));
   BOOST_TEST(refused({.step = .01, .steps = 1, .threads = 1'000'000}, "fit into memory", "threads"));
   BOOST_TEST(refused({.step = .01, .steps = 1, .trajectories = 2'000'000'000}, "fit into memory"));
-  BOOST_TEST(refused({.step = .0103, .steps = 1}, "not a multiple"));  // of the fine step
+  BOOST_TEST(refused({.step = .0103, .steps = 1}, "a multiple"));  // of the fine step
   const auto nothing = path_measure(chain, [](const state&) { return 0.0; });
   BOOST_TEST(refuses<std::invalid_argument>([&] { judge({.step = .01, .steps = 1}, nothing); },
                                             {"path error", "which is 0"}));

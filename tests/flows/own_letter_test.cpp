@@ -161,8 +161,7 @@ BOOST_AUTO_TEST_CASE(letters_are_taken_from_a_list_by_their_names) {
   BOOST_TEST(seen(system, method, start) != seen(system, own_kicks_first(), start));
   BOOST_TEST(!run_time_word("BAB", known).has_own_letters());  // what a word does not hold it does not carry
   BOOST_TEST(run_time_word("BaB", known).own_letter('b') == nullptr);
-  BOOST_TEST(refuses<std::invalid_argument>([&] { run_time_word("aca", known); },
-                                            {"the word aca holds the letter c"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { run_time_word("aca", known); }, {"aca with the letter c"}));
 }
 
 BOOST_AUTO_TEST_CASE(what_a_file_states_of_a_letter_is_read_and_not_stepped) {

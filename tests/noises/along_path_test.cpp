@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(steps_are_whole_intervals_in_the_parts_that_are_needed) {
     return refuses<wrong>([&] { noise_of(path, method, h); }, words);
   };
   BOOST_TEST(!refused(baoab(), 0.06, {}));
-  BOOST_TEST(refused(symmetric, 0.06, {"the step 0.06 in 2 parts", "whole intervals 0.02"}));
+  BOOST_TEST(refused(symmetric, 0.06, {"the step 0.06 in the 2 parts", "whole intervals 0.02"}));
   BOOST_TEST(refused(baoab(), 0.05, {"the step 0.05 in 1 parts"}));
   BOOST_TEST(refused(baoab(), 0.01, {"the step 0.01"}));
   BOOST_TEST(refused(baoab(), -0.02, {"the step -0.02"}));

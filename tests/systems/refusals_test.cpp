@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(the_masses_of_a_chain_fit_and_are_positive) {
        {Eigen::VectorXd(Eigen::Vector3d::Ones()), Eigen::VectorXd(Eigen::Vector2d(1.0, 0.0)),
         Eigen::VectorXd(Eigen::Vector2d(1.0, -1.0)), Eigen::VectorXd(Eigen::Vector2d(1.0, not_a_number)),
         Eigen::VectorXd(Eigen::Vector2d(1.0, infinite))}) {
-    BOOST_TEST(refuses<wrong>([&] { linear_chain(k, masses); }, {"2 positive, finite masses"}));
+    BOOST_TEST(refuses<wrong>([&] { linear_chain(k, masses); }, {"positive and finite, 2 of them"}));
   }
 }
 

@@ -16,10 +16,9 @@ namespace nysalt {
 
 /// Options of the acceptance of proposals.
 struct proposal_options {
-  double length;             ///< mean duration: durations are uniform between 0 and twice that
-  double temperature = 1.0;  ///< kT, an energy
-  double times_larger =
-      1.0;  ///< size of the system that will run, as a multiple of this system is the one that will run
+  double length;                          ///< mean duration: durations are uniform between 0 and twice that
+  double temperature = 1.0;               ///< kT, an energy
+  double times_larger = 1.0;              ///< size of the system that will run, as a multiple of this system
   std::int64_t states = 100;              ///< states at which proposals begin
   std::uint64_t seed = 1;                 ///< seed of the states
   int threads = 1;                        ///< changes no bit
@@ -46,7 +45,7 @@ struct proposal_acceptance {
 proposal_acceptance acceptance_of_proposals(const model& system, const tabulated& method, double step,
                                             const initial_states& states, const proposal_options& options);
 
-/// A step, and how well it is known.
+/// A step with a standard error.
 struct acceptance_step {
   double step;                      ///< step with the requested acceptance
   estimate log_step;                ///< logarithm of the step, with the standard error over states

@@ -6,7 +6,7 @@
 
 namespace nysalt {
 
-/// A distance of two autocovariances, and how well it is known.
+/// A distance of two autocovariances with a standard error.
 struct acf_distance {
   double rms;             ///< root mean square difference over the lags 1..L
   double standard_error;  ///< standard error of rms

@@ -74,7 +74,9 @@ class autocovariance_along {
   autocovariance_sums in_lane(int k) {
     if (!(samples_ > static_cast<double>(lags_))) {
       throw std::invalid_argument(
-          sentence("autocovariance: {} lags need more than {} samples along a trajectory", lags_, samples_));
+          sentence("autocovariance: the number of samples along a trajectory must exceed the {} lags, "
+                   "got {}",
+                   lags_, samples_));
     }
     add_waiting(waiting_);
     autocovariance_sums result(lags_ + 1);

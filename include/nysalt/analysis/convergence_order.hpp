@@ -15,7 +15,7 @@
 
 namespace nysalt {
 
-/// Global error at the horizon for steps that are halved, and the order that they show.
+/// Global error at the horizon for steps that are halved, and the observed order.
 struct order_measurement {
   std::vector<double> steps;   ///< steps from large to small
   std::vector<double> errors;  ///< largest coordinate; infinite where the run diverged

@@ -17,7 +17,7 @@ namespace nysalt {
 struct run_score {
   /// The contribution of the trajectory, see error_measure::score(); NaN if it diverged.
   double value = std::numeric_limits<double>::quiet_NaN();
-  std::optional<std::int64_t> diverged_at = {};  ///< the step, if it did
+  std::optional<std::int64_t> diverged_at = {};  ///< step of divergence, if any
 };
 
 /// The errors of one trajectory in each lane, added up in the order of time. None is kept.

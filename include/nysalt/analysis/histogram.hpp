@@ -72,7 +72,8 @@ class histogram {
   std::vector<std::int64_t> counts_;
 };
 
-/// Histograms, one for each of the trajectories in the lanes of T, so that one of them can be left out.
+/// Histograms, one for each of the trajectories in the lanes of T, so that single trajectories can be left
+/// out.
 template <class T>
 class histogram_along {
  public:

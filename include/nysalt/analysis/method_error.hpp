@@ -28,7 +28,7 @@ struct distribution_of_errors {
 /// Error and cost of a method.
 struct method_error {
   estimate error;                                ///< mean over the trajectories that did not diverge
-  std::int64_t diverged = 0;                     ///< number of trajectories that did
+  std::int64_t diverged = 0;                     ///< number of trajectories that diverged
   std::vector<diverged_trajectory> diverged_at;  ///< steps of divergence, in the order of the trajectories
   double evaluations_per_time = 0.0;             ///< force evaluations per unit time, start-up included
   std::vector<double> of_each{};    ///< contribution of each trajectory to the error; NaN if it diverged

@@ -26,7 +26,8 @@ struct threshold_crossing {
   double x;            ///< the step or cost of the crossing, see crossing_kind
   double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< standard error of x, if it is found
   double last_below = std::numeric_limits<double>::quiet_NaN();      ///< x of the last row below the level
-  double first_above = std::numeric_limits<double>::quiet_NaN();     ///< x of the first row at or above it
+  double first_above =
+      std::numeric_limits<double>::quiet_NaN();  ///< x of the first row at or above the level
 };
 
 /// The step or cost where errors first reach a level, from the accurate end on: rows are sorted by rising

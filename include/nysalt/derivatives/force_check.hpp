@@ -8,8 +8,9 @@
 
 namespace nysalt {
 
-/// Defects are relative to the largest entry, over all points, of what they are a defect of: of the force, of
-/// its Jacobian, of the velocity, of its Jacobian. They are 0 where there is nothing to compare.
+/// Result of check_force(). Each defect is relative to the largest entry, over all points, of the function
+/// checked: of the force, of its Jacobian, of the velocity, of its Jacobian. They are 0 where there is
+/// nothing to compare.
 struct force_check {
   double gradient_defect = 0.0;  ///< gradient defect of force = -grad V
   Eigen::Index coordinate =

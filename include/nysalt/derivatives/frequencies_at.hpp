@@ -100,7 +100,8 @@ std::vector<double> frequencies_at(const S& system, force_jacobian<field::whole,
   const Eigen::MatrixXd stiffness =
       factor.transpose() * detail::potential_hessian(jacobian, state.q) * factor;
   if (!stiffness.allFinite()) {
-    throw std::invalid_argument("frequencies_at: the force has no finite derivative at the state");
+    throw std::invalid_argument(
+        "frequencies_at: the force must have a finite derivative at the state, got none");
   }
   return detail::frequencies_of(stiffness);
 }
@@ -118,12 +119,12 @@ struct frequencies_along {
   std::vector<std::vector<double>> of_state;  ///< frequencies of each state, from low to high
   bool are_complete = false;                  ///< false: of each state only the highest, or none at all
 
-  /// A frequency and where it is met.
+  /// A frequency and the state where it occurs.
   struct maximum {
     double frequency = 0.0;  ///< frequency of the linearised motion
     std::size_t state = 0;   ///< number of the state
   };
-  /// The highest of all, and where it is met; 0 and 0 if none is known.
+  /// The highest frequency and the state where it occurs; 0 and 0 if none is known.
   maximum highest() const {
     maximum result;
     for (std::size_t k = 0; k < of_state.size(); ++k) {

@@ -64,8 +64,10 @@ stiffness_range hessian_spectrum(const S& system, const std::ranges::range auto&
     };
     const auto ends = ends_of_spectrum(multiply, start);
     if (!std::isfinite(ends.lowest) || !std::isfinite(ends.highest)) {
-      throw std::invalid_argument(sentence(
-          "hessian_spectrum: the force has no finite derivative at state {}; leave it out", found.states));
+      throw std::invalid_argument(
+          sentence("hessian_spectrum: the force must have a finite derivative at each state, got none "
+                   "at state {}; leave that state out",
+                   found.states));
     }
     found.lowest = std::min(found.lowest, ends.lowest);
     found.highest = std::max(found.highest, ends.highest);

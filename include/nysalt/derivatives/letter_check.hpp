@@ -20,11 +20,12 @@ struct letter_check {
   bool keeps_q = true;        ///< false: q changes, though moves_q is false
   double slope_defect = 0.0;  ///< slope defect of the derivative by the coefficients, against differences
   double symplecticity_defect =
-      0.0;                      ///< symplecticity defect of J^T Omega J = Omega, if it claims `symplectic`
-  double inverse_defect = 0.0;  ///< inverse defect of x(-c) after x(c), if it claims `invertible`
+      0.0;  ///< symplecticity defect of J^T Omega J = Omega, if the letter claims `symplectic`
+  double inverse_defect = 0.0;  ///< inverse defect of x(-c) after x(c), if the letter claims `invertible`
   double additivity_defect =
-      0.0;  ///< additivity defect of x(d) after x(c) against x(c + d), if it claims `additive`
-  double reversibility_defect = 0.0;  ///< reversibility defect of R x(c) R x(c), if it claims `reversible`
+      0.0;  ///< additivity defect of x(d) after x(c) against x(c + d), if the letter claims `additive`
+  double reversibility_defect =
+      0.0;  ///< reversibility defect of R x(c) R x(c), if the letter claims `reversible`
 
   /// Tolerance of central differences, which keep two thirds of the digits, with a factor for their third
   /// derivative.

@@ -17,10 +17,10 @@ inline constexpr int highest_taylor_order = 10;
 /// A power series in the step h.
 using taylor = series<highest_taylor_order>;
 
-/// Numbers with nothing special about them, always the same, between 1/4 and 1.
+/// Fixed numbers in general position between 1/4 and 1.
 class generic_numbers {
  public:
-  /// The next of them.
+  /// The next number.
   double next() {  // the standard's distributions differ between libraries, its bits do not
     return 0.25 + 0.75 * (static_cast<double>(bits_() >> 11U) * 0x1p-53);
   }

@@ -56,7 +56,7 @@ void require_served(const W& word, const S& system) {
         }
         if (!own->template serves<T>()) {
           throw std::invalid_argument(
-              sentence("the word {} cannot step {} side by side: the letter {} asks for one lane",
+              sentence("the word {} must step {} one trajectory at a time, as the letter {} has one lane",
                        word.letters(), describe(system), letter));
         }
       }

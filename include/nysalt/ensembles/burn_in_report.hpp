@@ -38,7 +38,7 @@ using of_watched = std::array<T, watched_numbers>;
 struct discrepancy {
   double mean = 0.0;            ///< mean over chains
   double standard_error = 0.0;  ///< standard error of that mean
-  /// Whether it is more than chance, which comes to as much once in 150'000 times.
+  /// Whether the mean is significant: 4.5 standard errors, which chance exceeds once in 150'000 times.
   bool shows() const { return !(std::abs(mean) <= 4.5 * standard_error); }
 };
 

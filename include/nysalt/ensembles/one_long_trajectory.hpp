@@ -12,7 +12,7 @@
 
 namespace nysalt {
 
-/// Length of the trajectory, and what is kept of it.
+/// Length of the trajectory, and the number of states kept.
 struct long_trajectory_options {
   double length = 25'000.0;            ///< a time, burn-in included
   double burn_in = 0.0;                ///< a time at its beginning, of which no state is kept

@@ -65,8 +65,9 @@ class curvature {
   /// flat direction C has no bound, and H nothing to add: it is left out. NaN with a single block.
   double expected_excess(const trajectory_scores& scores) const;
 
-  /// On how many blocks that, and with it the standard errors, rest: (sum_b e_b)^2/sum_b e_b^2, with
-  /// e_b = g_b^T H^+ g_b. Of B blocks with normal gradients it is B P/(P + 2), P the number of parameters.
+  /// Effective number of blocks on which the curvature and the standard errors rest: (sum_b e_b)^2/sum_b
+  /// e_b^2, with e_b = g_b^T H^+ g_b. Of B blocks with normal gradients it is B P/(P + 2), P the number of
+  /// parameters.
   double deciding_blocks(const trajectory_scores& scores) const;
 
   /// Sandwich covariance of the minimum [white_1982, theorem 3.2], clustered by block:

@@ -17,7 +17,7 @@ namespace nysalt {
 /// good.
 enum class verdict { usable, nothing_gained, not_usable };
 
-/// usable, nothing gained or not usable, as programs and files write it.
+/// Name of a verdict in programs and files: usable, nothing gained or not usable.
 constexpr std::string_view to_string(verdict v) {
   constexpr std::array<std::string_view, 3> names{"usable", "nothing gained", "not usable"};
   return names[static_cast<std::size_t>(v)];
@@ -39,7 +39,7 @@ struct fit_summary {
   std::string ensemble;             ///< description of the ensemble that the data start from
   std::string coordinates;          ///< qp, modes or energy: those of the metric
   std::string derivatives;          ///< origin of the derivatives of the force
-  double step = 0.0;                ///< h that it was learned for
+  double step = 0.0;                ///< step h of the data
   std::uint64_t seed = 0;           ///< seed of the data
   std::uint64_t held_out_seed = 0;  ///< seed of the held-out data
   bool held_out_is_new = true;      ///< false: the held-out data are those that were learned from
@@ -101,12 +101,12 @@ struct fit_summary {
   double rival_noise = 0.0;    ///< standard error of the difference to held_out_loss
   bool gains_nothing = false;  ///< the rival's loss is not larger by two of these
 
-  double data_seconds = 0.0;              ///< wall time that the data took
+  double data_seconds = 0.0;              ///< wall time of making the data
   double fit_seconds = 0.0;               ///< wall time that the fit took
   std::int64_t learning_evaluations = 0;  ///< force evaluations of data and fit
 
   bool usable = false;  ///< whether the method may be used: false if not_usable
-  std::string reason;   ///< why it is not usable; else empty
+  std::string reason;   ///< reason why the fit is not usable; else empty
 
   /// The verdict of three.
   nysalt::verdict verdict() const {
@@ -133,7 +133,7 @@ struct fit_summary {
   /// A sentence about expected_excess.
   std::string uncertainty() const;
 
-  /// Whether the method follows the data to the end, as far as the loss measures it.
+  /// Whether the method follows the data to the end, as measured by the loss.
   bool follows_to_the_end() const { return follows && loss_steps >= trajectory_steps; }
 
   /// Number of steps over which the method follows the data, in words; empty where it follows them to the

@@ -27,8 +27,8 @@ struct candidate {
   int iterations = 0;                                       ///< iterations of all descents from this start
   bool converged = false;                                   ///< whether the search converged, see `minimum`
   bool in_valley = false;  ///< whether the search was given up in a valley of almost equal losses
-  bool admitted = true;    ///< whether the guard lets it, and it withstands a trial run
-  bool is_held = false;    ///< whether the guard held it, at the edge of what it admits
+  bool admitted = true;    ///< whether theta passes the guard and the trial run
+  bool is_held = false;    ///< whether theta is at the boundary of the points that the guard admits
 };
 
 /// A loss that a search minimises roughly before the loss proper, to find where minima lie.
@@ -68,7 +68,7 @@ Eigen::VectorXd inside(const run_time_family& family, Eigen::VectorXd theta);
 /// Result of all starts. `unguarded` is the best of all where the guard did not admit it.
 struct search_result {
   candidate best;                      ///< best candidate
-  std::optional<candidate> unguarded;  ///< the best of all, if guard or trial run refused it
+  std::optional<candidate> unguarded;  ///< best candidate of all, if refused by guard or trial run
   int tried = 0;                       ///< number of searches
   int lost_after = 0;                  ///< steps of the stage at which the search was given up; 0: it was not
 };

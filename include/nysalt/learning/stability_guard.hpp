@@ -71,17 +71,17 @@ class stability_guard {
   std::vector<stability_window> gaps(const run_time_word& word, const std::vector<double>& coefficients,
                                      double step) const;
 
-  /// A mode, and how much it grows.
+  /// A mode and the transient growth of this mode.
   struct magnified_mode {
     double frequency;  ///< omega
     double factor;     ///< largest |M^n|, see transient_growth()
   };
-  /// The mode that a word with rotations magnifies most, or the first that it magnifies by more than is
+  /// The mode with the largest transient growth in a word with rotations, or the first with a growth above
   /// `enough`. Factor 1 where no modes are known. Cost: some 20 us a mode.
   magnified_mode most_magnified(const run_time_word& word, const std::vector<double>& coefficients,
                                 double step, double enough = std::numeric_limits<double>::infinity()) const;
 
-  /// Two modes that soft forces couple, and how much they grow.
+  /// Two modes that soft forces couple, and the transient growth of the pair.
   struct resonant_pair {
     double first;   ///< frequency of the one
     double second;  ///< frequency of the other
@@ -114,7 +114,7 @@ class stability_guard {
  private:
   void declare(const std::vector<frequency_band>& bands);
 
-  /// Takes in the frequencies along a number of states, where they are known.
+  /// Adds the frequencies along a number of states, where these are known.
   void scan_along(const frequencies_along& along, std::size_t count, std::size_t typical,
                   bool has_quadratic_kinetic);
 

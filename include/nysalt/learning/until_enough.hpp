@@ -14,7 +14,7 @@ namespace nysalt {
 /// When to stop.
 struct enough_options {
   double share = 0.01;  ///< largest share of the loss that is due to the uncertainty of the parameters
-  std::int64_t most = 100'000;  ///< number of trajectories beyond which it does not go
+  std::int64_t most = 100'000;  ///< largest number of trajectories
 };
 
 /// The steps by which a fit came to its number of trajectories.

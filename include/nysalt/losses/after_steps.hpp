@@ -74,16 +74,16 @@ class after_steps {
         starts_(data, last_of(options), static_cast<std::size_t>(std::max(options.apart, 1)),
                 std::max(options.every, 1)) {
     if (1 < lanes_in<R> && !system.facts().in_lanes_with_slopes) {
-      throw std::invalid_argument(sentence(
-          "a loss over packs cannot step {} side by side: take after_steps<double>, and an error over "
-          "double",
-          describe(system)));
+      throw std::invalid_argument(
+          sentence("after_steps: a system must allow several lanes for a loss over packs, got {}; take "
+                   "after_steps<double>, and an error over double",
+                   describe(system)));
     }
     const std::int64_t windows = data.share().ranks().total(std::ssize(starts_.pairs));
     if (windows == 0) {
       throw std::invalid_argument(
-          sentence("a loss over {} steps needs trajectories of at least as many: take a longer horizon, "
-                   "or fewer steps",
+          sentence("after_steps: trajectories must have at least the {} steps of the loss; take a "
+                   "longer horizon, or fewer steps",
                    options.steps.back()));
     }
     weight_ = 1.0 / static_cast<double>(windows * std::ssize(options.steps));
@@ -193,7 +193,7 @@ class after_steps {
       std::string given;
       for (const int k : steps) given += (given.empty() ? "" : ", ") + std::to_string(k);
       throw std::invalid_argument(
-          sentence("a loss counts errors after rising numbers of steps from 1 on, got {}", given));
+          sentence("after_steps: steps must be rising numbers from 1 on, got {}", given));
     }
     return static_cast<std::size_t>(steps.back());
   }

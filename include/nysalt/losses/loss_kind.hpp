@@ -37,7 +37,7 @@ struct loss_kind {
   bool is_of_energy_norm = false;  ///< errors count in the energy coordinates where these exist, else in qp
   bool is_of_proposals =
       false;  ///< trajectories are proposals: no run takes more steps than those of the data
-  bool is_for_sampling = false;  ///< words that only keep volume may be learned by it
+  bool is_for_sampling = false;  ///< whether words that are only volume-preserving may be learned by the loss
   bool is_shortened = false;     ///< over a quarter of the steps, and again, where no method follows the data
   /// Numbers of steps after which errors count, in trajectories of `shortest` steps or more: what a search
   /// minimises first, ..., and last the loss itself. K follows the name.

@@ -98,7 +98,7 @@ auto own_error(const S& system, const Error& error) {
       zero.q.fill(C(0.0));
       zero.p.fill(C(0.0));
       count = static_cast<std::size_t>(error(zero, zero, zero).size());
-      if (count == 0) throw std::invalid_argument("an own loss returns no residuals: return at least one");
+      if (count == 0) throw std::invalid_argument("own_loss: residuals must be one or more, got none");
     }
     const auto own = [](const auto& x) { return point{x.q, x.p}; };
     return window_error<scalar>{

@@ -26,14 +26,14 @@ struct squares {
   bool is_finite() const;
 };
 
-/// theta as families hold it.
+/// theta as an array, the form of families.
 template <std::size_t N>
 std::array<double, N> array_of(const Eigen::VectorXd& theta) {
   std::array<double, N> result;
   for (std::size_t k = 0; k < N; ++k) result[k] = theta[static_cast<Eigen::Index>(k)];
   return result;
 }
-/// theta as linear algebra holds it.
+/// theta as a column vector.
 template <std::size_t N>
 Eigen::VectorXd column_of(const std::array<double, N>& theta) {
   return Eigen::Map<const Eigen::VectorXd>(theta.data(), static_cast<Eigen::Index>(N));

@@ -103,7 +103,7 @@ class stationary_covariance {
   squares at(const std::vector<double>& coefficients, const Eigen::MatrixXd& jacobian) const;
 
  private:
-  /// A letter O, or all letters between two of them.
+  /// A letter O, or all letters between two letters O.
   struct piece {
     std::size_t first;  // of its slots
     std::optional<run_time_word> turn;
@@ -112,7 +112,7 @@ class stationary_covariance {
   void require_law() const;
   void split_at_bath();
 
-  /// The map M of the word and the excess R that it makes of none: then D = M D M^T + R.
+  /// The map M of the word and the excess R of the covariance 1: then D = M D M^T + R.
   template <Scalar T>
   plane_covariance<T> excess(double omega, const std::vector<T>& c) const {
     plane_map<T> M;
@@ -133,7 +133,7 @@ class stationary_covariance {
     return discrete_lyapunov(M, R);
   }
 
-  /// The map of (x, y) by letters without O, as the stepper does it.
+  /// The map of (x, y) by letters without O, as the stepper computes the map.
   template <Scalar T>
   plane_map<T> map_of(const run_time_word& turn, const T* c, double omega) const {
     const detail::single_mode mode{omega};

@@ -76,8 +76,8 @@ using verlet_2x = classical<"verlet_2x">;
 
 /// A(a) B(1/2) A(1 - 2a) B(1/2) A(a) with the least error constant of its kind: order 2, two evaluations.
 using mclachlan2 = classical<"mclachlan2">;
-/// B(b) A(1/2) B(1 - 2b) A(1/2) B(b) with the coefficient of mclachlan2, as samplers and lattice field theory
-/// step it: the velocity form of the same minimum.
+/// B(b) A(1/2) B(1 - 2b) A(1/2) B(b) with the coefficient of mclachlan2, the velocity form of the same
+/// minimum.
 using mclachlan2v = classical<"mclachlan2v">;
 /// B A B A B with the least energy error on oscillators up to z = 2: order 2, two evaluations.
 using bcss2 = classical<"bcss2">;

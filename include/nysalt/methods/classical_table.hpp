@@ -31,7 +31,7 @@ class coefficient_list {
 
 /// A classical method: its letters, coefficients and source, and what it promises.
 struct classical_row {
-  std::string_view name;                    ///< name by which the program and classical<"name"> know it
+  std::string_view name;                    ///< name in the program and in classical<"name">
   std::string_view letters;                 ///< letters of docs/notation.md, from left to right
   coefficient_list coefficients;            ///< coefficients, one for each slot of the letters
   int order;                                ///< order as declared; measured in the tests

@@ -36,9 +36,10 @@ class tabulated : public method_properties {
         letters_(std::move(letters)),
         coefficients_(std::move(coefficients)) {
     if (coefficients_.size() != letters_.slots) {
-      throw std::invalid_argument(sentence("{}: {} coefficients for the {} letters {}{}", name_,
-                                           coefficients_.size(), letters_.length, letters_.letters(),
-                                           letters_.slots > letters_.length ? " (G and H take two)" : ""));
+      throw std::invalid_argument(
+          sentence("{}: coefficients must fit the letters, got {} coefficients for the {} letters {}{}",
+                   name_, coefficients_.size(), letters_.length, letters_.letters(),
+                   letters_.slots > letters_.length ? " (G and H take two)" : ""));
     }
     for (std::size_t i = 0; i < coefficients_.size(); ++i) {
       if (std::isfinite(coefficients_[i])) continue;

@@ -52,18 +52,18 @@ inline void check_counter(const noise_counter& first, std::uint64_t trajectories
   constexpr std::uint64_t two_to_48 = std::uint64_t{1} << 48U;
   constexpr std::uint64_t two_to_24 = std::uint64_t{1} << 24U;
   if (first.trajectory > two_to_48 - trajectories) {
-    throw std::invalid_argument(sentence(
-        "standard_normals: trajectory {} is too large, trajectories are below 2^48", first.trajectory));
+    throw std::invalid_argument(
+        sentence("standard_normals: trajectory must be < 2^48, got {}", first.trajectory));
   }
   if (first.step < 0 || first.step >= static_cast<std::int64_t>(two_to_48)) {
     throw std::invalid_argument(
-        sentence("standard_normals: step {} has no noise, steps go from 0 to below 2^48", first.step));
+        sentence("standard_normals: step must be >= 0 and < 2^48, got {}", first.step));
   }
   if (slots > two_to_24 || first.slot > two_to_24 - slots) {
-    throw std::invalid_argument(sentence(
-        "standard_normals: {} slots from slot {} are too many, slots of a step are below 2^24: use fewer "
-        "numbers a step",
-        slots, first.slot));
+    throw std::invalid_argument(
+        sentence("standard_normals: slots of a step must be < 2^24, got {} slots from slot {}; use "
+                 "fewer numbers a step",
+                 slots, first.slot));
   }
 }
 

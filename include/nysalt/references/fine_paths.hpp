@@ -26,7 +26,7 @@ class fine_paths {
   /// Throws std::invalid_argument unless the step is positive and finite.
   explicit fine_paths(double step, const M& method = M{}) : fine_paths(step, method, 0) {}
 
-  /// x becomes the state a time t later on its path, the `at.step`-th such time of it; xi[k] become the
+  /// x becomes the state a time t later on its path, interval `at.step` of the path; xi[k] become the
   /// standard normal numbers of the noise over the k-th of as many equal parts of that time. Throws
   /// std::invalid_argument unless each part is a positive multiple of the step, to 1e-9 relative.
   template <HasBath S, Scalar T>

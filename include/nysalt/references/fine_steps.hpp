@@ -33,7 +33,7 @@ class fine_steps {
     const auto steps = detail::whole_steps(t, step_);
     if (!steps) {
       throw std::invalid_argument(
-          sentence("fine_steps: the time {} is not a multiple of the fine step {}", t, step_));
+          sentence("fine_steps: the time must be a multiple of the fine step, got {} and {}", t, step_));
     }
     const auto fine = make_stepper(system, method_, t / static_cast<double>(*steps));
     auto run = fine.open(x);

@@ -75,7 +75,7 @@ class odeint_reference {
       const bath& heat_bath = system.bath();
       if (heat_bath.sigma() == 0.0) return heat_bath.friction();
       throw std::invalid_argument(
-          sentence("odeint_reference: the {} is noisy, and this is for smooth motion: take fine_paths",
+          sentence("odeint_reference: the motion must be without noise, got a {}; take fine_paths",
                    heat_bath.description()));
     }
     return 0.0;

@@ -23,7 +23,7 @@ class odeint_stepper {
   using order_type = unsigned short;                             ///< order type, as Odeint requires
   using stepper_category = boost::numeric::odeint::stepper_tag;  ///< stepper category, as Odeint requires
 
-  /// Holds a copy of the method.
+  /// A stepper with a copy of the method.
   explicit odeint_stepper(M method = M{}) : method_(std::move(method)) {}
 
   order_type order() const { return static_cast<order_type>(M::order); }  ///< order of the method

@@ -30,7 +30,7 @@ class fpu_chain {
   /// Pairs), omega positive and finite.
   fpu_chain(Eigen::Index pairs, double omega) : pairs_(pairs), omega_(omega) {
     if (pairs < 1 || (Pairs != Eigen::Dynamic && pairs != Pairs)) {
-      throw std::invalid_argument(sentence("fpu_chain: cannot have {} pairs of masses", pairs));
+      throw std::invalid_argument(sentence("fpu_chain: pairs must be >= 1 and fit the type, got {}", pairs));
     }
     if (!(omega > 0.0) || !std::isfinite(omega)) {
       throw std::invalid_argument(sentence("fpu_chain: omega must be positive and finite, got {}", omega));

@@ -93,7 +93,7 @@ class in_time {
   P driven_;
 };
 
-/// A pendulum under a torque that swings: V = -cos q - amplitude q cos(frequency t).
+/// A pendulum under a periodic torque: V = -cos q - amplitude q cos(frequency t).
 class driven_pendulum {
  public:
   static constexpr int dimension = 1;

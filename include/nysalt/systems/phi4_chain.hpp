@@ -29,7 +29,7 @@ class phi4_chain {
   /// Throws std::invalid_argument unless masses >= 1 (and fits Masses).
   explicit phi4_chain(Eigen::Index masses) : masses_(masses) {
     if (masses >= 1 && (Masses == Eigen::Dynamic || masses == Masses)) return;
-    throw std::invalid_argument(sentence("phi4_chain: cannot have {} masses", masses));
+    throw std::invalid_argument(sentence("phi4_chain: masses must be >= 1 and fit the type, got {}", masses));
   }
 
   Eigen::Index size() const { return Masses == Eigen::Dynamic ? masses_ : Masses; }
