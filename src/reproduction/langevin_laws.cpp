@@ -148,8 +148,8 @@ exhibit law_of_energy(const setting& setup) {
                   smaller_from_200(all)},
                  {"The floor is the mean distance between pairs of four ensembles of the reference: no error "
                   "below it can be seen. "
-                  "T = 40 is 0.4 of a relaxation time: this is how far a method has left the law of its "
-                  "starts, not its invariant law."},
+                  "T = 40 is 0.4 of a relaxation time: this is the departure from the initial distribution, "
+                  "not the error of the stationary distribution."},
                  {},
                  {}};
   std::vector<panel> distances;
