@@ -175,8 +175,8 @@ detail::member_parameter<S> parameter(std::string name, Number S::*member, std::
           }};
 }
 
-/// The initial distribution: an ensemble, such as normal_around, from `law(system)`, or from `law(system,
-/// spread)`, where deviations are to be multiplied by the spread.
+/// The initial distribution: an ensemble, such as normal_around, from `law(system)`, or from
+/// `law(system, spread)`, where deviations are to be multiplied by the spread.
 template <class F>
 detail::starts_of_system<F> starts(F law) {
   return {std::move(law)};
