@@ -92,7 +92,7 @@ constexpr bool is_symplectic() {
   }
 }
 
-/// Requirements of R, S and H on a system, for refusals while running and while compiling.
+/// Requirements of R, S and H on a system, for refusals at run time and at compile time.
 inline constexpr const char* needs_quadratic_part =
     "the letters R, S, H need a system that declares a quadratic part: modes() and soft_force(q, f), see "
     "nysalt/system.hpp, or with_quadratic_part(system, stiffness); as templates over any scalar, where they "

@@ -16,7 +16,7 @@
 namespace nysalt {
 
 /// Any ensemble behind one type; one converts to it. Copies share the ensemble. Its states have a dimension
-/// that is known while running.
+/// that is known at run time.
 class initial_states {
  public:
   using state = phase_point<double, Eigen::Dynamic>;  ///< state of one trajectory

@@ -15,7 +15,7 @@
 
 namespace nysalt {
 
-/// The scalar that holds W trajectories: a pack, or plain double for one.
+/// The scalar of W lanes: a pack, or plain double for W = 1.
 template <int W>
 using scalar_of_lanes = std::conditional_t<W == 1, double, pack<double, std::max(W, 1)>>;
 

@@ -22,15 +22,15 @@ void library_is_compiled_for();
 }  // namespace detail
 
 /// A type-erased system, with its bath if any: the argument of the compiled library. Any system converts to a
-/// model. Copies share the system. Its dimension is known while running; it is a System itself, and steps by
-/// words as data with the bits of the system.
+/// model. Copies share the system. The dimension is known at run time. A model is a System and steps
+/// by words as data, with the bits of the typed system.
 ///
 /// The system's functions are compiled where a model is made of it, for one trajectory and for as many as
 /// suit the processor, each with and without derivatives by two parameters. A system with `lanes = 1` is
 /// stepped one trajectory at a time.
 class model {
  public:
-  static constexpr int dimension = Eigen::Dynamic;  ///< known while running
+  static constexpr int dimension = Eigen::Dynamic;  ///< known at run time
   static constexpr int lanes = default_lanes;       ///< most trajectories side by side
   static constexpr bool is_erased = true;  ///< true: the members that the system offers are known at run time
 

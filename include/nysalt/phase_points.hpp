@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Many vectors, or points of phase space, of one dimension that is known while running.
+// Many vectors, or points of phase space, of one dimension that is known at run time.
 #pragma once
 
 #include <algorithm>
@@ -100,7 +100,7 @@ class vector_list {
 template <class Column>
 struct listed_point {
   using scalar_type = double;                       ///< type of each entry
-  static constexpr int dimension = Eigen::Dynamic;  ///< known while running
+  static constexpr int dimension = Eigen::Dynamic;  ///< known at run time
 
   Column q;  ///< positions
   Column p;  ///< momenta
@@ -143,9 +143,9 @@ class phase_points {
   void resize(std::size_t count, Eigen::Index dimension) { columns_.resize(2 * count, dimension); }
   void resize(std::size_t count) {
     resize(count, dimension());
-  }                                   ///< changes the number of points, not the dimension
+  }                                   ///< resizes to a number of points of the same dimension
   void clear() { columns_.clear(); }  ///< the dimension stays
-  /// Point i, which may be changed.
+  /// Mutable view of point i.
   listed_point<Eigen::Map<Eigen::VectorXd>> operator[](std::size_t i) {
     return {columns_[2 * i], columns_[2 * i + 1]};
   }

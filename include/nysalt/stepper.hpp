@@ -225,7 +225,7 @@ class stepper {
   }
 
  private:
-  static constexpr bool chooses = may_be_noisy && TypeLevelWord<W>;  // while running, not compiling
+  static constexpr bool chooses = may_be_noisy && TypeLevelWord<W>;  // at run time, not at compile time
   using letters_type = prepared_word<std::conditional_t<may_be_noisy, W, conservative_word<W>>, C, dimension>;
   using quiet_type =
       std::conditional_t<chooses, prepared_word<conservative_word<W>, C, dimension>, std::monostate>;

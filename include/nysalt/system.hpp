@@ -213,7 +213,7 @@ template <class S>
 concept NystromSystem = SeparableSystem<S> && !HasKineticEnergy<S, double> && !HasVelocity<S, double>;
 
 /// K = p M^-1 p / 2, also of systems that need not be separable over double: order_probe, whose K is decided
-/// while running, says so itself.
+/// at run time, declares so itself.
 template <class S>
 concept HasQuadraticKinetic = System<S> && ((!HasKineticEnergy<S, double> && !HasVelocity<S, double>) ||
                                             requires { requires S::may_have_quadratic_kinetic; });

@@ -145,7 +145,8 @@ std::string page_of(const std::vector<row>& all, const extent& what) {
       "covers "
       "if it and that of the {} are not farther apart than both together allow. `tail`: few trajectories "
       "decide "
-      "the mean (Cochran's rule), marked for each sample by itself, and of the row if most samples are marked, "
+      "the mean (Cochran's rule), marked for each sample by itself, and of the row if most samples are "
+      "marked, "
       "or "
       "the {}. A sample misleads if it neither covers nor is marked. Errors of other numbers of trajectories "
       "({}) agree if they lie within three standard errors, or are marked.",

@@ -71,7 +71,7 @@ class generic_gradient {
 class order_probe {
  public:
   static constexpr int dimension = 3;  ///< degrees of freedom
-  /// Decided while running, see HasQuadraticKinetic.
+  /// Decided at run time, see HasQuadraticKinetic.
   static constexpr bool may_have_quadratic_kinetic = true;
 
   /// K = p.p/2 if quadratic_kinetic, else a generic polynomial. Always the same V and start.

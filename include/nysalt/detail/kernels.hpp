@@ -102,7 +102,7 @@ class any_system {
       kernels_;
 };
 
-/// What is known of a system while running; concepts say the same of the type.
+/// What is known of a system at run time; concepts say the same of the type.
 struct model_facts {
   Eigen::Index size = 0;
   std::string description{};

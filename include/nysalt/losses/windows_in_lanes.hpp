@@ -23,7 +23,7 @@ namespace nysalt {
 /// is left of the last entry.
 template <Scalar R>
 struct windows_in_lanes {
-  static constexpr int N = Eigen::Dynamic;  ///< the dimension is known while running
+  static constexpr int N = Eigen::Dynamic;  ///< the dimension is known at run time
   /// One window in each lane.
   struct entry {
     phase_point<R, N> start;                ///< initial states of the windows
@@ -40,7 +40,7 @@ struct windows_in_lanes {
 /// entries.
 template <Scalar R>
 struct noise_of_entries {
-  static constexpr int N = Eigen::Dynamic;     ///< the dimension is known while running
+  static constexpr int N = Eigen::Dynamic;     ///< the dimension is known at run time
   static constexpr bool draws_freely = false;  ///< the numbers are those of the data
   /// Entry m has the noise of trajectory m.
   const std::vector<typename windows_in_lanes<R>::entry>* entries = nullptr;
