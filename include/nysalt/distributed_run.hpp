@@ -45,7 +45,7 @@ class distributed_run {
   distributed_run(distributed_run&&) noexcept;             ///< leaves the other one without a state
   distributed_run& operator=(distributed_run&&) noexcept;  ///< likewise
 
-  /// Takes `steps` steps. Throws std::invalid_argument if steps < 0.
+  /// Advances by `steps` steps. Throws std::invalid_argument if steps < 0.
   void advance(std::int64_t steps);
   /// The synchronous state of this rank's sites.
   phase_point<double, Eigen::Dynamic> synchronous() const;

@@ -13,7 +13,7 @@ struct displaced_kick_coefficients {
   C displacement{0.0};  ///< c h^2
 };
 
-/// D: a kick with the force at a displaced point, its second coefficient beside it:
+/// D: a kick with the force at a displaced point, with two coefficients:
 ///   p += b h f(q + c h^2 M^-1 f(q)),   f = -grad V.
 /// The gradient kick G(b, b c/2) up to terms of h^5, without a derivative of the force: two evaluations, of a
 /// black box too. Volume-preserving and reversible, but not symplectic unless f is linear:

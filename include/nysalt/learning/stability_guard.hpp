@@ -104,8 +104,8 @@ class stability_guard {
   std::size_t state_of_highest() const { return state_of_highest_; }
   /// Frequencies on which words with rotations are watched: none, or those of the quadratic part.
   const std::vector<double>& modes() const { return modes_; }
-  /// The linearised motion of a word with kicks of parts; null of others, and if the guard was not made for
-  /// one.
+  /// The linearised motion of a word with kicks of parts; null for other words, and for a guard without a
+  /// word.
   const word_on_parts* parts() const { return parts_.get(); }
   /// Number of steps over which growth is bounded.
   std::int64_t steps() const { return steps_; }

@@ -40,7 +40,7 @@ class pack {
       return parts[static_cast<std::size_t>(lane / of_part)][lane % of_part];
     }
   }
-  /// Puts a number into lane 0 <= lane < W; not checked.
+  /// Assigns lane 0 <= lane < W; unchecked.
   void set(int lane, double value) {
     if constexpr (of_part == 1) {
       parts[static_cast<std::size_t>(lane)] = value;
