@@ -185,10 +185,10 @@ BOOST_AUTO_TEST_CASE(noise_that_cannot_be_had_is_refused) {
     const data_options options{.step = 0.012, .trajectories = 1, .noise_parts = parts};
     return refuses<wrong>([&] { make_flow_map_data(system, law, reference, options); }, words);
   };
-  BOOST_TEST(refused(without_bath, fine_steps<>(fine), 1, {"srkn11b", "no noise", "take fine_paths"}));
+  BOOST_TEST(refused(without_bath, fine_steps<>(fine), 1, {"srkn11b", "must have noise", "take fine_paths"}));
   BOOST_TEST(!refused(without_bath, fine_steps<>(fine), 0, {}));
   BOOST_TEST(refused(chain, fine_steps<>(fine), 0, {"bath(friction=2, sigma=0.3)", "no letter O"}));
-  BOOST_TEST(refused(chain, fine_steps<>(fine), 1, {"no noise", "take fine_paths"}));
+  BOOST_TEST(refused(chain, fine_steps<>(fine), 1, {"must have noise", "take fine_paths"}));
   BOOST_TEST(refused(chain, fine_paths(fine), 5, {"0.012 in 5 equal parts", "fine step 0.001"}));
   BOOST_TEST(refused(chain, fine_paths(fine), -1, {"noise_parts must be >= 0, got -1"}));
   BOOST_TEST(refused(chain, fine_paths(0.005), 1, {"0.012 in 1 equal parts", "fine step 0.005"}));

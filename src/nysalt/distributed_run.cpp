@@ -211,7 +211,7 @@ phase_point<double, Eigen::Dynamic> distributed_run::synchronous() const {
 double distributed_run::energy() const {
   if (!parts_->layout.has_energy) {
     throw std::invalid_argument(
-        sentence("distributed_run: energy() needs a potential_in_range(), which {} does not have",
+        sentence("distributed_run: a system must have a potential_in_range() for energy(), got {}",
                  parts_->system.description()));
   }
   const auto x = synchronous();

@@ -233,8 +233,9 @@ flow_map_data make_flow_map_data(const model& system, const initial_states& ense
   const auto began = std::chrono::steady_clock::now();
   steps_of_each(options, size(system));
   if (options.noise_parts > 0 && !reference->gives_noise()) {
-    throw std::invalid_argument(fmt::format(
-        "flow_map_data: the reference ({}) has no noise to keep; take fine_paths", reference->description()));
+    throw std::invalid_argument(
+        fmt::format("flow_map_data: the reference must have noise to keep, got {}; take fine_paths",
+                    reference->description()));
   }
   const shard all(options.trajectories, *options.ranks);
   flow_map_data data;

@@ -115,7 +115,8 @@ BOOST_AUTO_TEST_CASE(what_has_no_autocovariance_is_refused) {
   for (int t = 0; t < 9; ++t) constant.add(4.0);
   const autocovariance frozen(1.0, 4.0, {constant.in_lane(0)});
   BOOST_TEST(refuses<std::runtime_error>([&] { frozen.normalised(); }, {"does not vary"}));
-  BOOST_TEST(refuses<std::invalid_argument>([] { autocovariance(1.0, 0.0, {}); }, {"no group"}));
+  BOOST_TEST(refuses<std::invalid_argument>([] { autocovariance(1.0, 0.0, {}); },
+                                            {"groups of trajectories must be one or more"}));
   BOOST_TEST(refuses<std::invalid_argument>(
       [] {
         autocovariance(1.0, 0.0, {autocovariance_sums(3), autocovariance_sums(5)});

@@ -150,6 +150,6 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   BOOST_TEST(refused({-infinity, 0.0, 4}));
   histogram all(quarters);
   BOOST_TEST(refuses<std::invalid_argument>([&] { all.add(std::nan("")); }, {"NaN"}));
-  BOOST_TEST(refuses<std::invalid_argument>([&] { all.fractions(); }, {"nothing was added"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { all.fractions(); }, {"one or more for fractions"}));
   BOOST_TEST(refuses<std::invalid_argument>([&] { all += histogram({0.0, 1.0, 5}); }, {"4 bins", "5 bins"}));
 }

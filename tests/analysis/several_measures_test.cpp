@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const trajectory_options many{.step = .02, .steps = 5, .trajectories = 40'000'000};
   BOOST_CHECK_NO_THROW(require_room(many, 1, 1, 2));
   BOOST_TEST(refuses<std::invalid_argument>([&] { require_room(many, 1, 1, 3); }, {"fit into memory"}));
-  BOOST_TEST(refuses<std::invalid_argument>([&] { judge({}, options); }, {"at least one measure"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { judge({}, options); }, {"measures must be one or more"}));
   for (const double perturbation : {0.0, -1.0, static_cast<double>(INFINITY), std::nan("")}) {
     trajectory_options perturbed_options = options;
     perturbed_options.perturbation = perturbation;

@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
   const tabulated back("back", run_time_word("OABOBAO"), {1.0, 0.5, 0.5, -1.0, 0.5, 0.5, 1.0}, {});
   BOOST_TEST(refused({back}, 0.06, {"forward in time"}));
   const auto along_a_flow = [&] { judged(all, options, fine_steps<>(0.06)); };
-  BOOST_TEST(refuses<wrong>(along_a_flow, {"srkn11b", "no noise to share", "fine_paths"}));
+  BOOST_TEST(refuses<wrong>(along_a_flow, {"srkn11b", "must have noise to share", "fine_paths"}));
 }
 
 BOOST_AUTO_TEST_CASE(the_energy_error_needs_the_noise_alone) {

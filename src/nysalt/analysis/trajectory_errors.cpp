@@ -28,7 +28,7 @@ void require_comparable(const model& system, const reference_value& reference,
                         std::span<const tabulated> methods, int parts, const trajectory_options& options) {
   if (parts > 0 && !reference.gives_noise()) {
     throw std::invalid_argument(
-        sentence("trajectory_errors: the reference ({}) has no noise to share; take fine_paths",
+        sentence("trajectory_errors: the reference must have noise to share, got {}; take fine_paths",
                  reference.description()));
   }
   const double perturbation = options.perturbation.value_or(1.0);
@@ -110,7 +110,8 @@ std::vector<trajectory_errors_result> trajectory_errors(const model& system, con
                                                         std::span<const tabulated> methods,
                                                         std::span<const error_measure> measures,
                                                         const trajectory_options& options) {
-  if (measures.empty()) throw std::invalid_argument("trajectory_errors: at least one measure is needed");
+  if (measures.empty())
+    throw std::invalid_argument("trajectory_errors: measures must be one or more, got none");
   const communicator& ranks = *options.ranks;
   const shard own(options.trajectories, ranks);
   const auto trajectories = static_cast<std::size_t>(options.trajectories);

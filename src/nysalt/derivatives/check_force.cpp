@@ -223,10 +223,11 @@ class force_examination {
 /// At all points; what fails is checked once more at a small distance from them.
 force_check check_force(const model& system, const std::vector<Eigen::VectorXd>& points,
                         const std::vector<Eigen::VectorXd>& momenta, const phase_points& seen) {
-  if (points.empty()) throw std::invalid_argument("check_force: no points to check at; give it one or more");
+  if (points.empty()) throw std::invalid_argument("check_force: points must be one or more, got none");
   if (momenta.size() != points.size()) {
-    throw std::invalid_argument(sentence("check_force: {} points with {} momenta; give it one for each",
-                                         points.size(), momenta.size()));
+    throw std::invalid_argument(
+        sentence("check_force: momenta must be one for each point, got {} points with {} momenta",
+                 points.size(), momenta.size()));
   }
   for (std::size_t m = 0; m < points.size(); ++m) {
     for (const auto* x : {&points[m], &momenta[m]}) {

@@ -17,14 +17,13 @@ namespace {
 /// kT. Throws std::invalid_argument unless the bath has a temperature, and that is positive.
 double temperature_to_sample(const bath& in) {
   if (!in.has_temperature()) {
-    throw std::invalid_argument(
-        fmt::format("gibbs: a {} has no temperature; give one, or friction", in.description()));
+    throw std::invalid_argument(fmt::format(
+        "gibbs: the bath must have a temperature, got a {}; give one, or friction", in.description()));
   }
   if (in.temperature() > 0.0) return in.temperature();
   throw std::invalid_argument(
-      "gibbs: at temperature 0 a system rests where its potential is least, and there is nothing to "
-      "sample; start from "
-      "another ensemble");
+      "gibbs: the temperature must be > 0, got 0, at which the system rests at the minimum "
+      "of the potential; start from another ensemble");
 }
 
 }  // namespace

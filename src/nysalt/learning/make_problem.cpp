@@ -213,8 +213,8 @@ learning_problem make_learning_problem(const run_time_family& family, const mode
   const bool in_lanes = system.facts().in_lanes_with_slopes && (other == nullptr || other->in_lanes);
   require_served_with_slopes(family.letters, system, in_lanes);
   if (held_out.step != data.step) {
-    throw std::invalid_argument(
-        fmt::format("learn: the data have the step {}, the held-out data {}", data.step, held_out.step));
+    throw std::invalid_argument(fmt::format(
+        "learn: data and held-out data must have the same step, got {} and {}", data.step, held_out.step));
   }
   if (&held_out.share().ranks() != &data.share().ranks()) {
     throw std::invalid_argument("learn: the data and the held-out data must be shared by the same ranks");

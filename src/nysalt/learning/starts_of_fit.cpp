@@ -141,7 +141,7 @@ void require_sound(const run_time_family& family, const fit_options& options) {
   }
   for (const auto& start : options.further_starts) {
     if (start.theta.size() == family.parameters() && !start.theta.allFinite()) {
-      throw std::invalid_argument(fmt::format("learn: the start '{}' is not finite", start.name));
+      throw std::invalid_argument(fmt::format("learn: starts must be finite, got '{}'", start.name));
     }
     if (start.theta.size() == family.parameters()) continue;
     throw std::invalid_argument(fmt::format("learn: the start '{}' has {} parameters, {} has {}", start.name,
