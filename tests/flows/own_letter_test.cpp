@@ -182,9 +182,10 @@ BOOST_AUTO_TEST_CASE(what_a_file_states_of_a_letter_is_read_and_not_stepped) {
 BOOST_AUTO_TEST_CASE(a_bound_word_steps_its_system_alone) {
   const tabulated method(own_drifts_first{}, henon_heiles{});
   const pendulum other;
-  BOOST_TEST(refuses<std::invalid_argument>([&] { make_stepper(other, method, 0.1); },
-                                            {"the word ababa cannot step pendulum(): the letter a is of "
-                                             "henon_heiles(); make the word with this system"}));
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] { make_stepper(other, method, 0.1); },
+      {"the word ababa must be made with the system pendulum(), got the letter a of "
+       "henon_heiles(); make the word with this system"}));
   const henon_heiles same;
   BOOST_CHECK_NO_THROW(make_stepper(same, method, 0.1));
 }

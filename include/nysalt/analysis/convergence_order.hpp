@@ -34,8 +34,8 @@ order_measurement convergence_order(const S& system, const M& method, const R& r
                                     std::int64_t fewest_steps, int halvings) {
   if (fewest_steps < 1 || halvings < 0 || !std::isfinite(horizon) || horizon == 0.0) {
     throw std::invalid_argument(
-        sentence("convergence_order: {} steps at least, {} halvings and a horizon of {}: needs a step, no "
-                 "negative number of halvings and a finite horizon",
+        sentence("convergence_order: steps must be >= 1, halvings >= 0 and the horizon finite and not 0, got "
+                 "{}, {} and {}",
                  fewest_steps, halvings, horizon));
   }
   auto exact = start;

@@ -51,7 +51,8 @@ void require_served(const W& word, const S& system) {
         }
         if (own->system != base) {
           throw std::invalid_argument(
-              sentence("the word {} cannot step {}: the letter {} is of {}; make the word with this system",
+              sentence("the word {} must be made with the system {}, got the letter {} of {}; make the word "
+                       "with this system",
                        word.letters(), base, letter, own->system));
         }
         if (!own->template serves<T>()) {
