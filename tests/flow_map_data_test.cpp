@@ -193,7 +193,7 @@ BOOST_AUTO_TEST_CASE(of_several_failures_the_lowest_trajectory_is_named) {
       make_flow_map_data(chain, third_fails_late{&later_failed, threads > 1}, fine_steps<>(1e-3),
                          {.step = 0.02, .horizon = 0.1, .trajectories = 400, .threads = threads});
     };
-    BOOST_TEST(refuses<wrong>(make, {"start 3 of starts", "not finite", "q1 is "}));
+    BOOST_TEST(refuses<wrong>(make, {"start 3 of starts", "must be finite", "q1 is "}));
     BOOST_TEST(later_failed == (threads > 1));  // so whoever throws first would have named another
   }
 }

@@ -146,5 +146,5 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
       [&] {
         integrate_ensemble(galaxy, verlet(), 0.1, states, {.trajectories = 2}, first_coordinate, nobody);
       },
-      {"start 1 ", "not finite"}));
+      {"start 1 ", "must be finite"}));
 }

@@ -302,7 +302,7 @@ BOOST_AUTO_TEST_CASE(the_stepper_of_a_model_refuses_in_the_same_words) {
       [&] {
         fixed.open(phase_point<double, Eigen::Dynamic>{three, three});
       },
-      {"3 positions", "the system 2"}));
+      {"3 positions", "2 degrees of freedom"}));
 }
 
 BOOST_AUTO_TEST_CASE(facts_are_those_of_the_concepts) {

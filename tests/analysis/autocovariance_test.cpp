@@ -121,5 +121,5 @@ BOOST_AUTO_TEST_CASE(what_has_no_autocovariance_is_refused) {
       [] {
         autocovariance(1.0, 0.0, {autocovariance_sums(3), autocovariance_sums(5)});
       },
-      {"2 and of 4 lags"}));
+      {"got 2 and 4"}));
 }

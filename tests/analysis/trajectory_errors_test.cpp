@@ -445,7 +445,7 @@ BOOST_AUTO_TEST_CASE(the_first_trajectory_in_trouble_is_named_by_any_number_of_t
     const trajectory_options options{.step = .01, .steps = 5, .trajectories = 40, .threads = threads};
     BOOST_TEST(refuses<std::invalid_argument>(
         [&] { trajectory_errors(chain, reference, listed<6>(starts), verlet(), path, options); },
-        {"start 20 ", "not finite"}));
+        {"start 20 ", "must be finite"}));
   }
 }
 

@@ -65,5 +65,5 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   }
   const point nowhere{{not_a_number, 0.0}, {0.0, 0.0}};
   BOOST_TEST(
-      refuses<wrong>([&] { normal_around<2>(nowhere, 0.1, 0.1); }, {"normal_around", "finite centre"}));
+      refuses<wrong>([&] { normal_around<2>(nowhere, 0.1, 0.1); }, {"normal_around", "centre must be finite"}));
 }

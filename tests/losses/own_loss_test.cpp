@@ -214,6 +214,6 @@ BOOST_AUTO_TEST_CASE(residuals_that_change_in_number_are_refused) {
     BOOST_TEST(
         refuses<wrong>(of_so_many(2, 3, threads), {"the same for every pair of states", "got 2 and 3"}));
     BOOST_TEST(!refuses<wrong>(of_so_many(3, 3, threads), {}));
-    BOOST_TEST(refuses<wrong>(of_so_many(0, 0, threads), {"no residuals"}));
+    BOOST_TEST(refuses<wrong>(of_so_many(0, 0, threads), {"residuals must be one or more"}));
   }
 }

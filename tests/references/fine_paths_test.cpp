@@ -249,8 +249,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_followed_is_refused) {
   BOOST_TEST(refused(0.0, 0.1, 0, {"positive and finite", "got 0"}));
   BOOST_TEST(refused(-0.1, 0.1, 0, {"positive and finite", "-0.1"}));
   BOOST_TEST(refused(nan, 0.1, 0, {"positive and finite", "nan"}));
-  BOOST_TEST(refused(0.01, 0.105, 0, {"0.105 in 1 equal parts", "fine step 0.01"}));
-  BOOST_TEST(refused(0.01, 0.11, 2, {"0.11 in 2 equal parts", "fine step 0.01"}));
+  BOOST_TEST(refused(0.01, 0.105, 0, {"0.105 in the 1 equal parts", "fine step 0.01"}));
+  BOOST_TEST(refused(0.01, 0.11, 2, {"0.11 in the 2 equal parts", "fine step 0.01"}));
   BOOST_TEST(!refused(0.01, 0.12, 2, {}));
   BOOST_TEST(refused(0.01, 0.005, 0, {"0.005", "a multiple"}));
   BOOST_TEST(refused(0.01, -0.1, 0, {"-0.1", "a multiple"}));

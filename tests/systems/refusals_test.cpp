@@ -22,17 +22,17 @@ BOOST_AUTO_TEST_CASE(frequencies_are_positive_and_finite) {
 }
 
 BOOST_AUTO_TEST_CASE(an_fpu_chain_has_the_pairs_that_its_type_says) {
-  BOOST_TEST(refuses<wrong>([] { fpu_chain<>(0, 1.0); }, {"0 pairs"}));
-  BOOST_TEST(refuses<wrong>([] { fpu_chain<3>(2, 1.0); }, {"2 pairs"}));
+  BOOST_TEST(refuses<wrong>([] { fpu_chain<>(0, 1.0); }, {"pairs must be", "got 0"}));
+  BOOST_TEST(refuses<wrong>([] { fpu_chain<3>(2, 1.0); }, {"pairs must be", "got 2"}));
   BOOST_TEST(fpu_chain<>(4, 1.0).size() == 8);
 }
 
 BOOST_AUTO_TEST_CASE(rings_and_clusters_have_the_size_that_their_type_says) {
-  BOOST_TEST(refuses<wrong>([] { phi4_chain<>(0); }, {"0 masses"}));
-  BOOST_TEST(refuses<wrong>([] { phi4_chain<3>(2); }, {"2 masses"}));
+  BOOST_TEST(refuses<wrong>([] { phi4_chain<>(0); }, {"masses must be", "got 0"}));
+  BOOST_TEST(refuses<wrong>([] { phi4_chain<3>(2); }, {"masses must be", "got 2"}));
   BOOST_TEST(phi4_chain<>(4).size() == 4);
-  BOOST_TEST(refuses<wrong>([] { lennard_jones<>(4, 7); }, {"2 or 3 dimensions", "not 4"}));
-  BOOST_TEST(refuses<wrong>([] { lennard_jones<2, 7>(3, 7); }, {"dimensions", "3"}));
+  BOOST_TEST(refuses<wrong>([] { lennard_jones<>(4, 7); }, {"dimension must be 2 or 3", "got 4"}));
+  BOOST_TEST(refuses<wrong>([] { lennard_jones<2, 7>(3, 7); }, {"dimension", "3"}));
   BOOST_TEST(refuses<wrong>([] { lennard_jones<>(2, 1); }, {"atoms must be >= 2", "got 1"}));
   BOOST_TEST(refuses<wrong>([] { lennard_jones<2, 7>(2, 8); }, {"got 8"}));
   BOOST_TEST(lennard_jones<>(3, 5).size() == 15);
