@@ -60,10 +60,10 @@ BOOST_AUTO_TEST_CASE(each_trajectory_is_as_if_alone) {
   const auto stepper = make_stepper(galaxy, verlet(), 0.1);
   int diverged = 0;
   for (std::int64_t m = 0; m < trajectories; ++m) {
-    const auto look = [&](std::int64_t, double, const auto& x) {
+    const auto observe = [&](std::int64_t, double, const auto& x) {
       singly.values[static_cast<std::size_t>(m)].push_back(x.q[0]);
     };
-    const auto end = integrate(stepper, law(1, static_cast<std::uint64_t>(m)), steps, look, every);
+    const auto end = integrate(stepper, law(1, static_cast<std::uint64_t>(m)), steps, observe, every);
     singly.diverged_at.push_back(end.diverged_at);
     diverged += end.diverged_at ? 1 : 0;
   }

@@ -55,8 +55,8 @@ seen alone(const auto& method, std::uint64_t shift = 0) {
   seen result{std::vector<std::vector<double>>(trajectories), {}};
   const auto stepper = stepper_of(method, 5);
   for (std::uint64_t m = 0; m < trajectories; ++m) {
-    const auto look = [&](std::int64_t, double, const auto& x) { result.values[m].push_back(x.p[0]); };
-    result.diverged_at.push_back(integrate(stepper, law(1, m), steps, look, every, m + shift).diverged_at);
+    const auto observe = [&](std::int64_t, double, const auto& x) { result.values[m].push_back(x.p[0]); };
+    result.diverged_at.push_back(integrate(stepper, law(1, m), steps, observe, every, m + shift).diverged_at);
   }
   return result;
 }

@@ -62,8 +62,8 @@ void gives_up_in_time(const S& system, const M& method, double step,
   };
   for (const std::int64_t every : {1, 2, 7, 64, 100, 5000}) {
     std::int64_t last_seen = -1;
-    const auto look = [&](std::int64_t n, double, const auto&) { last_seen = n; };
-    const auto end = integrate(system, method, step, x, 5000, look, every);
+    const auto observe = [&](std::int64_t n, double, const auto&) { last_seen = n; };
+    const auto end = integrate(system, method, step, x, 5000, observe, every);
     BOOST_TEST_CONTEXT("every " << every) {
       BOOST_REQUIRE(end.diverged_at.has_value());
       BOOST_TEST(*end.diverged_at == first);
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(the_observer_is_called_every_so_often_with_the_synchronous_
   const auto fixed = make_stepper(system, verlet(), 0.1);
   std::vector<std::int64_t> seen;
   auto run = fixed.open(at(1, 0));
-  const auto look = [&](std::int64_t n, double t, const point& x) {
+  const auto observe = [&](std::int64_t n, double t, const point& x) {
     seen.push_back(n);
     BOOST_TEST(t == static_cast<double>(n) * 0.1);
     if (n == 0) {
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(the_observer_is_called_every_so_often_with_the_synchronous_
     fixed.advance(run, n - run.step);
     BOOST_TEST(same_bits(x, fixed.synchronous(run)));
   };
-  const auto end = integrate(system, verlet(), 0.1, at(1, 0), 200, look, 75);
+  const auto end = integrate(system, verlet(), 0.1, at(1, 0), 200, observe, 75);
   BOOST_TEST((seen == std::vector<std::int64_t>{0, 75, 150}));
   BOOST_TEST(end.steps == 200);
   fixed.advance(run, 50);

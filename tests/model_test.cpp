@@ -119,13 +119,13 @@ std::vector<double> numbers_of_run(const S& system, const tabulated& method, dou
   }
   for (const std::int64_t every : {1, 3, 64}) {
     auto run = fixed.open(x, trajectory);
-    const auto look = [&](std::int64_t n, const auto& seen) {
+    const auto observe = [&](std::int64_t n, const auto& seen) {
       all.push_back(static_cast<double>(n));
       add_state(all, seen);
     };
-    fixed.advance(run, 7, every, look);
-    fixed.advance(run, 57, every, look);
-    fixed.advance(run, 0, every, look);
+    fixed.advance(run, 7, every, observe);
+    fixed.advance(run, 57, every, observe);
+    fixed.advance(run, 0, every, observe);
     add_state(all, fixed.synchronous(run));
   }
   auto plain = x;
