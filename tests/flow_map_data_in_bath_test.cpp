@@ -243,7 +243,8 @@ BOOST_AUTO_TEST_CASE(noise_that_is_not_whole_is_refused) {
     return refuses<wrong>([&] { require_valid(data, chain); }, words);
   };
   BOOST_TEST(!refused([](auto&) {}, {}));
-  BOOST_TEST(refused([](auto& d) { d.noise.resize(19, 6); }, {"10 pairs with noise in 2 parts that hold 19"}));
+  BOOST_TEST(
+      refused([](auto& d) { d.noise.resize(19, 6); }, {"10 pairs with noise in 2 parts that hold 19"}));
   BOOST_TEST(refused([](auto& d) { d.noise_parts = 1; }, {"in 1 parts that hold 20"}));
   BOOST_TEST(refused([](auto& d) { d.noise_parts = -2; }, {"in -2 parts"}));
   BOOST_TEST(refused([](auto& d) { d.noise[13][2] = NAN; },

@@ -47,8 +47,8 @@ phase_point<double, S::dimension> require_sound(const S& system, const E& ensemb
                                                 phase_point<double, S::dimension> start) {
   if (start.q.size() == size(system) && start.p.size() == size(system) && is_finite(start)) return start;
   const std::string what = not_finite_in(start);
-  throw std::invalid_argument(sentence("start {} of {} must be finite and have the dimension of {}{}",
-                                       n, ensemble.description(), describe(system),
+  throw std::invalid_argument(sentence("start {} of {} must be finite and have the dimension of {}{}", n,
+                                       ensemble.description(), describe(system),
                                        what.empty() ? "" : ": " + what));
 }
 }  // namespace detail

@@ -68,7 +68,7 @@ tested_claim threshold(const both_laws& all, const std::string& name, double pri
           both(all, [&](const sweep& s) { return with_error(at(s)); }),
           verdict_of(choice_of_law, readings),
           fmt::format("{}; within one distance of the paper's grid ({:g}) and two standard errors",
-                      listed(readings), distance),
+                      summary_of(readings), distance),
           ""};
 }
 
@@ -78,7 +78,7 @@ tested_claim slope_of_two(const both_laws& all, const std::string& name) {
   return {
       "T = 0.5: the error of " + name + " grows with slope 2",         "exponent over gaps 10 .. 100",
       both(all, [&](const sweep& s) { return with_error(slope(s)); }), verdict_of(choice_of_law, readings),
-      listed(readings) + "; 2 to a tenth and two standard errors",     ""};
+      summary_of(readings) + "; 2 to a tenth and two standard errors", ""};
 }
 
 tested_claim two_magnitudes(const both_laws& all) {
@@ -88,7 +88,7 @@ tested_claim two_magnitudes(const both_laws& all) {
           "least ratio of the errors for gaps up to 300",
           both(all, [&](const sweep& s) { return fmt::format("{:.3g}", ratio(s)); }),
           verdict_of(choice_of_law, readings),
-          listed(readings) + "; its decimal logarithm, rounded, must be 2 or more",
+          summary_of(readings) + "; its decimal logarithm, rounded, must be 2 or more",
           ""};
 }
 
@@ -107,7 +107,7 @@ tested_claim quadruple(const both_laws& all) {
           ours,
           verdict_of("the rival: at equal force evaluations it is two half steps of Verlet, or McLachlan",
                      readings),
-          listed(readings) + "; four, rounded",
+          summary_of(readings) + "; four, rounded",
           ""};
 }
 
@@ -150,7 +150,7 @@ exhibit accuracy_on_long_times(const setting& setup) {
                              "last gap up to which it does",
                              both(all, [&](const sweep& s) { return fmt::format("{:g}", up_to(s)); }),
                              verdict_of(choice_of_law, readings),
-                             listed(readings),
+                             summary_of(readings),
                              ""};
   const auto slope = [](const sweep& s) { return s.of("NySALT").exponent_within(10, 50); };
   const auto is_two = in_both(all, [&](const sweep& s) { return agrees(slope(s), 2.0, 0.2); });
@@ -159,7 +159,7 @@ exhibit accuracy_on_long_times(const setting& setup) {
       "exponent over gaps 10 .. 50",
       both(all, [&](const sweep& s) { return with_error(slope(s)); }),
       verdict_of(choice_of_law, is_two),
-      listed(is_two) + "; 2 to a tenth and two standard errors",
+      summary_of(is_two) + "; 2 to a tenth and two standard errors",
       ""};
   exhibit result{
       "Accuracy at T = 100",

@@ -90,22 +90,22 @@ exhibit exhibit_of(const estimator_errors& found, const std::string& printed, do
                       true,
                       {curve_of("reference from other data", found.from_others, true),
                        curve_of("reference from the same data and more", found.nested, false)}};
-  return {
-      "",
-      "",
-      {{"the error of the estimators decays as M^" + printed,
-        "exponent, mean over repetitions with its error",
-        fmt::format("{} with a reference from other data, {} with one from the same data and more",
-                    with_error(found.exponent_from_others), with_error(found.exponent_nested)),
-        verdict_of("whether the reference estimator shares the data", readings),
-        listed(readings) + "; within two standard errors and half the last digit. An exact reference would "
-                           "give -0.5; one with an error of its own flattens the end of the curve, and one "
-                           "that shares the data steepens it",
-        ""}},
-      {},
-      {{"Mean over repetitions of (|b1 - b1'| + |beta1 - beta1'|)/2:", rows}},
-      {{figure{"convergence_in_M_" + name, {picture}},
-        "Error of the estimators against the number of trajectories."}}};
+  return {"",
+          "",
+          {{"the error of the estimators decays as M^" + printed,
+            "exponent, mean over repetitions with its error",
+            fmt::format("{} with a reference from other data, {} with one from the same data and more",
+                        with_error(found.exponent_from_others), with_error(found.exponent_nested)),
+            verdict_of("whether the reference estimator shares the data", readings),
+            summary_of(readings) +
+                "; within two standard errors and half the last digit. An exact reference would "
+                "give -0.5; one with an error of its own flattens the end of the curve, and one "
+                "that shares the data steepens it",
+            ""}},
+          {},
+          {{"Mean over repetitions of (|b1 - b1'| + |beta1 - beta1'|)/2:", rows}},
+          {{figure{"convergence_in_M_" + name, {picture}},
+            "Error of the estimators against the number of trajectories."}}};
 }
 
 }  // namespace nysalt::program::paper

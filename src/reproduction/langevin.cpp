@@ -30,7 +30,7 @@ tested_claim threshold(const both_starts& all, const std::string& name, double p
           "gap at which the average relative RMSE of I reaches 10 %",
           both(all, [&](const sweep& s) { return with_error(at(s)); }),
           verdict_of(choice_of_starts, readings),
-          fmt::format("{}; within one distance of gaps ({:g}) and two standard errors", listed(readings),
+          fmt::format("{}; within one distance of gaps ({:g}) and two standard errors", summary_of(readings),
                       distance),
           ""};
 }
@@ -42,7 +42,7 @@ tested_claim slope_until(const both_starts& all, const std::string& name, double
           fmt::format("exponent over gaps 30 .. {:g}", last),
           both(all, [&](const sweep& s) { return with_error(slope(s)); }),
           verdict_of(choice_of_starts, readings),
-          listed(readings) + "; to a tenth and two standard errors",
+          summary_of(readings) + "; to a tenth and two standard errors",
           ""};
 }
 
@@ -67,7 +67,7 @@ tested_claim smaller_from_70(const both_starts& all) {
           "gap from which on it does (starts from one long trajectory)",
           ours,
           verdict_of("the rival: at equal force evaluations it is BAOAB with half the step", readings),
-          listed(readings),
+          summary_of(readings),
           ""};
 }
 

@@ -96,7 +96,7 @@ tested_claim at_one_gap(const std::vector<laws>& all, const std::string& name, d
           fmt::format("total variation at gap {:g}", gap),
           ours,
           verdict_of("the starts", readings),
-          listed(readings) + "; " + rule,
+          summary_of(readings) + "; " + rule,
           ""};
 }
 
@@ -119,7 +119,7 @@ tested_claim smaller_from_200(const std::vector<laws>& all) {
           "least ratio of the rival's TVD to that of NySALT after gap 200, for both ways to start",
           ours,
           verdict_of("the rival: at equal force evaluations it is BAOAB with half the step", readings),
-          listed(readings) + "; above 1 at every gap. At the floor such a ratio is chance",
+          summary_of(readings) + "; above 1 at every gap. At the floor such a ratio is chance",
           ""};
 }
 

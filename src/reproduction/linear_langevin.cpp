@@ -55,7 +55,7 @@ exhibit linear_langevin_optimum(const setting&) {
         fmt::format("{:.4f}, {:.4f} and {:.4f} at delta omega = 0.2, 1 and 2", slope_of_optimum(0.2, false),
                     slope_of_optimum(1.0, false), slope_of_optimum(2.0, false)),
         verdict_of("the step: the remark expands in it", readings),
-        listed(readings) + "; to the printed digits", ""}},
+        summary_of(readings) + "; to the printed digits", ""}},
       {"The slope is of the placement, not of the system: with half of the bath before the step and half "
        "behind there is none. In the setting of section 5.3 the shift is below 0.0005."},
       {{"The slope:", all}},

@@ -64,6 +64,6 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
         refuses<wrong>([&] { normal_around<2>(centre, 0.1, bad); }, {"normal_around", "deviations must be"}));
   }
   const point nowhere{{not_a_number, 0.0}, {0.0, 0.0}};
-  BOOST_TEST(
-      refuses<wrong>([&] { normal_around<2>(nowhere, 0.1, 0.1); }, {"normal_around", "centre must be finite"}));
+  BOOST_TEST(refuses<wrong>([&] { normal_around<2>(nowhere, 0.1, 0.1); },
+                            {"normal_around", "centre must be finite"}));
 }

@@ -104,5 +104,6 @@ BOOST_AUTO_TEST_CASE(a_table_is_thermostatted_likewise) {
   BOOST_TEST(thermostat(euler, symmetric).order == 1);
   BOOST_TEST(!thermostat(euler, symmetric).symmetric);
   BOOST_TEST(refuses<std::invalid_argument>([&] { thermostat(euler, middle); }, {"central letter"}));
-  BOOST_TEST(refuses<std::invalid_argument>([&] { thermostat(tabulated(baoab{}), end); }, {"must have no letters O"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { thermostat(tabulated(baoab{}), end); },
+                                            {"must have no letters O"}));
 }

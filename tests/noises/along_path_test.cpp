@@ -178,8 +178,8 @@ BOOST_AUTO_TEST_CASE(the_path_of_another_trajectory_is_refused) {
   const auto along = stepper_of(path, baoab());
   for (const std::uint64_t other : {0U, 2U, 4U}) {
     auto run = along.open(start, other);
-    BOOST_TEST(refuses<wrong>([&] { along.advance(run, 1); },
-                              {"trajectory 3", "not of " + std::to_string(other)}));
+    BOOST_TEST(
+        refuses<wrong>([&] { along.advance(run, 1); }, {"trajectory 3", "not of " + std::to_string(other)}));
   }
   using T = pack<double, 4>;
   const auto four = path_of<T>(3, 60);
