@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(of_several_failures_the_lowest_trajectory_is_named) {
                          {.step = 0.02, .horizon = 0.1, .trajectories = 400, .threads = threads});
     };
     BOOST_TEST(refuses<wrong>(make, {"start 3 of starts", "must be finite", "q1 is "}));
-    BOOST_TEST(later_failed == (threads > 1));  // so whoever throws first would have named another
+    BOOST_TEST(later_failed == (threads > 1));  // so the first thread that throws would have named another
   }
 }
 

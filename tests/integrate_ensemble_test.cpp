@@ -127,10 +127,10 @@ BOOST_AUTO_TEST_CASE(no_steps_show_the_starts) {
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
-  const auto nobody = [](std::int64_t, std::int64_t, double) {};
+  const auto no_observer = [](std::int64_t, std::int64_t, double) {};
   const auto refused = [&](const ensemble_options& options, auto... words) {
     return refuses<std::invalid_argument>(
-        [&] { integrate_ensemble(galaxy, verlet(), 0.1, law, options, first_coordinate, nobody); },
+        [&] { integrate_ensemble(galaxy, verlet(), 0.1, law, options, first_coordinate, no_observer); },
         {words...});
   };
   BOOST_TEST(refused({.trajectories = 0}, "trajectories 0"));
@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const listed<2> states({{{0.0, 0.0}, {0.0, 0.0}}, {{NAN, 0.0}, {0.0, 0.0}}});
   BOOST_TEST(refuses<std::invalid_argument>(
       [&] {
-        integrate_ensemble(galaxy, verlet(), 0.1, states, {.trajectories = 2}, first_coordinate, nobody);
+        integrate_ensemble(galaxy, verlet(), 0.1, states, {.trajectories = 2}, first_coordinate, no_observer);
       },
       {"start 1 ", "must be finite"}));
 }

@@ -109,9 +109,9 @@ BOOST_AUTO_TEST_CASE(lockstep_goes_on_where_it_stopped) {
 }
 
 BOOST_AUTO_TEST_CASE(an_ensemble_by_its_method_needs_a_source_of_noise) {
-  const auto nobody = [](auto&&...) {};
+  const auto no_observer = [](auto&&...) {};
   const auto first = [](const auto& x) { return x.p[0]; };
   BOOST_TEST(refuses<std::invalid_argument>(
-      [&] { integrate_ensemble(galaxy, baoab(), 0.1, law, {.trajectories = 2}, first, nobody); },
+      [&] { integrate_ensemble(galaxy, baoab(), 0.1, law, {.trajectories = 2}, first, no_observer); },
       {"noisy", "counter_noise"}));
 }

@@ -18,7 +18,7 @@ using point = phase_point<double, 1>;
 using wrong = std::invalid_argument;
 
 point at(double q, double p) { return {vector<double, 1>(q), vector<double, 1>(p)}; }
-const auto nobody = [](auto&&...) {};
+const auto no_observer = [](auto&&...) {};
 
 /// A force without a potential: q'' = q^3.
 struct runaway {
@@ -69,7 +69,7 @@ void gives_up_in_time(const S& system, const M& method, double step,
       BOOST_TEST(*end.diverged_at == first);
       BOOST_TEST(end.steps == first);
       BOOST_TEST((same(end.finish.q, bad.q) && same(end.finish.p, bad.p)));
-      BOOST_TEST(last_seen == (first - 1) / every * every);  // nobody sees the bad state
+      BOOST_TEST(last_seen == (first - 1) / every * every);  // no observer sees the bad state
     }
   }
 }
@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const pendulum system;
   const double not_a_number = std::numeric_limits<double>::quiet_NaN();
   const auto run = [&](const point& x, std::int64_t steps, std::int64_t every) {
-    integrate(system, verlet(), 0.1, x, steps, nobody, every);
+    integrate(system, verlet(), 0.1, x, steps, no_observer, every);
   };
   BOOST_TEST(refuses<wrong>([&] { run(at(0, 0), -1, 1); }, {"integrate", "steps -1"}));
   BOOST_TEST(refuses<wrong>([&] { run(at(0, 0), 10, 0); }, {"integrate", "every 0"}));
@@ -136,7 +136,7 @@ BOOST_AUTO_TEST_CASE(a_passing_excursion_is_judged_the_same_whoever_looks) {
   const auto unobserved = integrate(system, verlet(), 1.9991, at(0, 2), 10000);
   BOOST_TEST(first_bad_step(system, verlet(), 1.9991, at(0, 2), 10000) > 0);
   for (const std::int64_t every : {1, 50, 64, 100, 10000}) {
-    const auto end = integrate(system, verlet(), 1.9991, at(0, 2), 10000, nobody, every);
+    const auto end = integrate(system, verlet(), 1.9991, at(0, 2), 10000, no_observer, every);
     BOOST_TEST((end.diverged_at == unobserved.diverged_at));
     BOOST_TEST(same_bits(end.finish, unobserved.finish));
   }

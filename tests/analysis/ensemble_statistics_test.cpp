@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(oscillators_have_a_normal_histogram) {
 }
 
 // One look at each: independent samples, of which each counts, exactly but for rounding. Along the way the
-// time mean of n samples is A cos(...) D, D = sin(n turn/2)/(n sin(turn/2)): so many more samples are worth
+// time mean of n samples is A cos(...) D, D = sin(n turn/2)/(n sin(turn/2)): that many more samples are worth
 // 1/D^2 each; the variance of 1024 means is known to sqrt(2/1024).
 BOOST_AUTO_TEST_CASE(samples_count_as_they_do) {
   const statistics_wanted moments{.moments = true};

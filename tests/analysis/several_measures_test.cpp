@@ -113,8 +113,8 @@ BOOST_AUTO_TEST_CASE(in_a_bath_they_do_so_too) {
   BOOST_TEST(!same_bits(together[0].methods[0], together[1].methods[0]));
 }
 
-// Once along each of 20 trajectories, and along 16 for the finer one; as often for perturbed starts. Nobody
-// asks for one if energies alone are compared.
+// Once along each of 20 trajectories, and along 16 for the finer one; as often for perturbed starts. None
+// is needed if energies alone are compared.
 BOOST_AUTO_TEST_CASE(one_reference_serves_all_measures) {
   const in_lanes<fpu_chain<3>, 1> singly(chain);
   const auto asked = [&](const auto& measures, std::optional<double> perturbation) {

@@ -49,7 +49,7 @@ const auto path = path_measure(chain, stiff_energy);
 /// Two of one type: two half Verlets, and nearly McLachlan.
 const std::array<pair, 2> pairs{pair({.5, .375}), pair({.5, .4034})};
 
-/// Where one trajectory is gone through after the other.
+/// Where one trajectory is read after the other.
 const in_lanes<fpu_chain<3>, 1> singly(chain);
 
 /// No reference: it throws when it is asked.
@@ -415,7 +415,8 @@ BOOST_AUTO_TEST_CASE(a_reference_that_breaks_is_told_of) {
       {"trajectory 0 ", "path error", "step 1"}));
 }
 
-// Two are lost, the later one earlier; it is the first of them that is named, whoever goes beside it.
+// Two are lost, the later one earlier; it is the first of them that is named, whichever trajectories are
+// stepped beside it.
 BOOST_AUTO_TEST_CASE(the_first_trajectory_that_is_lost_is_named_by_any_number_of_lanes) {
   const trajectory_options options{.step = .01, .steps = 60, .trajectories = 30};
   std::vector<state> starts;

@@ -159,7 +159,7 @@ void check_cost(const auto& system, std::int64_t plain, std::int64_t ten_steps) 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(it_costs_two_evaluations_and_by_differences_three) {
-  const std::array alone{std::int64_t{2}, std::int64_t{11}};  // the force is at hand: q does not move
+  const std::array alone{std::int64_t{2}, std::int64_t{11}};  // the force is known: q does not move
   BOOST_TEST((evaluations_of(two_masses(), word<gradient_kick>(), {b, c}) == alone));
   // fg_chin: the last kick's force is the first one's of the next step.
   check_cost<fg_chin>(potential_only(), 4, 1 + 10 * 3);

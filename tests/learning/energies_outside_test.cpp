@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(starts_of_the_same_law_are_hardly_ever_serious) {
                                  << " outside of " << trials) {
         // Two tests of one in a thousand each: 4 in the mean, and four standard deviations of that.
         BOOST_TEST(serious <= 12);
-        if (n == 1000) BOOST_TEST(outside > trials / 2);  // whoever minded one would always warn
+        if (n == 1000) BOOST_TEST(outside > trials / 2);  // a warning for one would always come
       }
     }
   }

@@ -220,7 +220,7 @@ BOOST_AUTO_TEST_CASE(what_is_counted_is_what_is_evaluated) {
   }
 }
 
-// A run that is watched over for divergence pays for no look that nobody asked for.
+// A run that is watched over for divergence pays for no observation that was not requested.
 BOOST_AUTO_TEST_CASE(watching_over_a_run_takes_no_evaluation) {
   draws random;
   const pendulum system;

@@ -39,7 +39,7 @@ struct followed {
   state x = start;
   noise xi;
 };
-/// `times` times t further, with the noise of each in so many parts.
+/// `times` times t further, with the noise of each in that many parts.
 followed follow(const auto& reference, double t, int times, std::size_t parts, path_place at = {7, 3, 0},
                 const galaxy& system = warm) {
   followed result;
