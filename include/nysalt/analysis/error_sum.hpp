@@ -24,7 +24,7 @@ struct run_score {
 template <class T>
 class error_sum {
  public:
-  using numbers = std::span<const T>;  ///< number of residuals of one state
+  using numbers = std::span<const T>;  ///< residuals of one state
 
   /// Refers to the measure. The start, where all errors are 0, may have a weight too.
   explicit error_sum(const error_measure& measure, double weight_of_start = 0.0)

@@ -48,8 +48,8 @@ struct cyclotron_flow : exact_flow<'m'> {
 /// q.
 struct velocity_drift : exact_flow<'v'> {
   static constexpr bool symplectic = false;
-  static constexpr bool reversible = false;  ///< as the field would have to turn round with p  ///< false:
-                                             ///< R(q, p) = (q, -p) is no reversal, as v is not p
+  static constexpr bool reversible = false;  ///< false: R(q, p) = (q, -p) is no reversal,
+                                             ///< as v is not p
 
   template <System S, Scalar T>
   static constexpr bool serves = HasMagneticField<S>;

@@ -18,7 +18,7 @@ concept HasStiffEnergiesOver =
       { system.pairs() } -> std::convertible_to<Eigen::Index>;
       { system.stiff_energy(x, j) } -> std::same_as<T>;
     };
-/// HasStiffEnergiesOver double.
+/// Stiff energies over double, see HasStiffEnergiesOver.
 template <class S>
 concept HasStiffEnergies = HasStiffEnergiesOver<S, double>;
 
