@@ -49,7 +49,7 @@ inline constexpr int lanes_of = [] {
 template <class T>
 inline constexpr int lanes_in = 1;
 template <int W>
-inline constexpr int lanes_in<pack<double, W>> = W;  ///< values of the lanes
+inline constexpr int lanes_in<pack<double, W>> = W;  ///< number of lanes
 
 /// The type of a comparison of two T: a bool, or a mask of lanes.
 template <class T>

@@ -99,7 +99,7 @@ class tuned_method {
   }
   const member<F>& anywhere() const { return member_; }  ///< valid at any step, for any system
 
-  /// Throws where a method is not valid: throws std::invalid_argument at a step other than the learned one
+  /// Throws std::invalid_argument where the method is not valid: at a step other than the learned one
   /// (to 1e-9 relative, as steps are typed in decimals) or for another system.
   void require_validity(const std::string& system, double step) const {
     if (std::abs(step - step_) > 1e-9 * std::abs(step_)) {

@@ -79,9 +79,9 @@ class vector_list {
     resize(size_ + further, more.dimension_);
     std::copy_n(more.numbers_.begin(), count, numbers_.end() - static_cast<std::ptrdiff_t>(count));
   }
-  auto begin() { return detail::list_iterator(this, 0); }          ///< first vector
+  auto begin() { return detail::list_iterator(this, 0); }          ///< begin iterator
   auto end() { return detail::list_iterator(this, size_); }        ///< end iterator
-  auto begin() const { return detail::list_iterator(this, 0); }    ///< first vector
+  auto begin() const { return detail::list_iterator(this, 0); }    ///< begin iterator
   auto end() const { return detail::list_iterator(this, size_); }  ///< end iterator
   /// Equal numbers.
   friend bool operator==(const vector_list& a, const vector_list& b) {
@@ -166,9 +166,9 @@ class phase_points {
     columns_[2 * i] = x.q;
     columns_[2 * i + 1] = x.p;
   }
-  auto begin() { return detail::list_iterator(this, 0); }           ///< first point
+  auto begin() { return detail::list_iterator(this, 0); }           ///< begin iterator
   auto end() { return detail::list_iterator(this, size()); }        ///< end iterator
-  auto begin() const { return detail::list_iterator(this, 0); }     ///< first point
+  auto begin() const { return detail::list_iterator(this, 0); }     ///< begin iterator
   auto end() const { return detail::list_iterator(this, size()); }  ///< end iterator
   /// Equal numbers.
   friend bool operator==(const phase_points&, const phase_points&) = default;

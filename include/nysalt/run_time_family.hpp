@@ -86,7 +86,7 @@ class run_time_family {
   std::string source;                                 ///< key in docs/bibliography.bib; empty: not published
   std::vector<std::string> parameter_names;           ///< names of the parameters
   std::vector<parameter_range> ranges;                ///< ranges of the parameters
-  std::optional<Eigen::VectorXd> most_stable_member;  ///< the longest stability interval
+  std::optional<Eigen::VectorXd> most_stable_member;  ///< the one with the longest stability interval
   std::vector<named_parameters> starts;  ///< the family's own, its classical members, further ones
   std::shared_ptr<const contained_family>
       contained;  ///< contained family, whose optimum is a start, too; null: none

@@ -31,7 +31,7 @@ struct compensated {
   compensated(double x) : value(x), carry(0.0) {}  ///< a number without carry
   compensated(const T& x)
     requires(!std::same_as<T, double>)
-      : value(x), carry(0.0) {}                  ///< assigns a number without carry
+      : value(x), carry(0.0) {}                  ///< a number without carry
   explicit operator T() const { return value; }  ///< value without the carry
 
   compensated& operator+=(const compensated& b) {
