@@ -137,7 +137,7 @@ void race_langevin() {
               make_stepper(chain, thermostat<placement::end>(two_stage), h, counter_noise(1)));
   add_stepper("two-stage, O symmetric",
               make_stepper(chain, thermostat<placement::symmetric>(two_stage), h, counter_noise(1)));
-  add_stepper("two-stage, no bath", make_stepper(chain.alone(), two_stage, h));
+  add_stepper("two-stage, no bath", make_stepper(chain.base(), two_stage, h));
   runners.push_back({"noise alone", static_cast<double>(trajectories * steps), draw_noise});
   race("langevin", std::move(runners));
 }

@@ -124,7 +124,7 @@ bath="--system fpu --friction 0.01 --sigma 0.05 --steps 0.0035,0.005,0.007,0.01,
 in_bath="$explicit,$rotating,$classical,$fitted,impulse,baoab,aboba,obabo"
 compare langevin_paths "The FPU chain in the paper's bath, on [0, 5]: paths of the stiff energy" path_stiff_energy 0.1 \
   $bath --trajectories 96 --horizon 5 --metric path,state --methods "$in_bath"
-compare langevin_laws "The FPU chain in the paper's bath, on [0, 40]: the law of the stiff energy" \
+compare langevin_laws "The FPU chain in the paper's bath, on [0, 40]: the distribution of the stiff energy" \
   distribution_stiff_energy 0.1 $bath --trajectories 500 --range 0,1 --horizon 40 --metric distribution,acf \
   --methods "$in_bath"
 
@@ -135,7 +135,7 @@ compare langevin_laws "The FPU chain in the paper's bath, on [0, 40]: the law of
     sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | sort -u | head -n 1), $(nproc) cores. Made again by"
   echo "\`./dev beyond\`. Steps are per force evaluation (soft ones where a method rotates the quadratic part); what is"
   echo "learned is learned at each step on 100 trajectories that are none of the test's. Of processed methods the costs are those"
-  echo "of one look at each trajectory. \`marks\` and the rest are"
+  echo "of one observation of each trajectory. \`marks\` and the rest are"
   echo "explained in [the program](../program.md)."
   echo
   echo "The cheapest at an error, in force evaluations per unit time (without rotations those that need no quadratic part):"

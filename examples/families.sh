@@ -166,7 +166,7 @@ compare phi4_range --system phi4 $equal_cost --metric state --horizon 10 --learn
   --methods $larger,learned:nystrom,verlet,pefrl,srkn6b,chin4a,mclachlan5 --steps 0.07,0.1,0.14,0.2
 draw phi4 'state error on [0, 10]' phi4_range
 
-say "Laws that were not learned from"
+say "Initial distributions other than those of the training data"
 learn() { # SYSTEM LEARN_HORIZON FAMILY STEP
   "$nysalt" learn --system "$1" --horizon "$2" --family "$3" --step "$4" --loss state:1 \
     --output "$folder/$1.$3.json" >"$folder/$1.$3.log" 2>&1 || echo "   learned:$3 at step $4 of $1: not usable"

@@ -22,8 +22,8 @@ struct dumbbell {
 
   template <class T>
   T potential(const vector<T, 2>& q) const {
-    const T stretch = q[1] - q[0] - 1.0;
-    return 0.25 * (q[0] * q[0]) * (q[0] * q[0]) + (0.5 * stiffness) * (stretch * stretch);
+    const T elongation = q[1] - q[0] - 1.0;
+    return 0.25 * (q[0] * q[0]) * (q[0] * q[0]) + (0.5 * stiffness) * (elongation * elongation);
   }
   template <class T>  // by hand: it spares the compiler differentiating
   void force(const vector<T, 2>& q, vector<T, 2>& f) const {
@@ -33,10 +33,10 @@ struct dumbbell {
   }
   template <class T>
   T bond_energy(const phase_point<T, 2>& x) const {
-    const T stretch = x.q[1] - x.q[0] - 1.0;
+    const T elongation = x.q[1] - x.q[0] - 1.0;
     const T speed = x.p[1] * (1.0 / light) - x.p[0] * (1.0 / heavy);
     const double reduced_mass = heavy * light / (heavy + light);
-    return (0.5 * stiffness) * (stretch * stretch) + (0.5 * reduced_mass) * (speed * speed);
+    return (0.5 * stiffness) * (elongation * elongation) + (0.5 * reduced_mass) * (speed * speed);
   }
   std::string description() const { return "dumbbell()"; }
 };

@@ -19,10 +19,10 @@ rm -f "$folder"/*/journal.jsonl  # of a run that was stopped
   --methods learned:nystrom@symmetric,learned:nystrom@end,baoab,baoab_2x,mclachlan2,s_aia2 --output "$folder/path"
 
 echo
-echo "== The law of the stiff energy, and its autocovariance; the floor is what sampling alone makes of an error"
+echo "== The distribution of the stiff energy, and its autocovariance; the floor is the error that is due to sampling"
 "$nysalt" compare $system $learning --metric distribution,acf --horizon 40 --steps 0.019,0.033 \
   --methods baoab,baoab_2x,s_aia2,learned:nystrom@end,learned:nystrom@symmetric \
   --trajectories 4000 --range 0,1 --output "$folder/law"
 
 echo
-echo "In $folder/path and law: report.html, report.md, rows.csv; pictures (.svg and .png) in pictures"
+echo "In $folder/path and $folder/law: report.html, report.md, rows.csv; pictures (.svg and .png) in pictures"

@@ -44,8 +44,8 @@ class kink_chain {
       const T well = q(0, i) * q(0, i) - 1.0;
       sum += well * well * (0.25 * mu_);
       if (i == 0) continue;
-      const T stretch = q(0, i) - q(0, i - 1);
-      sum += stretch * stretch * 0.5;
+      const T elongation = q(0, i) - q(0, i - 1);
+      sum += elongation * elongation * 0.5;
     }
     return sum;
   }

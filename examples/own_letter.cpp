@@ -2,7 +2,7 @@
 // Your own letter: the exact flow of a part of H, which is stepped, checked and learned like the library's.
 //
 // Henon's and Heiles' H is two oscillators, whose exact motion is a rotation, and a cubic rest that is small
-// near the origin: words of the rotation and of kicks with the rest err by the rest alone. (The library has
+// near the origin: words of the rotation and of kicks with the rest err by the rest only. (The library has
 // letters R and S for quadratic parts; we write our own, as we would for a part that it does not know.)
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ struct turn : exact_flow<'t'> {
     }
   }
 };
-/// The kick with the cubic rest, V_3 = q_1^2 q_2 - q_2^3/3. It evaluates a force, and leaves q alone.
+/// The kick with the cubic rest, V_3 = q_1^2 q_2 - q_2^3/3. It evaluates a force, and leaves q unchanged.
 struct cubic_kick : exact_flow<'c'> {
   static constexpr bool moves_q = false;
   static constexpr int displaced_forces = 1;

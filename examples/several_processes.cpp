@@ -15,7 +15,7 @@
 
 using namespace nysalt;
 
-void learn_and_look(const communicator& ranks) {
+void learn_and_report(const communicator& ranks) {
   const fpu_chain<3> chain(50.0);
   const fpu_law<3> starts(chain);
   // [learn]
@@ -52,7 +52,7 @@ void learn_and_look(const communicator& ranks) {
 // [main]
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
-  learn_and_look(mpi_communicator());
+  learn_and_report(mpi_communicator());
   MPI_Finalize();
 }
 // [/main]

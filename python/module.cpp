@@ -10,7 +10,7 @@
 /// documents are JSON.
 PYBIND11_MODULE(_nysalt, module) {
   nysalt::python::leave_from_computations();
-  nysalt::python::tell_refusals();
+  nysalt::python::raise_refusals();
   nysalt::python::add_systems(module);
   nysalt::python::add_commands(module);
   nysalt::python::add_trajectories(module);

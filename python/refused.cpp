@@ -15,10 +15,10 @@ std::string in_words_of_python(const std::string& text) {
   return program::with_arguments(text, program::in_python);
 }
 
-void tell_refusals() {
+void raise_refusals() {
   // Of this module only: other modules translate their own exceptions.
   pybind11::register_local_exception_translator([](std::exception_ptr thrown) {
-    const auto tell = [](PyObject* kind, const std::exception& problem) {
+    const auto raise = [](PyObject* kind, const std::exception& problem) {
       PyErr_SetString(kind, in_words_of_python(problem.what()).c_str());
     };
     try {
@@ -26,13 +26,13 @@ void tell_refusals() {
     } catch (const pybind11::builtin_exception&) {  // pybind11 translates its other exceptions
       throw;
     } catch (const program::refusal& problem) {
-      tell(PyExc_ValueError, problem);
+      raise(PyExc_ValueError, problem);
     } catch (const std::invalid_argument& problem) {
-      tell(PyExc_ValueError, problem);
+      raise(PyExc_ValueError, problem);
     } catch (const program::ended_early& problem) {
-      tell(PyExc_KeyboardInterrupt, problem);
+      raise(PyExc_KeyboardInterrupt, problem);
     } catch (const std::runtime_error& problem) {
-      tell(PyExc_RuntimeError, problem);
+      raise(PyExc_RuntimeError, problem);
     }
   });
 }

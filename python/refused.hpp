@@ -12,6 +12,6 @@ std::string in_words_of_python(const std::string& text);
 
 /// Refusals of the library and the program are a ValueError, once this was called; what fails on the way is a
 /// RuntimeError.
-void tell_refusals();
+void raise_refusals();
 
 }  // namespace nysalt::python

@@ -72,7 +72,7 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
     const program::sampled_plan sampled{.trajectories = plan,
                                         .observables = observables,
                                         .every = every,
-                                        .stretch = program::short_stretch(planned_system.dimension()),
+                                        .segment = program::short_segment(planned_system.dimension()),
                                         .reached = [](const program::run_progress&) {}};
     const auto take = [&](std::int64_t m, const program::record& one) {
       const std::int64_t row = m * samples + one.first / every;

@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(gradient_kicks_and_rotations_allocate_nothing_either) {
   BOOST_TEST((allocations_of_family<fg4>(dynamic, 1000) == counts{4, 4}));
   BOOST_TEST((allocations_of_family<fg_chin>(long_one, 1000) == counts{4, 4}));
   BOOST_TEST((allocations_of_family<r_fg4>(fixed_split, 1000) == counts{0, 0}));
-  BOOST_TEST((allocations_of_family<nystrom>(dynamic, 1000) == counts{0, 0}));  // nobody needs them
+  BOOST_TEST((allocations_of_family<nystrom>(dynamic, 1000) == counts{0, 0}));  // no letter needs them
   // A word as a type is copied into the loop, with three vectors for each rotation and each seam.
   BOOST_TEST((allocations_of_family<r_aba<4>>(linear, 1000) == counts{4 + 3 * (5 + 2), 4}));
   BOOST_TEST((allocations_of_family<r_aba<4>>(split, 1000) == counts{4 + 3 * (5 + 2), 4}));

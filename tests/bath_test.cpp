@@ -118,8 +118,9 @@ BOOST_AUTO_TEST_CASE(without_friction_there_is_no_temperature_unless_it_was_give
   for (const double sigma : {0.0, 0.25}) {
     const auto undefined = bath::of_sigma(0.0, sigma);
     BOOST_TEST(!undefined.has_temperature());
-    BOOST_TEST(refuses<std::domain_error>([&] { undefined.temperature(); },
-                                          {fmt::format("sigma = {}", sigma), "no temperature", "friction"}));
+    BOOST_TEST(refuses<std::domain_error>(
+        [&] { undefined.temperature(); },
+        {fmt::format("sigma = {}", sigma), "must be > 0 for a temperature", "friction"}));
   }
 }
 

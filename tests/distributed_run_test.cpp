@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A trajectory that ranks share has the bits of one process, also where it is put away and taken up by other
+// A trajectory that ranks share has the bits of one process, also where it is saved and resumed by other
 // ranks.
 #include "nysalt/distributed_run.hpp"
 
@@ -42,7 +42,7 @@ struct shared_end {
   double energy = 0.0;
 };
 
-/// Steps of all ranks together, with a stop in between where the run is put away.
+/// Steps of all ranks together, with a stop in between where the run is saved.
 shared_end on_ranks(const auto& system, const tabulated& method, const state& start, int before, int after) {
   constexpr Eigen::Index components = std::decay_t<decltype(system)>::components;
   state open = start;

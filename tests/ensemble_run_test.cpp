@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Trajectories that are put away and taken up go on as if nothing had happened, in whatever lanes and
+// Trajectories that are saved and resumed go on as if nothing had happened, in whatever lanes and
 // threads.
 #include "nysalt/ensemble_run.hpp"
 
@@ -67,7 +67,7 @@ followed uncut(const auto& stepper, const auto& ensemble) {
   return {joined(seen), lost};
 }
 
-/// Put away after each of the cuts, and taken up in lanes of T and U in turn, by another number of threads.
+/// Saved after each of the cuts, and resumed in lanes of T and U in turn, by another number of threads.
 template <class T, class U, class Stepper>
 followed cut(const Stepper& stepper, const auto& ensemble, const std::vector<std::int64_t>& cuts) {
   std::vector<samples> seen(count);

@@ -185,24 +185,24 @@ BOOST_AUTO_TEST_CASE(noise_that_cannot_be_had_is_refused) {
     const data_options options{.step = 0.012, .trajectories = 1, .noise_parts = parts};
     return refuses<wrong>([&] { make_flow_map_data(system, law, reference, options); }, words);
   };
-  BOOST_TEST(refused(without_bath, fine_steps<>(fine), 1, {"srkn11b", "no noise", "take fine_paths"}));
+  BOOST_TEST(refused(without_bath, fine_steps<>(fine), 1, {"srkn11b", "must have noise", "take fine_paths"}));
   BOOST_TEST(!refused(without_bath, fine_steps<>(fine), 0, {}));
   BOOST_TEST(refused(chain, fine_steps<>(fine), 0, {"bath(friction=2, sigma=0.3)", "no letter O"}));
-  BOOST_TEST(refused(chain, fine_steps<>(fine), 1, {"no noise", "take fine_paths"}));
-  BOOST_TEST(refused(chain, fine_paths(fine), 5, {"0.012 in 5 equal parts", "fine step 0.001"}));
+  BOOST_TEST(refused(chain, fine_steps<>(fine), 1, {"must have noise", "take fine_paths"}));
+  BOOST_TEST(refused(chain, fine_paths(fine), 5, {"0.012 in the 5 equal parts", "fine step 0.001"}));
   BOOST_TEST(refused(chain, fine_paths(fine), -1, {"noise_parts must be >= 0, got -1"}));
-  BOOST_TEST(refused(chain, fine_paths(0.005), 1, {"0.012 in 1 equal parts", "fine step 0.005"}));
+  BOOST_TEST(refused(chain, fine_paths(0.005), 1, {"0.012 in the 1 equal parts", "fine step 0.005"}));
 }
 
 BOOST_AUTO_TEST_CASE(an_exact_flow_is_of_no_bath) {
   const in_bath oscillator(harmonic_oscillator(1.0), bath::of_sigma(0.1, 0.0));
-  BOOST_TEST(refuses<wrong>([&] { exact_linear{oscillator}; }, {"exact_linear", "in a bath"}));
-  const exact_linear of_the_alone(oscillator.alone());
+  BOOST_TEST(refuses<wrong>([&] { exact_linear{oscillator}; }, {"exact_linear", "in no bath"}));
+  const exact_linear of_the_alone(oscillator.base());
   const listed<1> starts({{vector<double, 1>(1.0), vector<double, 1>(0.0)}});
   const auto make = [&] {
     make_flow_map_data(oscillator, starts, of_the_alone, {.step = 0.1, .trajectories = 1});
   };
-  BOOST_TEST(refuses<wrong>(make, {"made for harmonic_oscillator", "in bath(friction=0.1"}));
+  BOOST_TEST(refuses<wrong>(make, {"that of the constructor, harmonic_oscillator", "in bath(friction=0.1"}));
 }
 
 BOOST_AUTO_TEST_CASE(more_trajectories_of_the_same_are_those_made_at_once) {
@@ -243,8 +243,9 @@ BOOST_AUTO_TEST_CASE(noise_that_is_not_whole_is_refused) {
     return refuses<wrong>([&] { require_valid(data, chain); }, words);
   };
   BOOST_TEST(!refused([](auto&) {}, {}));
-  BOOST_TEST(refused([](auto& d) { d.noise.resize(19, 6); }, {"10 pairs with noise in 2 parts hold 19"}));
-  BOOST_TEST(refused([](auto& d) { d.noise_parts = 1; }, {"in 1 parts hold 20"}));
+  BOOST_TEST(
+      refused([](auto& d) { d.noise.resize(19, 6); }, {"10 pairs with noise in 2 parts that hold 19"}));
+  BOOST_TEST(refused([](auto& d) { d.noise_parts = 1; }, {"in 1 parts that hold 20"}));
   BOOST_TEST(refused([](auto& d) { d.noise_parts = -2; }, {"in -2 parts"}));
   BOOST_TEST(refused([](auto& d) { d.noise[13][2] = NAN; },
                      {"not finite", "coordinate 3 of noise 13 is nan", "in pair 6 of trajectory 1"}));

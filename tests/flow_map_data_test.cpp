@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(what_holds_no_step_is_refused) {
   BOOST_TEST(refused({.step = nan}, {"positive"}));
   BOOST_TEST(refused({.step = 0.02, .horizon = nan}, {"finite"}));
   BOOST_TEST(refused({.step = 0.02, .horizon = 1e300}, {"memory"}));
-  BOOST_TEST(refused({.step = 0.0205}, {"not a multiple"}));
+  BOOST_TEST(refused({.step = 0.0205}, {"a multiple"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_start_that_does_not_fit_is_named) {
@@ -118,13 +118,13 @@ BOOST_AUTO_TEST_CASE(data_that_are_not_whole_are_refused_with_the_pair) {
                      {"not finite", "p1 is -inf", "start of pair 7", "trajectory 1"}));
   BOOST_TEST(refused([=](auto& d) { d.finer[1].second.p[5] = nan; },
                      {"p6 is nan", fmt::format("finer finish of pair {}", whole.finer[1].first)}));
-  BOOST_TEST(refused([](auto& d) { d.finer[0].first = 10; }, {"not whole", "pair 10", "there are 10"}));
-  BOOST_TEST(refused([=](auto& d) { d.step = nan; }, {"step nan"}));
-  BOOST_TEST(refused([](auto& d) { d.step = 0.0; }, {"step 0"}));
-  BOOST_TEST(refused([](auto& d) { d.finish.resize(9); }, {"not whole", "9 finishes"}));
-  BOOST_TEST(refused([](auto& d) { d.first_of.clear(); }, {"not whole", "0 trajectories"}));
-  BOOST_TEST(refused([](auto& d) { d = {}; }, {"the data are of"}));
-  BOOST_TEST(refused([](auto& d) { d.first_of.back() = 3; }, {"not whole"}));
+  BOOST_TEST(refused([](auto& d) { d.finer[0].first = 10; }, {"must be whole", "pair 10 of 10"}));
+  BOOST_TEST(refused([=](auto& d) { d.step = nan; }, {"step of the data", "nan"}));
+  BOOST_TEST(refused([](auto& d) { d.step = 0.0; }, {"step of the data", "got 0"}));
+  BOOST_TEST(refused([](auto& d) { d.finish.resize(9); }, {"must be whole", "9 finishes"}));
+  BOOST_TEST(refused([](auto& d) { d.first_of.clear(); }, {"must be whole", "0 trajectories"}));
+  BOOST_TEST(refused([](auto& d) { d = {}; }, {"the data must be of"}));
+  BOOST_TEST(refused([](auto& d) { d.first_of.back() = 3; }, {"must be whole"}));
   BOOST_TEST(refuses<wrong>([&] { require_valid(whole, fpu_chain<3>(49.0)); }, {"omega=50", "omega=49"}));
 }
 
@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_no_bit) {
     BOOST_TEST(same_bits(data, one));
     BOOST_TEST(!same_bits(data, with(threads, 8)));
   }
-  BOOST_TEST(refuses<wrong>([&] { with(0, 7); }, {"at least one thread", "0"}));
+  BOOST_TEST(refuses<wrong>([&] { with(0, 7); }, {"threads must be at least one", "0"}));
 }
 
 BOOST_AUTO_TEST_CASE(every_trajectory_has_its_own_checks) {
@@ -193,8 +193,8 @@ BOOST_AUTO_TEST_CASE(of_several_failures_the_lowest_trajectory_is_named) {
       make_flow_map_data(chain, third_fails_late{&later_failed, threads > 1}, fine_steps<>(1e-3),
                          {.step = 0.02, .horizon = 0.1, .trajectories = 400, .threads = threads});
     };
-    BOOST_TEST(refuses<wrong>(make, {"start 3 of starts", "not finite", "q1 is "}));
-    BOOST_TEST(later_failed == (threads > 1));  // so whoever throws first would have named another
+    BOOST_TEST(refuses<wrong>(make, {"start 3 of starts", "must be finite", "q1 is "}));
+    BOOST_TEST(later_failed == (threads > 1));  // so the first thread that throws would have named another
   }
 }
 
@@ -218,7 +218,7 @@ BOOST_AUTO_TEST_CASE(a_reference_that_diverges_is_told_with_the_lowest_trajector
         make_flow_map_data(cliff(), listed<1>({starts[0], starts[1]}), fine_steps<>(0.05),
                            {.step = 0.5, .trajectories = 40, .threads = 5});
       },
-      {"start 3 was asked for"}));
+      {"number 3 of"}));
 }
 
 BOOST_AUTO_TEST_CASE(the_range_of_energies_is_that_of_all_starts_and_finishes) {

@@ -34,7 +34,7 @@ struct seen {
 };
 
 template <class S>
-seen by(const S& system, int threads, const communicator& ranks = alone) {
+seen by(const S& system, int threads, const communicator& ranks = one_rank) {
   seen result;
   const ensemble_options options{
       .trajectories = trajectories, .steps = steps, .every = every, .threads = threads, .ranks = &ranks};
@@ -60,10 +60,10 @@ BOOST_AUTO_TEST_CASE(each_trajectory_is_as_if_alone) {
   const auto stepper = make_stepper(galaxy, verlet(), 0.1);
   int diverged = 0;
   for (std::int64_t m = 0; m < trajectories; ++m) {
-    const auto look = [&](std::int64_t, double, const auto& x) {
+    const auto observe = [&](std::int64_t, double, const auto& x) {
       singly.values[static_cast<std::size_t>(m)].push_back(x.q[0]);
     };
-    const auto end = integrate(stepper, law(1, static_cast<std::uint64_t>(m)), steps, look, every);
+    const auto end = integrate(stepper, law(1, static_cast<std::uint64_t>(m)), steps, observe, every);
     singly.diverged_at.push_back(end.diverged_at);
     diverged += end.diverged_at ? 1 : 0;
   }
@@ -127,10 +127,10 @@ BOOST_AUTO_TEST_CASE(no_steps_show_the_starts) {
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
-  const auto nobody = [](std::int64_t, std::int64_t, double) {};
+  const auto no_observer = [](std::int64_t, std::int64_t, double) {};
   const auto refused = [&](const ensemble_options& options, auto... words) {
     return refuses<std::invalid_argument>(
-        [&] { integrate_ensemble(galaxy, verlet(), 0.1, law, options, first_coordinate, nobody); },
+        [&] { integrate_ensemble(galaxy, verlet(), 0.1, law, options, first_coordinate, no_observer); },
         {words...});
   };
   BOOST_TEST(refused({.trajectories = 0}, "trajectories 0"));
@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const listed<2> states({{{0.0, 0.0}, {0.0, 0.0}}, {{NAN, 0.0}, {0.0, 0.0}}});
   BOOST_TEST(refuses<std::invalid_argument>(
       [&] {
-        integrate_ensemble(galaxy, verlet(), 0.1, states, {.trajectories = 2}, first_coordinate, nobody);
+        integrate_ensemble(galaxy, verlet(), 0.1, states, {.trajectories = 2}, first_coordinate, no_observer);
       },
-      {"start 1 ", "not finite"}));
+      {"start 1 ", "must be finite"}));
 }

@@ -55,8 +55,8 @@ seen alone(const auto& method, std::uint64_t shift = 0) {
   seen result{std::vector<std::vector<double>>(trajectories), {}};
   const auto stepper = stepper_of(method, 5);
   for (std::uint64_t m = 0; m < trajectories; ++m) {
-    const auto look = [&](std::int64_t, double, const auto& x) { result.values[m].push_back(x.p[0]); };
-    result.diverged_at.push_back(integrate(stepper, law(1, m), steps, look, every, m + shift).diverged_at);
+    const auto observe = [&](std::int64_t, double, const auto& x) { result.values[m].push_back(x.p[0]); };
+    result.diverged_at.push_back(integrate(stepper, law(1, m), steps, observe, every, m + shift).diverged_at);
   }
   return result;
 }
@@ -109,9 +109,9 @@ BOOST_AUTO_TEST_CASE(lockstep_goes_on_where_it_stopped) {
 }
 
 BOOST_AUTO_TEST_CASE(an_ensemble_by_its_method_needs_a_source_of_noise) {
-  const auto nobody = [](auto&&...) {};
+  const auto no_observer = [](auto&&...) {};
   const auto first = [](const auto& x) { return x.p[0]; };
   BOOST_TEST(refuses<std::invalid_argument>(
-      [&] { integrate_ensemble(galaxy, baoab(), 0.1, law, {.trajectories = 2}, first, nobody); },
+      [&] { integrate_ensemble(galaxy, baoab(), 0.1, law, {.trajectories = 2}, first, no_observer); },
       {"noisy", "counter_noise"}));
 }

@@ -18,7 +18,7 @@ using point = phase_point<double, 1>;
 using wrong = std::invalid_argument;
 
 point at(double q, double p) { return {vector<double, 1>(q), vector<double, 1>(p)}; }
-const auto nobody = [](auto&&...) {};
+const auto no_observer = [](auto&&...) {};
 
 /// A force without a potential: q'' = q^3.
 struct runaway {
@@ -62,14 +62,14 @@ void gives_up_in_time(const S& system, const M& method, double step,
   };
   for (const std::int64_t every : {1, 2, 7, 64, 100, 5000}) {
     std::int64_t last_seen = -1;
-    const auto look = [&](std::int64_t n, double, const auto&) { last_seen = n; };
-    const auto end = integrate(system, method, step, x, 5000, look, every);
+    const auto observe = [&](std::int64_t n, double, const auto&) { last_seen = n; };
+    const auto end = integrate(system, method, step, x, 5000, observe, every);
     BOOST_TEST_CONTEXT("every " << every) {
       BOOST_REQUIRE(end.diverged_at.has_value());
       BOOST_TEST(*end.diverged_at == first);
       BOOST_TEST(end.steps == first);
       BOOST_TEST((same(end.finish.q, bad.q) && same(end.finish.p, bad.p)));
-      BOOST_TEST(last_seen == (first - 1) / every * every);  // nobody sees the bad state
+      BOOST_TEST(last_seen == (first - 1) / every * every);  // no observer sees the bad state
     }
   }
 }
@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const pendulum system;
   const double not_a_number = std::numeric_limits<double>::quiet_NaN();
   const auto run = [&](const point& x, std::int64_t steps, std::int64_t every) {
-    integrate(system, verlet(), 0.1, x, steps, nobody, every);
+    integrate(system, verlet(), 0.1, x, steps, no_observer, every);
   };
   BOOST_TEST(refuses<wrong>([&] { run(at(0, 0), -1, 1); }, {"integrate", "steps -1"}));
   BOOST_TEST(refuses<wrong>([&] { run(at(0, 0), 10, 0); }, {"integrate", "every 0"}));
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(the_observer_is_called_every_so_often_with_the_synchronous_
   const auto fixed = make_stepper(system, verlet(), 0.1);
   std::vector<std::int64_t> seen;
   auto run = fixed.open(at(1, 0));
-  const auto look = [&](std::int64_t n, double t, const point& x) {
+  const auto observe = [&](std::int64_t n, double t, const point& x) {
     seen.push_back(n);
     BOOST_TEST(t == static_cast<double>(n) * 0.1);
     if (n == 0) {
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(the_observer_is_called_every_so_often_with_the_synchronous_
     fixed.advance(run, n - run.step);
     BOOST_TEST(same_bits(x, fixed.synchronous(run)));
   };
-  const auto end = integrate(system, verlet(), 0.1, at(1, 0), 200, look, 75);
+  const auto end = integrate(system, verlet(), 0.1, at(1, 0), 200, observe, 75);
   BOOST_TEST((seen == std::vector<std::int64_t>{0, 75, 150}));
   BOOST_TEST(end.steps == 200);
   fixed.advance(run, 50);
@@ -136,7 +136,7 @@ BOOST_AUTO_TEST_CASE(a_passing_excursion_is_judged_the_same_whoever_looks) {
   const auto unobserved = integrate(system, verlet(), 1.9991, at(0, 2), 10000);
   BOOST_TEST(first_bad_step(system, verlet(), 1.9991, at(0, 2), 10000) > 0);
   for (const std::int64_t every : {1, 50, 64, 100, 10000}) {
-    const auto end = integrate(system, verlet(), 1.9991, at(0, 2), 10000, nobody, every);
+    const auto end = integrate(system, verlet(), 1.9991, at(0, 2), 10000, no_observer, every);
     BOOST_TEST((end.diverged_at == unobserved.diverged_at));
     BOOST_TEST(same_bits(end.finish, unobserved.finish));
   }

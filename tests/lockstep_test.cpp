@@ -45,12 +45,12 @@ template <class Stepper, int N>
 watched<N> alone(const Stepper& stepper, const phase_point<double, N>& start, std::int64_t steps,
                  std::int64_t every) {
   watched<N> result;
-  const auto look = [&](std::int64_t n, double, const auto& x) {
+  const auto observe = [&](std::int64_t n, double, const auto& x) {
     if (n == 0) return;
     result.steps.push_back(n);
     result.states.push_back(x);
   };
-  result.diverged_at = integrate(stepper, start, steps, look, every).diverged_at;
+  result.diverged_at = integrate(stepper, start, steps, observe, every).diverged_at;
   return result;
 }
 

@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(it_knows_the_energies_that_it_has_seen) {
   BOOST_TEST(learned.energies()->high == 1.0);
   BOOST_TEST(!tuned.energies().has_value());
   const tuned_method<nystrom> untold(member<nystrom>({0.5, 0.41}), 0.02, describe(system));
-  BOOST_TEST(untold.has_seen(system, at(100.0)));  // nobody knows better
+  BOOST_TEST(untold.has_seen(system, at(100.0)));  // nothing else is known
 }
 
 BOOST_AUTO_TEST_CASE(it_refuses_a_foreign_step) {

@@ -119,13 +119,13 @@ std::vector<double> numbers_of_run(const S& system, const tabulated& method, dou
   }
   for (const std::int64_t every : {1, 3, 64}) {
     auto run = fixed.open(x, trajectory);
-    const auto look = [&](std::int64_t n, const auto& seen) {
+    const auto observe = [&](std::int64_t n, const auto& seen) {
       all.push_back(static_cast<double>(n));
       add_state(all, seen);
     };
-    fixed.advance(run, 7, every, look);
-    fixed.advance(run, 57, every, look);
-    fixed.advance(run, 0, every, look);
+    fixed.advance(run, 7, every, observe);
+    fixed.advance(run, 57, every, observe);
+    fixed.advance(run, 0, every, observe);
     add_state(all, fixed.synchronous(run));
   }
   auto plain = x;
@@ -302,7 +302,7 @@ BOOST_AUTO_TEST_CASE(the_stepper_of_a_model_refuses_in_the_same_words) {
       [&] {
         fixed.open(phase_point<double, Eigen::Dynamic>{three, three});
       },
-      {"3 positions", "the system 2"}));
+      {"3 positions", "2 degrees of freedom"}));
 }
 
 BOOST_AUTO_TEST_CASE(facts_are_those_of_the_concepts) {
@@ -421,9 +421,8 @@ BOOST_AUTO_TEST_CASE(what_the_library_finds_out_of_a_system_it_finds_out_of_its_
 
 BOOST_AUTO_TEST_CASE(starts_of_another_dimension_are_refused) {
   const normal_around<2> of_two({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
-  BOOST_TEST(
-      refuses<std::invalid_argument>([&] { typical_and_energetic_starts(pendulum(), of_two, 1, 0, 10); },
-                                     {"has not the dimension of pendulum"}));
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] { typical_and_energetic_starts(pendulum(), of_two, 1, 0, 10); }, {"the dimension of pendulum"}));
   BOOST_TEST(!typical_and_energetic_starts(henon_heiles(), of_two, 1, 0, 10).empty());
 }
 
@@ -488,14 +487,14 @@ BOOST_AUTO_TEST_CASE(a_model_keeps_a_copy_of_its_system) {
 BOOST_AUTO_TEST_CASE(alone_a_system_is_without_its_bath) {
   const auto warm = a_warm_fpu::make();
   const model coupled(warm);
-  const model alone = coupled.alone();
+  const model alone = coupled.base();
   BOOST_TEST(coupled.bath().acts());
   BOOST_TEST(!alone.bath().acts());
-  BOOST_TEST(describe(alone) == describe(warm.alone()));
+  BOOST_TEST(describe(alone) == describe(warm.base()));
   BOOST_TEST(describe(coupled) == describe(warm));
   draws random;
   const auto starts = starts_of<a_warm_fpu>(random);
   const tabulated method{verlet()};
   BOOST_TEST((numbers_of_run<lanes>(alone, method, 0.05, starts, no_noise()) ==
-              numbers_of_run<lanes>(warm.alone(), method, 0.05, starts, no_noise())));
+              numbers_of_run<lanes>(warm.base(), method, 0.05, starts, no_noise())));
 }

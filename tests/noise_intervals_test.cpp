@@ -73,16 +73,16 @@ BOOST_AUTO_TEST_CASE(what_covers_no_step_is_refused) {
   const auto refused = [](const std::vector<double>& c, std::initializer_list<std::string_view> words) {
     return refuses<wrong>([&] { of_letters(c); }, words);
   };
-  BOOST_TEST(refused({0.5}, {"letters O of O", "cover 0.5 of a step"}));
-  BOOST_TEST(refused({0.5, 0.6}, {"OO", "cover 1.1 of a step"}));
-  BOOST_TEST(refused({0.5, 0.5 + 2e-9}, {"cover 1.000000002"}));
+  BOOST_TEST(refused({0.5}, {"letters O of O", "cover one step", "got 0.5"}));
+  BOOST_TEST(refused({0.5, 0.6}, {"OO", "cover one step", "got 1.1"}));
+  BOOST_TEST(refused({0.5, 0.5 + 2e-9}, {"got 1.000000002"}));
   BOOST_TEST(!refused({0.5, 0.5 + 0.5e-9}, {}));  // as rounded to ten digits
-  BOOST_TEST(refused({std::numeric_limits<double>::quiet_NaN()}, {"cover nan"}));
+  BOOST_TEST(refused({std::numeric_limits<double>::quiet_NaN()}, {"got nan"}));
   BOOST_TEST(refused({0.2928932188, 0.7071067812}, {"equal parts", "60 at most"}));
   BOOST_TEST(refused({60.0 / 61.0, 1.0 / 61.0}, {"equal parts", "60 at most"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_letter_that_goes_back_in_time_is_refused) {
-  BOOST_TEST(refuses<wrong>([] { of_letters({1.5, -0.5}); }, {"back in time", "-0.5"}));
-  BOOST_TEST(refuses<wrong>([] { of_letters({-0.5, 1.5}); }, {"back in time", "-0.5"}));
+  BOOST_TEST(refuses<wrong>([] { of_letters({1.5, -0.5}); }, {"forward in time", "-0.5"}));
+  BOOST_TEST(refuses<wrong>([] { of_letters({-0.5, 1.5}); }, {"forward in time", "-0.5"}));
 }

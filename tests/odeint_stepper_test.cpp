@@ -51,14 +51,14 @@ void check_integrations(const M& method) {
   const setting s(method);
   states theirs;
   std::vector<double> times;
-  const auto look = [&](const phase_point<double, 2>& x, double t) {
+  const auto observe = [&](const phase_point<double, 2>& x, double t) {
     theirs.push_back(x);
     times.push_back(t);
   };
   BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name()) {
     auto x = s.start;
     odeint::integrate_const(odeint_stepper(method), s.system, x, 0.0, h * static_cast<double>(steps), h,
-                            look);
+                            observe);
     agrees(theirs, s.ours, method);
     BOOST_TEST(same_bits(theirs.back(), x));
     BOOST_TEST(std::abs(times.back() - 10.0) <= 10.0 * eps);  // the last point is there
@@ -66,7 +66,7 @@ void check_integrations(const M& method) {
     theirs.clear();
     x = s.start;
     odeint::integrate_n_steps(odeint_stepper(method), s.system, x, 0.0, h, static_cast<std::size_t>(steps),
-                              look);
+                              observe);
     agrees(theirs, s.ours, method);
     BOOST_TEST(distance(x, s.ours.front()) > 1e-3);  // it moved
   }

@@ -27,7 +27,7 @@ void compare() {
     BOOST_TEST((as_data.reads == W::reads));
     BOOST_TEST(as_data.force_derivatives == W::force_derivatives);
     BOOST_TEST(as_data.merges == W::merges);
-    BOOST_TEST(as_data.halves_meet == W::halves_meet);
+    BOOST_TEST(as_data.merges_half_steps == W::merges_half_steps);
     BOOST_TEST(as_data.stochastic_letters == W::stochastic_letters);
     BOOST_TEST(as_data.first_in_loop() == W::first_in_loop);
     BOOST_TEST(as_data.evaluations_per_step == W::evaluations_per_step);
@@ -89,12 +89,12 @@ BOOST_AUTO_TEST_CASE(a_word_splits_the_hamiltonian_in_one_way_or_the_other) {
 }
 
 BOOST_AUTO_TEST_CASE(letters_that_are_not_known_are_refused) {
-  BOOST_TEST(refuses<std::invalid_argument>([] { run_time_word(""); }, {"at least one letter"}));
+  BOOST_TEST(refuses<std::invalid_argument>([] { run_time_word(""); }, {"one or more"}));
   BOOST_TEST(
       refuses<std::invalid_argument>([] { run_time_word("AXB"); }, {"letter X", "A, B, G, D, R, S, H, O"}));
   for (const char* bath_alone : {"O", "OO"}) {
     BOOST_TEST(refuses<std::invalid_argument>([&] { run_time_word{bath_alone}; },
-                                              {bath_alone, "needs a letter beside those of the bath"}));
+                                              {bath_alone, "a letter other than O"}));
   }
   BOOST_TEST(!refuses<std::invalid_argument>([] { run_time_word("AB"); }, {}));
   BOOST_TEST(!refuses<std::invalid_argument>([] { run_time_word("OA"); }, {}));

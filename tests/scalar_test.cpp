@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(derivatives_by_theta_are_the_same_over_jets, Model
   with_jet.step(b);
 
   // Some 20 operations a letter, and dc/dtheta is up to 1/b1^2 times the step's own size.
-  const double magnified = magnification(member<nystrom>({b1, beta1}), h, at);
+  const double magnified = transient_growth(member<nystrom>({b1, beta1}), h, at);
   const double rounding = 20.0 * 5.0 * eps * size_of(x) * magnified * at.potential / (b1 * b1);
   BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << describe(system)) {
     double moved = 0.0;

@@ -36,7 +36,7 @@ std::vector<T> part_of(const std::vector<T>& all, const shard& ours) {
   return {first, first + static_cast<std::ptrdiff_t>(ours.count())};
 }
 
-/// The most that passes at one rank in a sum of `size` doubles over so many trajectories.
+/// The most that passes at one rank in a sum of `size` doubles over that many trajectories.
 traffic most_of_a_sum(int ranks, std::int64_t trajectories, Eigen::Index size) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(size);
   traffic most;

@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(a_bath_that_acts_needs_a_letter_of_the_word) {
   }
   BOOST_TEST(made(trivial, verlet(), 0.1));
   BOOST_TEST(made(trivial, tabulated(verlet{}), 0.1));
-  BOOST_TEST(made(warm.alone(), baoab(), 0.1));  // the system without its bath
+  BOOST_TEST(made(warm.base(), baoab(), 0.1));  // the system without its bath
 }
 
 BOOST_AUTO_TEST_CASE(noise_does_not_go_back_in_time_but_damping_does) {
@@ -124,7 +124,7 @@ BOOST_AUTO_TEST_CASE(each_letter_has_a_coefficient_whatever_the_bath) {
   for (const std::size_t count : {0U, 3U, 4U, 6U}) {
     BOOST_TEST(with(warm, count));
     BOOST_TEST(with(trivial, count));
-    BOOST_TEST(with(warm.alone(), count));
+    BOOST_TEST(with(warm.base(), count));
   }
 }
 

@@ -74,8 +74,8 @@ BOOST_AUTO_TEST_CASE(what_is_no_stiffness_matrix_is_refused) {
   BOOST_TEST(refused(Eigen::MatrixXd(0, 0), 0, {"who asks", "square", "0 x 0"}));
   BOOST_TEST(refused(Eigen::MatrixXd::Zero(2, 3), 2, {"square", "2 x 3"}));
   BOOST_TEST(refused(Eigen::MatrixXd::Identity(2, 2), 3, {"who asks"}));
-  BOOST_TEST(refused(hot, 2, {"who asks", "not finite"}));
+  BOOST_TEST(refused(hot, 2, {"who asks", "must be finite"}));
   BOOST_TEST(refused(skew, 2, {"who asks", "symmetric"}));
-  BOOST_TEST(refused(Eigen::Vector2d(1.0, -1e-3).asDiagonal(), 2, {"who asks", "negative", "-0.001"}));
+  BOOST_TEST(refused(Eigen::Vector2d(1.0, -1e-3).asDiagonal(), 2, {"who asks", "must be >= 0", "-0.001"}));
   BOOST_TEST(!refused(of_free_chain(), 3, {}));
 }

@@ -23,7 +23,7 @@ using state = phase_point<double, Eigen::Dynamic>;
 
 const std::vector<tabulated> words = words_in_turn();
 
-/// Whether a run of the model, watched every so many steps, shows the states of a plain loop.
+/// Whether a run of the model, watched every that many steps, shows the states of a plain loop.
 bool moves_as_in_a_loop(const auto& system, const tabulated& method, std::int64_t steps, std::int64_t every,
                         int threads) {
   draws random;

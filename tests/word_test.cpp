@@ -49,7 +49,7 @@ static_assert(costs<word<kick, O, kick, drift>>(0, 1, 1));
 
 // Where the force is evaluated, and whether it must be stored for later letters.
 constexpr auto none = evaluation::none;
-constexpr auto alone = evaluation::alone;
+constexpr auto unshared = evaluation::unshared;
 constexpr auto shared = evaluation::shared;
 
 template <class W>
@@ -57,39 +57,41 @@ constexpr bool evaluates(const auto& in_step, const auto& in_loop, const auto& i
   return W::plan.in_step == in_step && W::plan.in_loop == in_loop && W::plan.in_last == in_last;
 }
 // Only where a run stops is Verlet's force needed again: to take the half kick back.
-static_assert(evaluates<word<kick, drift, kick>>(std::array{alone, none, alone},
-                                                 std::array{none, none, alone},
+static_assert(evaluates<word<kick, drift, kick>>(std::array{unshared, none, unshared},
+                                                 std::array{none, none, unshared},
                                                  std::array{none, none, shared}));
-static_assert(evaluates<word<drift, kick, drift>>(std::array{none, alone, none},
-                                                  std::array{none, alone, none},
-                                                  std::array{none, alone, none}));
-static_assert(evaluates<alternating_word<kick, drift, 5>>(std::array{alone, none, alone, none, alone},
-                                                          std::array{none, none, alone, none, alone},
-                                                          std::array{none, none, alone, none, shared}));
+static_assert(evaluates<word<drift, kick, drift>>(std::array{none, unshared, none},
+                                                  std::array{none, unshared, none},
+                                                  std::array{none, unshared, none}));
+static_assert(evaluates<alternating_word<kick, drift, 5>>(std::array{unshared, none, unshared, none,
+                                                                     unshared},
+                                                          std::array{none, none, unshared, none, unshared},
+                                                          std::array{none, none, unshared, none, shared}));
 // The next letter, or the next step, reads it too.
 static_assert(evaluates<word<kick, kick, drift>>(std::array{shared, none, none},
                                                  std::array{shared, none, none},
                                                  std::array{shared, none, none}));
-static_assert(evaluates<word<lonely_kick, drift, lonely_kick>>(std::array{alone, none, alone},
+static_assert(evaluates<word<lonely_kick, drift, lonely_kick>>(std::array{unshared, none, unshared},
                                                                std::array{none, none, shared},
                                                                std::array{none, none, shared}));
 static_assert(evaluates<word<drift, kick, lonely_kick>>(std::array{none, shared, none},
                                                         std::array{none, shared, none},
                                                         std::array{none, shared, none}));
-static_assert(evaluates<word<kick>>(std::array{alone}, std::array{none}, std::array{none}));
+static_assert(evaluates<word<kick>>(std::array{unshared}, std::array{none}, std::array{none}));
 
 // Half kicks around a bath share one force; those around a drift and a bath leave it for the next step.
 static_assert(evaluates<word<drift, kick, O, kick, drift>>(std::array{none, shared, none, none, none},
                                                            std::array{none, shared, none, none, none},
                                                            std::array{none, shared, none, none, none}));
-static_assert(evaluates<word<O, kick, drift, kick, O>>(std::array{none, alone, none, alone, none},
+static_assert(evaluates<word<O, kick, drift, kick, O>>(std::array{none, unshared, none, unshared, none},
                                                        std::array{none, none, none, shared, none},
                                                        std::array{none, none, none, shared, none}));
 
 static_assert(word<kick, drift, kick>::merges);
-static_assert(!word<O, drift, O>::merges && word<O, drift, O>::halves_meet);
-static_assert(!word<O, drift>::halves_meet && !word<drift, O>::halves_meet);
-static_assert(!word<kick, drift, O, drift, kick>::halves_meet && word<kick, drift, O, drift, kick>::merges);
+static_assert(!word<O, drift, O>::merges && word<O, drift, O>::merges_half_steps);
+static_assert(!word<O, drift>::merges_half_steps && !word<drift, O>::merges_half_steps);
+static_assert(!word<kick, drift, O, drift, kick>::merges_half_steps &&
+              word<kick, drift, O, drift, kick>::merges);
 static_assert(word<O, drift, O, kick, O>::stochastic_letters == 3);
 static_assert(word<O, drift, O, kick, O>::stochastic_number(0) == 0 &&
               word<O, drift, O, kick, O>::stochastic_number(2) == 1 &&

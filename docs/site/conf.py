@@ -45,7 +45,7 @@ bibtex_bibfiles = ["docs/bibliography.bib"]
 bibtex_default_style = "by_key"
 bibtex_cite_id = "{key}"
 
-# How it looks.
+# Theme and layout.
 html_theme = "furo"
 html_title = "nysalt"
 html_static_path = ["site.css"]

@@ -11,9 +11,9 @@ def potential(q):  # of (trajectories, dimension), one number for each trajector
 
 
 def force(q):  # -grad V, of the shape of q
-    stretch = np.diff(q, axis=1, prepend=0.0, append=0.0)
-    stretch[:, 0] = stretch[:, -1] = 0.0  # the ends are free
-    return -q - q**3 + stretch[:, 1:] - stretch[:, :-1]
+    elongation = np.diff(q, axis=1, prepend=0.0, append=0.0)
+    elongation[:, 0] = elongation[:, -1] = 0.0  # the ends are free
+    return -q - q**3 + elongation[:, 1:] - elongation[:, :-1]
 
 
 def starts(seed, n):

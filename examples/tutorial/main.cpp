@@ -24,8 +24,8 @@ struct spring_pendulum {
   template <class T>
   T potential(const vector<T, 2>& q) const {
     using std::sqrt;
-    const T stretch = sqrt(q[0] * q[0] + q[1] * q[1]) - 1.0;
-    return stretch * stretch * (0.5 * stiffness) + q[1];
+    const T elongation = sqrt(q[0] * q[0] + q[1] * q[1]) - 1.0;
+    return elongation * elongation * (0.5 * stiffness) + q[1];
   }
   template <class T>
   void force(const vector<T, 2>& q, vector<T, 2>& f) const {  // -k (r - 1)/r q - (0, 1)

@@ -9,7 +9,8 @@
 
 namespace nysalt {
 
-/// So that a file which has just got its name keeps it when the power fails; as far as the system can.
+/// Synchronises a folder with the disk, so that a renamed file survives a power failure; as far as the system
+/// can.
 void put_folder_on_disk(const std::filesystem::path& file);
 
 namespace detail {
@@ -40,9 +41,9 @@ class atomic_file {
   /// Appends the text. Throws std::runtime_error if it cannot be written.
   void write(std::string_view text);
 
-  /// Gives the file its name. Throws std::runtime_error if what was written did not arrive; then an older
-  /// file is as it was. If it is to be `durable`, it outlasts the machine's power too, which costs some
-  /// milliseconds.
+  /// Renames the finished file to the name asked for. Throws std::runtime_error if what was written did not
+  /// arrive; then an older file is as it was. If it is to be `durable`, it outlasts the machine's power too,
+  /// which costs some milliseconds.
   void commit(bool durable = false);
 
  private:

@@ -20,28 +20,30 @@ namespace nysalt {
 /// no temperature.
 class bath {
  public:
-  /// From friction and sigma; there is a kT where there is friction. Throws std::invalid_argument unless both
-  /// are finite and not negative.
+  /// A bath from friction and sigma; there is a kT where there is friction. Throws std::invalid_argument
+  /// unless both are finite and not negative.
   static bath of_sigma(double friction, double sigma) {
     require("sigma", sigma);
     return {friction, sigma, friction > 0.0 ? std::optional(sigma * sigma / (2.0 * friction)) : std::nullopt};
   }
-  /// From friction and kT, an energy: sigma = sqrt(2 gamma kT). Throws std::invalid_argument unless both are
-  /// finite and not negative.
+  /// A bath from friction and kT, an energy: sigma = sqrt(2 gamma kT). Throws std::invalid_argument unless
+  /// both are finite and not negative.
   static bath of_temperature(double friction, double temperature) {
     require("temperature", temperature);
     return {friction, std::sqrt(2.0 * friction * temperature), temperature};
   }
 
   double friction() const { return friction_; }  ///< gamma, one over time
-  double sigma() const { return sigma_; }        ///< of the noise, for unit mass
+  double sigma() const { return sigma_; }        ///< sigma of the noise, for unit mass
   /// Whether kT is known: not without friction, unless it was given.
   bool has_temperature() const { return temperature_.has_value(); }
-  /// kT. Throws std::domain_error where there is noise, or might be, but no friction.
+  /// Temperature kT, an energy. Throws std::domain_error where there is noise, or might be, but no friction.
   double temperature() const {
     if (temperature_) return *temperature_;
-    throw std::domain_error(sentence(
-        "a bath with sigma = {} and no friction has no temperature: kT = sigma^2/(2 friction)", sigma_));
+    throw std::domain_error(
+        sentence("bath: friction must be > 0 for a temperature kT = sigma^2/(2 friction), got sigma = "
+                 "{} and no friction",
+                 sigma_));
   }
 
   /// Whether there is friction or noise; else a system in it moves as without it.
@@ -96,7 +98,7 @@ class bath {
   std::optional<double> temperature_;
 };
 
-/// A system that says what bath it is in.
+/// A system that declares a bath.
 template <class S>
 concept HasBath = System<S> && requires(const S& s) {
   { s.bath() } -> std::convertible_to<const nysalt::bath&>;

@@ -12,7 +12,7 @@
 
 namespace nysalt {
 
-/// One of several processes that run the same program, as it sees the others: rank r of size(). All that is
+/// The ranks of a program from the view of one of them: rank r of size(). All that is
 /// not send() and receive() is collective: every rank calls it, in the same order. A message has the length
 /// that its receiver expects. A rank that leaves a collective function by an exception which the others do
 /// not throw, as when only that rank is out of memory, leaves them waiting: it must end the job.
@@ -21,9 +21,10 @@ class communicator {
   virtual ~communicator() = default;
 
   virtual int rank() const = 0;  ///< number of this process, from 0
-  virtual int size() const = 0;  ///< how many processes there are
+  virtual int size() const = 0;  ///< number of processes
 
-  /// Between two ranks messages arrive in the order in which they were sent. send() may wait for receive().
+  /// Sends a message. Between two ranks messages arrive in the order in which they were sent. send() may wait
+  /// for receive().
   virtual void send(std::span<const std::byte> message, int to) const = 0;
   /// Waits for the next message of rank `from`, as long as `message` is.
   virtual void receive(std::span<std::byte> message, int from) const = 0;
@@ -38,8 +39,8 @@ class communicator {
   /// soon is there sooner then; this one leaves it to those that work, and takes some milliseconds.
   virtual void meet() const = 0;
 
-  bool is_first() const { return rank() == 0; }  ///< whether this is rank 0
-  bool is_alone() const { return size() == 1; }  ///< whether there are no others
+  bool is_first() const { return rank() == 0; }   ///< whether this is rank 0
+  bool is_single() const { return size() == 1; }  ///< whether there are no others
 };
 
 /// A value that is its bytes, from one rank to all.
@@ -66,7 +67,7 @@ void gather_items(const communicator& ranks, std::vector<Item>& all, std::vector
   ranks.gather(std::as_writable_bytes(std::span(all)), first_of);
 }
 
-/// A value of each rank, at all of them.
+/// All-gather of one value of each rank.
 template <class T>
   requires std::is_trivially_copyable_v<T>
 std::vector<T> in_order_of_ranks(const communicator& ranks, const T& value) {
@@ -78,7 +79,7 @@ std::vector<T> in_order_of_ranks(const communicator& ranks, const T& value) {
   return all;
 }
 
-/// The items of rank 0, then those of rank 1, and so on, at all of them.
+/// All-gather of lists: the items of rank 0, then those of rank 1, and so on.
 template <class T>
   requires std::is_trivially_copyable_v<T>
 std::vector<T> one_after_the_other(const communicator& ranks, const std::vector<T>& ours) {

@@ -14,23 +14,23 @@
 
 namespace nysalt {
 
-/// One method at one step by one metric.
+/// Result of one method at one step by one metric.
 struct compared_method {
-  std::string method;           ///< as it was asked for
+  std::string method;           ///< method as requested
   double step;                  ///< size of a whole step
-  std::string metric;           ///< as it was asked for, with the observable
-  bool is_learned;              ///< by this comparison, or in a scheme
+  std::string metric;           ///< metric as requested, with the observable
+  bool is_learned;              ///< whether the method was learned, by this comparison, or in a scheme
   double evaluations_per_time;  ///< force evaluations of one trajectory per unit time
-  double seconds_per_time;      ///< of one trajectory per unit time, the least that was timed
+  double seconds_per_time;      ///< wall time of one trajectory per unit time, minimum over rounds
   estimate value;         ///< the error (of acceptance the probability) with its standard error; NaN: none
-  std::int64_t diverged;  ///< trajectories that did
+  std::int64_t diverged;  ///< number of diverged trajectories
   std::string reason;     ///< why there is no value; else empty
 };
 
 /// Result of compare().
 class comparison {
  public:
-  class measurement;  ///< how the library holds what was found
+  class measurement;  ///< internal form of the results
   /// Made by compare().
   explicit comparison(std::shared_ptr<const measurement> found) : found_(std::move(found)) {}
 
@@ -58,7 +58,7 @@ class comparison {
 comparison compare(const initial_value_problem& problem, const comparison_options& options,
                    const execution_options& execution = {});
 
-/// The same, and what was found as a page with tables and pictures in a folder.
+/// A comparison with a report: a page with tables and pictures in a folder.
 comparison report(const initial_value_problem& problem, comparison_options options,
                   const std::filesystem::path& folder, const execution_options& execution = {});
 

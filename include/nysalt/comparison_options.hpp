@@ -15,22 +15,23 @@ namespace nysalt {
 struct execution_options {
   std::uint64_t seed = 1;  ///< below 2^51: learning, judging and testing draw apart from each other by it
   int threads = 1;         ///< results are the same bits for any number
-  bool force = false;      ///< a scheme is taken at another step or system than it was learned for
+  bool force = false;      ///< whether a scheme may be used at another step or system than that of learning
 };
 
 /// Options of learning at a step that is given elsewhere.
 struct learning_options {
-  std::optional<double> fine_step{};  ///< of the reference; must divide the step. None: by the frequency
-  std::int64_t trajectories = 100;    ///< to learn from, and as many to judge by
-  std::optional<double> horizon{};    ///< of each trajectory. None: see horizon_at()
   std::optional<double>
-      planned_horizon{};           ///< of the runs to come, if known: to learn from no more is needed
-  std::string coordinates{};       ///< of the errors: qp, modes or energy. Empty: as suits the loss
+      fine_step{};  ///< fine step of the reference; must divide the step. None: by the frequency
+  std::int64_t trajectories = 100;  ///< trajectories to learn from, and as many to judge by
+  std::optional<double> horizon{};  ///< horizon of each trajectory. None: see horizon_at()
+  std::optional<double>
+      planned_horizon{};  ///< planned horizon of the runs to come, if known: to learn from no more is needed
+  std::string coordinates{};  ///< coordinates of the errors: qp, modes or energy. Empty: as suits the loss
   std::vector<std::string> fix{};  ///< parameters of the family that are not learned: "name=value"
   std::string loss{};              ///< as of loss_named(). Empty: trajectory, but
                        ///< state:1 in a bath, and where neither states nor coordinates are measured
-  std::string effort = "normal";                ///< of the search by trajectories: quick, normal or thorough
-  std::optional<std::int64_t> random_starts{};  ///< of the search. None: by the effort
+  std::string effort = "normal";  ///< effort of the search by trajectories: quick, normal or thorough
+  std::optional<std::int64_t> random_starts{};  ///< random starts of the search. None: by the effort
 
   /// The horizon at a step. Where none is asked for it is that of the runs to come, but from 16 to 200 steps,
   /// and 200 where nothing is known of them; of losses after K steps it is 0.5, or ten steps if that is
@@ -41,28 +42,29 @@ struct learning_options {
 /// Schemes and tables that a caller holds in memory: by name the text of what would be their file.
 using held_methods = std::map<std::string, std::string>;
 
-/// Which methods are compared, on what, and by which errors.
+/// Methods, trajectories and error measures of a comparison.
 struct comparison_options {
   std::vector<std::string> methods{};  ///< names, "learned:FAMILY", paths of files, or names of `held`
   std::vector<double> steps{};         ///< sizes: of a whole step, or (equal_cost) of a force evaluation
-  bool equal_cost = false;          ///< steps are per force evaluation, so that rows of a step cost the same
+  bool equal_cost =
+      false;  ///< whether steps are per force evaluation, so that rows of one step have equal cost
   /// The price of the force of each part of a sum, in any unit: evaluations are then those of the whole force,
   /// and a kick with a part counts as the share of the part. Empty: each kick counts as one.
   std::vector<double> prices{};
-  std::optional<double> horizon{};  ///< of each trajectory. None: 0.5, or ten of the largest steps
-  std::int64_t trajectories = 400;  ///< to compare on; none of them is learned from
+  std::optional<double> horizon{};  ///< horizon of each trajectory. None: 0.5, or ten of the largest steps
+  std::int64_t trajectories = 400;  ///< trajectories to compare on; none of them is learned from
   std::vector<std::string> metrics{"path"};  ///< path, relative, state, exchange, energy, acceptance,
                                              ///< distribution, acf; path:OBSERVABLE names that of one
-  std::string observable{};                  ///< of path, relative, distribution and acf. Empty: the usual
-  learning_options learning{};               ///< of learned methods
-  held_methods held{};                       ///< methods that are not in files
-  std::string placement{};                   ///< of the letters O in a bath: end, symmetric or middle
-  std::vector<double> levels{};              ///< errors at which costs are compared; empty: those of the data
-  std::vector<double> range{};               ///< low and high end of the histogram; empty: that of the starts
-  std::int64_t bins = 100;                   ///< of the histogram
-  double longest_lag = 1.0;                  ///< of the autocovariance, a time
-  double hmc_temperature = 1.0;              ///< kT of the acceptance, an energy
-  bool energies = false;  ///< errors of the energy are followed along the horizon, for a picture
+  std::string observable{};      ///< observable of path, relative, distribution and acf. Empty: the usual
+  learning_options learning{};   ///< options of learned methods
+  held_methods held{};           ///< methods that are not in files
+  std::string placement{};       ///< placement of the letters O in a bath: end, symmetric or middle
+  std::vector<double> levels{};  ///< errors at which costs are compared; empty: those of the data
+  std::vector<double> range{};   ///< low and high end of the histogram; empty: that of the starts
+  std::int64_t bins = 100;       ///< bins of the histogram
+  double longest_lag = 1.0;      ///< longest lag of the autocovariance, a time
+  double hmc_temperature = 1.0;  ///< kT of the acceptance, an energy
+  bool energies = false;         ///< errors of the energy are followed along the horizon, for a picture
 };
 
 /// Among which methods one is chosen: at a cost, or at an error.
@@ -70,29 +72,30 @@ struct recommendation_options {
   std::optional<double> budget{};                ///< force evaluations per unit time; or
   std::optional<double> budget_seconds{};        ///< seconds per unit time of one trajectory; or
   std::optional<double> error{};                 ///< an error by the metric
-  double horizon = 0.0;                          ///< of each trajectory, positive
-  std::string metric = "state";                  ///< as of comparison_options
-  std::string observable{};                      ///< of path and relative. Empty: the usual
-  std::int64_t trajectories = 100;               ///< to rank by
-  std::vector<std::string> families{};           ///< that may be learned. Empty: all that suit
-  learning_options learning{.effort = "quick"};  ///< of these
-  std::string placement{};                       ///< of the letters O in a bath: end, symmetric or middle
-  double hmc_temperature = 1.0;                  ///< kT of the acceptance, an energy
-  bool reversible = false;                       ///< symmetric methods only
-  std::int64_t looks = 1;  ///< at each trajectory of later runs: processed methods pay for each
+  double horizon = 0.0;                          ///< horizon of each trajectory, positive
+  std::string metric = "state";                  ///< metric, as in comparison_options
+  std::string observable{};                      ///< observable of path and relative. Empty: the usual
+  std::int64_t trajectories = 100;               ///< trajectories to rank by
+  std::vector<std::string> families{};           ///< families that may be learned. Empty: all that suit
+  learning_options learning{.effort = "quick"};  ///< options of the families that are learned
+  std::string placement{};       ///< placement of the letters O in a bath: end, symmetric or middle
+  double hmc_temperature = 1.0;  ///< kT of the acceptance, an energy
+  bool reversible = false;       ///< symmetric methods only
+  std::int64_t looks = 1;  ///< observations of each trajectory of later runs: processed methods pay for each
 };
 
-/// Which word and step Hybrid Monte Carlo takes for a system: at one acceptance, all words with the same
-/// durations of trajectories.
+/// Options of the choice of word and step of Hybrid Monte Carlo for a system: at one acceptance, all words
+/// with the same durations of trajectories.
 struct sampling_options {
-  double length = 0.0;        ///< mean duration of a trajectory: durations are uniform up to twice that
-  double acceptance = 0.9;    ///< at which the steps of words are compared
-  double temperature = 1.0;   ///< kT, an energy: exp(-V/kT) is sampled
-  double times_larger = 1.0;  ///< how many times larger than the system is the one that will be sampled:
-                              ///< energy errors add up, so that a small lattice predicts a large one
-  std::int64_t trajectories = 100;               ///< to judge words by
-  std::vector<std::string> families{};           ///< to learn. Empty: bab3 to bab6, and fd_chin
-  learning_options learning{.effort = "quick"};  ///< of these. Its loss is acceptance where none is named
+  double length = 0.0;              ///< mean duration of a trajectory: durations are uniform up to twice that
+  double acceptance = 0.9;          ///< acceptance probability at which the steps of words are compared
+  double temperature = 1.0;         ///< kT, an energy: exp(-V/kT) is sampled
+  double times_larger = 1.0;        ///< size of the system that will be sampled, as a multiple of this one:
+                                    ///< energy errors add up, so that a small lattice predicts a large one
+  std::int64_t trajectories = 100;  ///< trajectories to judge words by
+  std::vector<std::string> families{};           ///< families to learn. Empty: bab3 to bab6, and fd_chin
+  learning_options learning{.effort = "quick"};  ///< options of the families that are learned. Their loss is
+                                                 ///< acceptance where none is named
   bool starts_are_thermal = false;  ///< starts are draws of exp(-H/kT); else pilot chains make some from them
 };
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
 
@@ -30,26 +30,26 @@ class distributed_run {
   /// site.
   using start = std::function<void(Eigen::Index first, std::span<double> q, std::span<double> p)>;
 
-  /// At its start. The communicator must outlive the run. Throws std::invalid_argument on all ranks if the
-  /// system is no LocalSystem or is in a bath that acts, if the word is not drifts and kicks in turn or is
-  /// processed, if the step is zero or not finite, if a start is not finite, or if there are more ranks than
-  /// the sites can be shared by.
+  /// A run at the initial state. The communicator must outlive the run. Throws std::invalid_argument on all
+  /// ranks if the system is no LocalSystem or is in a bath that acts, if the word is not drifts and kicks in
+  /// turn or is processed, if the step is zero or not finite, if a start is not finite, or if there are more
+  /// ranks than the sites can be shared by.
   distributed_run(const model& system, const tabulated& method, double step, const start& at,
-                  const communicator& ranks = alone);
-  /// The same of any other method.
+                  const communicator& ranks = one_rank);
+  /// A run of any other method.
   template <Method M>
   distributed_run(const model& system, const M& method, double step, const start& at,
-                  const communicator& ranks = alone)
+                  const communicator& ranks = one_rank)
       : distributed_run(system, detail::table_for(method, system, step), step, at, ranks) {}
   ~distributed_run();
   distributed_run(distributed_run&&) noexcept;             ///< leaves the other one without a state
   distributed_run& operator=(distributed_run&&) noexcept;  ///< likewise
 
-  /// Takes `steps` steps. Throws std::invalid_argument if steps < 0.
+  /// Advances by `steps` steps. Throws std::invalid_argument if steps < 0.
   void advance(std::int64_t steps);
   /// The synchronous state of this rank's sites.
   phase_point<double, Eigen::Dynamic> synchronous() const;
-  /// H, summed in a tree whose shape depends on the number of sites alone. Throws std::invalid_argument if
+  /// H, summed in a tree whose shape depends on the number of sites only. Throws std::invalid_argument if
   /// the system has no potential_in_range().
   double energy() const;
   /// Whether all numbers of all ranks are finite.
@@ -61,9 +61,9 @@ class distributed_run {
   /// Goes on from a state that open() gave: read(first, q, p) as a start. Throws as the constructor.
   void resume(std::int64_t step, const start& read);
 
-  std::int64_t step() const;        ///< how many are done
-  Eigen::Index first_site() const;  ///< of this rank
-  Eigen::Index sites() const;       ///< of this rank
+  std::int64_t step() const;        ///< number of steps done
+  Eigen::Index first_site() const;  ///< first site of this rank
+  Eigen::Index sites() const;       ///< sites of this rank
 
  private:
   struct parts;

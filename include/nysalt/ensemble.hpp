@@ -47,7 +47,7 @@ phase_point<double, S::dimension> require_sound(const S& system, const E& ensemb
                                                 phase_point<double, S::dimension> start) {
   if (start.q.size() == size(system) && start.p.size() == size(system) && is_finite(start)) return start;
   const std::string what = not_finite_in(start);
-  throw std::invalid_argument(sentence("start {} of {} is not finite or has not the dimension of {}{}", n,
+  throw std::invalid_argument(sentence("start {} of {} must be finite and have the dimension of {}{}", n,
                                        ensemble.description(), describe(system),
                                        what.empty() ? "" : ": " + what));
 }
@@ -60,8 +60,8 @@ phase_point<double, S::dimension> sound_start(const S& system, const E& ensemble
   return detail::require_sound(system, ensemble, n, ensemble(seed, static_cast<std::uint64_t>(n)));
 }
 
-/// Those of `count` trajectories from the first on, one in each lane of T; lanes beyond them repeat the
-/// first.
+/// Initial states of `count` trajectories from the first on, one in each lane of T; lanes beyond them repeat
+/// the first.
 template <class T, System S, Ensemble<S> E>
 phase_point<T, S::dimension> sound_starts(const S& system, const E& ensemble, std::uint64_t seed,
                                           std::int64_t first, int count) {

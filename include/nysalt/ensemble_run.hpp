@@ -25,7 +25,7 @@ namespace nysalt {
 struct saved_runs {
   std::int64_t step = 0;        ///< steps that every trajectory has done
   std::vector<double> numbers;  ///< q, p and f of one trajectory after the other; 0 of those that diverged
-  std::vector<std::optional<std::int64_t>> diverged_at;  ///< the step of each that did
+  std::vector<std::optional<std::int64_t>> diverged_at;  ///< step of divergence of each trajectory, if any
 };
 
 /// Trajectories m = first .. first + count - 1 from ensemble(seed, m), with the noise of their numbers. As
@@ -45,7 +45,7 @@ class ensemble_run {
   using state = phase_point<T, N>;
 
  public:
-  /// At their starts. Throws std::invalid_argument if there are none, or one does not fit.
+  /// A run at the initial states. Throws std::invalid_argument if there are none, or one does not fit.
   template <Ensemble<typename Stepper::system_type> E>
   ensemble_run(const Stepper& stepper, const E& ensemble, std::uint64_t seed, std::int64_t first,
                std::int64_t count, int threads = 1)
@@ -55,8 +55,8 @@ class ensemble_run {
     });
   }
 
-  /// Where `saved` left them. Throws std::invalid_argument if it is of another number of trajectories or
-  /// coordinates.
+  /// A run that resumes from `saved`. Throws std::invalid_argument if it is of another number of trajectories
+  /// or coordinates.
   template <Ensemble<typename Stepper::system_type> E>
   ensemble_run(const Stepper& stepper, const E& ensemble, std::uint64_t seed, std::int64_t first,
                std::int64_t count, const saved_runs& saved, int threads = 1)
@@ -79,7 +79,7 @@ class ensemble_run {
       const auto size = static_cast<int>(std::min<std::int64_t>(width, count_ - first));
       detail::one_after_the_other<Take> hand_over(take, first_ + first, size, width_of_numbers);
       const auto at = static_cast<std::size_t>(b);
-      if (!starts_.empty()) detail::look_at_starts(starts_[at], size, width_of_numbers, read, hand_over);
+      if (!starts_.empty()) detail::observe_starts(starts_[at], size, width_of_numbers, read, hand_over);
       blocks_[at]->go_on(end, every, width_of_numbers, read, hand_over);
     };
     const auto all = static_cast<std::int64_t>(blocks_.size());
@@ -112,7 +112,7 @@ class ensemble_run {
   }
 
   std::int64_t step() const { return step_; }  ///< steps that every trajectory has done
-  /// The step at which trajectory m, by its number, diverged, if it did.
+  /// Step of divergence of trajectory m, if any.
   std::optional<std::int64_t> diverged_at(std::int64_t m) const {
     const std::int64_t at = m - first_;
     return blocks_[static_cast<std::size_t>(at / width)]->diverged_at(static_cast<int>(at % width));
@@ -169,7 +169,7 @@ class ensemble_run {
     return runs(stepper_of(block), start, count, std::move(run), lost);
   }
 
-  /// Of a black box, whose force may have memory: a copy of the system that only one block uses.
+  /// For a black box, whose force may have memory, a copy of the system that only one block uses.
   struct own_system {
     explicit own_system(const Stepper& of)
         : system(of.system().separate()), stepper(of.with_system(system)) {}

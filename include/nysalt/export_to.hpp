@@ -12,9 +12,9 @@ namespace nysalt {
 
 /// A language or code that methods are exported to.
 struct export_host {
-  std::string_view name;    ///< as export_to() takes it
-  std::string_view what;    ///< what the text holds
-  std::string_view suffix;  ///< of a file with the text
+  std::string_view name;    ///< name of the format, an argument of export_to()
+  std::string_view what;    ///< content of the text
+  std::string_view suffix;  ///< suffix of a file with the text
 };
 
 /// All hosts, in the order of docs/how-to/take_it_with_you.md.

@@ -15,12 +15,12 @@
 
 namespace nysalt {
 
-/// Where a parameter may lie. Open: the coefficients are not defined at the ends. Closed: the ends may be
+/// Range of a parameter. Open: the coefficients are not defined at the ends. Closed: the ends may be
 /// attained.
 struct parameter_range {
   double low;   ///< lower end
   double high;  ///< upper end
-  bool open;    ///< without the ends
+  bool open;    ///< whether the ends are excluded
 
   /// Whether a parameter may be x. NaN may not.
   bool contains(double x) const { return open ? low < x && x < high : low <= x && x <= high; }
@@ -30,15 +30,15 @@ struct parameter_range {
 template <class F>
 using parameters_of = std::array<double, static_cast<std::size_t>(F::parameters)>;
 
-/// Where a family has no bounds of its own: beyond it coefficients of opposite sign leave less than half of
-/// their digits of each other. A search that ends here has found nothing.
+/// Bound of a parameter where a family has none: beyond it coefficients of opposite sign leave less than half
+/// of their digits of each other. A search that ends here has found nothing.
 inline constexpr double farthest_parameter = 4.0;
 
 /// A classical method that a family contains.
 template <int Parameters>
 struct classical_member {
-  std::string_view name;                                           ///< that of the method
-  std::array<double, static_cast<std::size_t>(Parameters)> theta;  ///< its parameters in the family
+  std::string_view name;                                           ///< name of the method
+  std::array<double, static_cast<std::size_t>(Parameters)> theta;  ///< parameters of the method in the family
 };
 
 /// Carries the derivatives by theta, which learning needs.
@@ -53,8 +53,8 @@ using theta_dual = dual<double, F::parameters>;
 ///   letters()                                      where the word is a run_time_word
 /// All but the last two are static; these may be, or depend on the constructor arguments of the family.
 /// And, if wanted, further points from which a search begins: classical_members(), and further_starts(),
-/// thetas without a name; refuge(), the member that is stable farthest, for steps at which the others are
-/// not; and source, the key in docs/bibliography.bib of where it comes from.
+/// thetas without a name; most_stable_member(), the member with the longest stability interval, for steps
+/// at which the others are unstable; and source, the key in docs/bibliography.bib of where it comes from.
 template <class F>
 concept Family = std::copyable<F> && Word<typename F::word> &&
                  requires(const F& family, const parameters_of<F>& theta,

@@ -13,20 +13,20 @@ namespace nysalt {
 /// known.
 template <Scalar T, int N>
 struct flow_state : phase_point<T, N> {
-  vector<T, N> f;  ///< the force, as its word needs it
+  vector<T, N> f;  ///< force at q, where the word needs the force
 };
 
-/// Nothing: what letters that need no room take.
+/// Empty work space, of letters that need none.
 struct no_room {};
 
 /// Room for letters that need more than the state: made once a run, so that stepping does not allocate.
 template <Scalar T, int N>
 struct flow_room : lifted_room<T, N> {
   flow_room() = default;
-  /// For a number of degrees of freedom.
+  /// Work space for a number of degrees of freedom.
   explicit flow_room(Eigen::Index size) : lifted_room<T, N>(size), x(size), y(size) {}
-  vector<T, N> x;  ///< of a rotation, M^-1 f of a gradient kick, or the displaced q
-  vector<T, N> y;  ///< of a rotation, f'(q) M^-1 f, or the force at the displaced q
+  vector<T, N> x;  ///< work space: modal x of a rotation, M^-1 f of a gradient kick, or the displaced q
+  vector<T, N> y;  ///< work space: modal y of a rotation, f'(q) M^-1 f, or the force at the displaced q
 };
 
 /// The flow of the bath: its `stochastic` is true, and it draws noise.
@@ -44,9 +44,9 @@ enum class splitting {
   quadratic_part_and_rest  ///< K with the quadratic part of V, and the rest of V: R, S, H
 };
 
-/// The oscillator q'' = -(theta^2 + k) q of which theta^2 is the quadratic part, as letters act on it over a
-/// step of 1. times_k(x) is k x, so that k may be a number, the variable of a polynomial, or, for two modes,
-/// a matrix; theta is a number, or an array of two.
+/// The oscillator q'' = -(theta^2 + k) q of which theta^2 is the quadratic part, for letters over a step
+/// of 1. times_k(x) is k x, so that k may be a number, the variable of a polynomial, or, for two modes, a
+/// matrix; theta is a number, or an array of two.
 template <class Theta, class TimesK>
 struct split_stiffness {
   const Theta& theta;     ///< frequency of the quadratic part
@@ -92,7 +92,7 @@ constexpr bool is_symplectic() {
   }
 }
 
-/// Requirements of R, S and H on a system, for refusals while running and while compiling.
+/// Requirements of R, S and H on a system, for refusals at run time and at compile time.
 inline constexpr const char* needs_quadratic_part =
     "the letters R, S, H need a system that declares a quadratic part: modes() and soft_force(q, f), see "
     "nysalt/system.hpp, or with_quadratic_part(system, stiffness); as templates over any scalar, where they "

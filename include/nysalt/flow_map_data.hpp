@@ -20,9 +20,9 @@
 
 namespace nysalt {
 
-/// Where the pairs of one rank are among those of all.
+/// Position of the pairs of one rank among those of all ranks.
 struct shared_pairs {
-  shard trajectories;  ///< which trajectories are whose
+  shard trajectories;  ///< distribution of the trajectories over ranks
   std::size_t first;   ///< number of the first pair at this rank, among all
   std::size_t total;   ///< pairs of all ranks
 };
@@ -36,7 +36,7 @@ struct flow_map_data {
 
   double step = 0.0;  ///< h, of all pairs
 
-  /// In how many equal parts of a step noise is kept, for systems in a bath; 0: it is not.
+  /// Number of equal parts of a step for which noise is kept, in a bath; 0: none.
   int noise_parts = 0;
   /// Standard normal numbers of that noise: those of pair n are noise[n noise_parts + k] for k from 0 to
   /// noise_parts - 1.
@@ -50,16 +50,16 @@ struct flow_map_data {
   /// A few finishes again with the finer reference: {pair, finish}. They estimate the reference's own error.
   std::vector<std::pair<std::size_t, phase_point<double, Eigen::Dynamic>>> finer;
 
-  std::optional<shared_pairs> shared;  ///< nothing if these are all
+  std::optional<shared_pairs> shared;  ///< null if this rank has all pairs
 
   // Provenance, that of all ranks.
   std::string system;                    ///< description of the system
   std::string ensemble;                  ///< description of the ensemble
   std::string reference;                 ///< description of the reference
-  std::uint64_t seed = 0;                ///< of starts and noise
-  std::int64_t evaluations = 0;          ///< force evaluations of all ranks that it took, checks included
+  std::uint64_t seed = 0;                ///< seed of starts and noise
+  std::int64_t evaluations = 0;          ///< force evaluations of the data on all ranks, checks included
   double seconds = 0.0;                  ///< wall time at this rank
-  std::optional<energy_range> energies;  ///< of all starts and finishes; none where H is not known
+  std::optional<energy_range> energies;  ///< energies of all starts and finishes; none where H is not known
 
   std::size_t pairs() const { return start.size(); }  ///< number of pairs at this rank
   /// Number of trajectories at this rank.
@@ -67,7 +67,7 @@ struct flow_map_data {
   /// Number, from 0, of the trajectory at this rank that holds a pair.
   std::size_t trajectory_of(std::size_t pair) const;
 
-  /// Which of all trajectories this rank has.
+  /// Distribution of the trajectories over ranks.
   shard share() const {
     return shared ? shared->trajectories : shard(static_cast<std::int64_t>(trajectories()));
   }
@@ -77,16 +77,16 @@ struct flow_map_data {
   std::size_t first_pair() const { return shared ? shared->first : 0; }
 };
 
-/// Which trajectories are followed, for how long, and by whom.
+/// Number, length, seed and threads of the trajectories of the data.
 struct data_options {
-  double step;                         ///< h, the step to learn for
-  double horizon = 0.5;                ///< length of each trajectory, a time: floor(horizon/step) steps
-  std::int64_t trajectories = 100;     ///< number of independent starts
-  std::uint64_t seed = 1;              ///< of starts and noise
-  std::int64_t first = 0;              ///< number of the first trajectory: which start and which noise it has
-  int noise_parts = 0;                 ///< equal parts of a step in which noise is kept, for letters O
-  int threads = 1;                     ///< changes no bit of the data
-  const communicator* ranks = &alone;  ///< who share the trajectories; changes no bit either
+  double step;                      ///< h, the step to learn for
+  double horizon = 0.5;             ///< length of each trajectory, a time: floor(horizon/step) steps
+  std::int64_t trajectories = 100;  ///< number of independent starts
+  std::uint64_t seed = 1;           ///< seed of starts and noise
+  std::int64_t first = 0;           ///< number of the first trajectory: which start and which noise it has
+  int noise_parts = 0;              ///< equal parts of a step in which noise is kept, for letters O
+  int threads = 1;                  ///< changes no bit of the data
+  const communicator* ranks = &one_rank;  ///< ranks that share the trajectories; changes no bit either
   /// Called after some trajectories with the number done; from any thread, never two calls at once.
   std::function<void(std::int64_t done)> progress{};
 };
@@ -109,8 +109,8 @@ void extend_data(const model& system, const initial_states& ensemble,
 
 }  // namespace detail
 
-/// As many trajectories as fit into the memory of one rank, so that their number does not depend on that of
-/// ranks. Throws std::invalid_argument if one does not, or has no step.
+/// Largest number of trajectories: those that fit into the memory of one rank, so that their number does not
+/// depend on that of ranks. Throws std::invalid_argument if one does not, or has no step.
 std::int64_t most_trajectories(data_options options, Eigen::Index dimension);
 
 /// Follows the reference from `trajectories` starts over floor(horizon/step) steps each, as many at a time as

@@ -178,7 +178,7 @@ void force(const S& system, const vector<T, S::dimension>& q, vector<T, S::dimen
   }
 }
 
-/// Which force a kick reads: that of V, or of V without its quadratic part.
+/// The force that a kick reads: the force of V, or of V without its quadratic part.
 enum class field { none, whole, soft };
 
 /// The force of a field can be evaluated over T.
@@ -207,9 +207,10 @@ concept ForceDerivativeOver =
 template <class T, int N>
 struct lifted_room {
   lifted_room() = default;
-  explicit lifted_room(Eigen::Index size) : q(size), f(size) {}  ///< for a number of degrees of freedom
-  vector<dual<T, 1>, N> q;                                       ///< q + e v, e being the dual unit
-  vector<dual<T, 1>, N> f;                                       ///< f(q) + e f'(q) v
+  explicit lifted_room(Eigen::Index size)
+      : q(size), f(size) {}  ///< work space for a number of degrees of freedom
+  vector<dual<T, 1>, N> q;   ///< q + e v, e being the dual unit
+  vector<dual<T, 1>, N> f;   ///< f(q) + e f'(q) v
 };
 
 namespace detail {
@@ -287,14 +288,14 @@ void force_along(const S& system, const vector<T, S::dimension>& q, const vector
 template <System S>
 inline constexpr int derivative_calls = BlackBoxForce<S> && !HasForceDerivative<S> ? 2 : 1;
 
-/// The same of any system.
+/// Cost of a derivative of any system.
 template <System S>
 constexpr int calls_of_derivative(const S& system) {
   if constexpr (ErasedSystem<S>) return system.facts().derivative_calls;
   return derivative_calls<S>;
 }
 
-/// How derivatives of the force come about, for reports.
+/// Origin of the derivatives of the force, for reports.
 template <SeparableSystem S>
 constexpr const char* derivative_source() {
   if constexpr (!BlackBoxForce<S>) return "automatic differentiation";

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
@@ -21,8 +21,9 @@ namespace nysalt {
 /// Chains between two trajectories: all that `hmc` needs to go on to the same bits, for any number of
 /// ranks, threads and lanes.
 struct hmc_state {
-  std::int64_t trajectories = 0;  ///< of each chain so far, burn-in included
-  std::vector<double> numbers{};  ///< positions, sums, the step and what tunes it; for `hmc` only to read
+  std::int64_t trajectories = 0;  ///< trajectories of each chain so far, burn-in included
+  std::vector<double>
+      numbers{};  ///< positions, sums, the step and the state of the tuning; for `hmc` only to read
 };
 
 /// Options of chains.
@@ -34,26 +35,26 @@ struct hmc_options {
   std::int64_t burn_in = 1000;  ///< trajectories of a chain before the first draw
   std::int64_t draws = 1000;    ///< trajectories of a chain after that
   std::optional<double> acceptance =
-      {};  ///< to which the burn-in tunes the step, up to `length`; none: it stays
+      {};  ///< acceptance to which the burn-in tunes the step, up to `length`; none: it stays
   /// Whether momenta get the masses kT/var(q_i), with variances from the first half of the burn-in. In the
   /// unit of time of these masses, which step and length are in, coordinates that do not depend on each other
   /// have the frequency 1. Needs `acceptance`.
   bool diagonal_masses = false;
-  std::uint64_t seed = 1;  ///< of starts and chains
+  std::uint64_t seed = 1;  ///< seed of starts and chains
   int threads = 1;         ///< changes no bit
   std::function<void(std::int64_t done)> progress =
-      {};                              ///< trajectories of all chains; never two calls at once
-  const communicator* ranks = &alone;  ///< who share the chains; changes no bit
+      {};  ///< progress callback, trajectories of all chains; calls do not overlap
+  const communicator* ranks = &one_rank;  ///< ranks that share the chains; changes no bit
   std::int64_t keep_every = 0;  ///< trajectories of a chain between two calls of `keep`; 0: it is not called
   std::function<void(const hmc_state&)> keep =
-      {};                           ///< at every rank, after all draws of the trajectories so far were taken
+      {};  ///< checkpoint callback, at every rank, after all draws of the trajectories so far were taken
   const hmc_state* from = nullptr;  ///< a kept state of the same options to go on from; none: the starts
 };
 
 /// One draw of a chain. Refers to memory that the next draw overwrites.
 struct hmc_draw {
   std::int64_t chain;        ///< number of the chain
-  std::int64_t number;       ///< of the draw in its chain, from 0 on
+  std::int64_t number;       ///< number of the draw in its chain, from 0 on
   const Eigen::VectorXd& q;  ///< the position
   double potential;          ///< V(q)
 };
@@ -65,8 +66,9 @@ struct hmc_result {
   estimate square_of_energy_error;  ///< mean over chains of (H' - H)^2/kT^2; NaN where a trajectory diverged
   std::int64_t diverged = 0;  ///< trajectories of all chains whose energy was not finite, burn-in left out
   double evaluations_of_draw = 0;     ///< force evaluations of one draw, in the mean
-  double evaluations_of_burn_in = 0;  ///< those of the burn-in of one chain
-  std::vector<double> deviations{};   ///< of the positions, where `diagonal_masses` are asked for
+  double evaluations_of_burn_in = 0;  ///< force evaluations of the burn-in of one chain
+  std::vector<double>
+      deviations{};  ///< standard deviations of the positions, where `diagonal_masses` are asked for
 };
 
 /// Draws from exp(-V/kT) by Hybrid Monte Carlo [duane_kennedy_pendleton_roweth_1987]: fresh momenta, a

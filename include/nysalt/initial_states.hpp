@@ -16,12 +16,12 @@
 namespace nysalt {
 
 /// Any ensemble behind one type; one converts to it. Copies share the ensemble. Its states have a dimension
-/// that is known while running.
+/// that is known at run time.
 class initial_states {
  public:
-  using state = phase_point<double, Eigen::Dynamic>;  ///< of one trajectory
+  using state = phase_point<double, Eigen::Dynamic>;  ///< state of one trajectory
 
-  /// Those of an ensemble(seed, n) with a description(), which is copied.
+  /// The initial states of an ensemble(seed, n) with a description(), which is copied.
   template <class E>
     requires(!std::same_as<E, initial_states>) && requires(const E& e) {
       e(std::uint64_t{}, std::uint64_t{}).q;
@@ -34,10 +34,10 @@ class initial_states {
       return {x.q, x.p};
     };
     if constexpr (requires { ensemble.size(); }) size_ = static_cast<std::int64_t>(ensemble.size());
-    if constexpr (requires { ensemble.is_dear(); }) is_dear_ = ensemble.is_dear();
+    if constexpr (requires { ensemble.is_expensive(); }) is_expensive_ = ensemble.is_expensive();
     using T = scalar_of_lanes<default_lanes>;
     if constexpr (requires { ensemble.template block<T>(std::uint64_t{}, std::int64_t{}, int{}); }) {
-      is_dear_ = true;
+      is_expensive_ = true;
       several_ = [ensemble](std::uint64_t seed, std::int64_t first, int count) {
         std::vector<state> result;
         const auto all = ensemble.template block<T>(seed, first, count);
@@ -52,8 +52,8 @@ class initial_states {
 
   /// The start of trajectory n.
   state operator()(std::uint64_t seed, std::uint64_t n) const { return at_(seed, n); }
-  /// Those of `count` trajectories from the first on, one in each lane of T; lanes beyond them repeat the
-  /// first. At most default_lanes.
+  /// Initial states of `count` trajectories from the first on, one in each lane of T; lanes beyond them
+  /// repeat the first. At most default_lanes.
   template <class T>
   phase_point<T, Eigen::Dynamic> block(std::uint64_t seed, std::int64_t first, int count) const {
     if (several_) {
@@ -64,15 +64,15 @@ class initial_states {
                                      [&](int k) { return at_(seed, static_cast<std::uint64_t>(first + k)); });
   }
   bool makes_blocks() const { return several_ != nullptr; }  ///< several at a time cost less
-  const std::string& description() const { return text_; }   ///< that of the ensemble
-  bool is_dear() const { return is_dear_; }    ///< whether a state takes a simulation of its own
-  std::int64_t size() const { return size_; }  ///< how many there are
+  const std::string& description() const { return text_; }   ///< description of the ensemble
+  bool is_expensive() const { return is_expensive_; }  ///< whether a state takes a simulation of its own
+  std::int64_t size() const { return size_; }          ///< number of states
 
  private:
   std::function<state(std::uint64_t, std::uint64_t)> at_;
   std::function<std::vector<state>(std::uint64_t, std::int64_t, int)> several_;
   std::string text_;
-  bool is_dear_ = false;
+  bool is_expensive_ = false;
   std::int64_t size_ = std::numeric_limits<std::int64_t>::max();
 };
 

@@ -14,11 +14,11 @@
 
 namespace nysalt {
 
-/// How a trajectory ended. Where it diverged, `finish` is the state at that step.
+/// End of a trajectory. Where it diverged, `finish` is the state at that step.
 template <int N>
 struct outcome {
   phase_point<double, N> finish;            ///< the last state
-  std::int64_t steps = 0;                   ///< how many were taken
+  std::int64_t steps = 0;                   ///< number of steps taken
   std::optional<std::int64_t> diverged_at;  ///< the first bad step; nothing where all went well
 };
 
@@ -59,7 +59,7 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
     if (next_sample == end) {
       show(end, run.synchronous());
     } else {
-      auto again = run.begin_of_stretch();
+      auto again = run.begin_of_window();
       for (std::int64_t n = next_sample; n <= last; n += every) {
         stepper.advance(again, n - again.step);  // a watched loop beside it keeps g++ from inlining the force
         show(n, stepper.synchronous(again));
@@ -69,23 +69,23 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
   return {run.synchronous(), run.step(), run.diverged_at(0)};
 }
 
-/// The same unobserved: only the finish is wanted.
+/// Integrates without observer.
 template <class Stepper>
 outcome<Stepper::dimension> integrate(const Stepper& stepper,
                                       const phase_point<double, Stepper::dimension>& start,
                                       std::int64_t steps) {
-  const auto nobody = [](auto&&...) {};
-  return integrate(stepper, start, steps, nobody, std::max<std::int64_t>(steps, 1));
+  const auto no_observer = [](auto&&...) {};
+  return integrate(stepper, start, steps, no_observer, std::max<std::int64_t>(steps, 1));
 }
 
-/// The same for a method at a step. For many trajectories make the stepper once.
+/// Integrates by a method at a step. For many trajectories make the stepper once.
 template <System S, Method M, class Observer>
 outcome<S::dimension> integrate(const S& system, const M& method, double step,
                                 const phase_point<double, S::dimension>& start, std::int64_t steps,
                                 Observer&& observer, std::int64_t every = 1) {
   return integrate(make_stepper(system, method, step), start, steps, std::forward<Observer>(observer), every);
 }
-/// The same for a method at a step, unobserved.
+/// Integrates by a method at a step, without observer.
 template <System S, Method M>
 outcome<S::dimension> integrate(const S& system, const M& method, double step,
                                 const phase_point<double, S::dimension>& start, std::int64_t steps) {

@@ -11,28 +11,29 @@
 #include <stdexcept>
 #include <vector>
 
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/together.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/shard.hpp"
 
 namespace nysalt {
 
-/// Which trajectories are followed, for how long, and by whom.
+/// Number, length, seed and threads of the trajectories of an ensemble.
 struct ensemble_options {
-  std::int64_t trajectories = 100;                       ///< how many trajectories
-  std::int64_t steps = 1000;                             ///< of each trajectory
-  std::int64_t every = 1;                                ///< steps between observations
-  std::uint64_t seed = 1;                                ///< of the starts
-  int threads = 1;                                       ///< changes no bit
-  std::int64_t first = 0;                                ///< number of the first trajectory
-  std::function<void(std::int64_t done)> progress = {};  ///< after each block; never two calls at once
-  const communicator* ranks = &alone;                    ///< who share the trajectories; changes no bit
+  std::int64_t trajectories = 100;  ///< number of trajectories
+  std::int64_t steps = 1000;        ///< steps of each trajectory
+  std::int64_t every = 1;           ///< steps between observations
+  std::uint64_t seed = 1;           ///< seed of the starts
+  int threads = 1;                  ///< changes no bit
+  std::int64_t first = 0;           ///< number of the first trajectory
+  std::function<void(std::int64_t done)> progress =
+      {};                                 ///< progress callback, after each block; calls do not overlap
+  const communicator* ranks = &one_rank;  ///< ranks that share the trajectories; changes no bit
 };
 
 namespace detail {
@@ -71,7 +72,7 @@ void follow_ensemble(const Stepper& stepper, const E& ensemble, const ensemble_o
     const auto take = [&](std::int64_t n, std::span<const T> seen, const condition_of<T>& live) {
       visitor.take(n, seen, live);
     };
-    look_at_starts(start, count, width, read, take);
+    observe_starts(start, count, width, read, take);
     with_own_system(stepper, [&](const Stepper& own) {
       lockstep<Stepper, T> run(own, start, count, first);
       run.go_on(options.steps, options.every, width, read, take);
@@ -83,7 +84,7 @@ void follow_ensemble(const Stepper& stepper, const E& ensemble, const ensemble_o
       follow_block(own.first + place + done, std::min(lanes_in<T>, count - done));
     }
   };
-  together(*options.ranks, [&] {
+  collectively(*options.ranks, [&] {
     for_each_block(own.count, of_thread, options.threads, follow,
                    progress_of_share(*options.ranks, own.count, options.trajectories, options.progress));
   });
@@ -137,9 +138,9 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
   return diverged_at;
 }
 
-/// The same with one observable: take(m, n, observable(x)). The observable is called for one trajectory after
-/// the other, or for all lanes at a time if it is marked by over_lanes; of trajectories that have diverged
-/// too, so it must bear any state.
+/// Integrates an ensemble with one observable: take(m, n, observable(x)). The observable is called for one
+/// trajectory after the other, or for all lanes at a time if it is marked by over_lanes; of trajectories that
+/// have diverged too, so it must bear any state.
 template <System S, Method M, Ensemble<S> E, class Observable, class Take>
 std::vector<std::optional<std::int64_t>> integrate_ensemble(const S& system, const M& method, double step,
                                                             const E& ensemble,

@@ -15,7 +15,7 @@
 
 namespace nysalt {
 
-/// The scalar that holds W trajectories: a pack, or plain double for one.
+/// The scalar of W lanes: a pack, or plain double for W = 1.
 template <int W>
 using scalar_of_lanes = std::conditional_t<W == 1, double, pack<double, std::max(W, 1)>>;
 
@@ -49,17 +49,17 @@ inline constexpr int lanes_of = [] {
 template <class T>
 inline constexpr int lanes_in = 1;
 template <int W>
-inline constexpr int lanes_in<pack<double, W>> = W;  ///< its lanes
+inline constexpr int lanes_in<pack<double, W>> = W;  ///< number of lanes
 
 /// The type of a comparison of two T: a bool, or a mask of lanes.
 template <class T>
 using condition_of = decltype(T(0.0) < T(0.0));
 
 // One code for double, which has one lane, and for packs.
-inline double lane(double x, int) { return x; }                    ///< the one lane that it has
-inline bool lane(bool x, int) { return x; }                        ///< the one lane that it has
-inline void set_lane(double& x, int, double value) { x = value; }  ///< the one lane that it has
-inline void set_lane(bool& x, int, bool value) { x = value; }      ///< the one lane that it has
+inline double lane(double x, int) { return x; }                    ///< value of the only lane
+inline bool lane(bool x, int) { return x; }                        ///< value of the only lane
+inline void set_lane(double& x, int, double value) { x = value; }  ///< assigns the only lane
+inline void set_lane(bool& x, int, bool value) { x = value; }      ///< assigns the only lane
 /// The number in lane k.
 template <int W>
 double lane(const pack<double, W>& x, int k) {
@@ -75,7 +75,7 @@ template <int W>
 void set_lane(pack<double, W>& x, int k, double value) {
   x.set(k, value);
 }
-/// Sets lane k, or clears it.
+/// Sets or clears lane k.
 template <int W>
 void set_lane(lane_mask<W>& x, int k, bool value) {
   x.set(k, value);
@@ -141,7 +141,7 @@ phase_point<T, N> gather(int count, const auto& make) {
   return result;
 }
 
-/// Where all of q and p are finite: x - x is 0 there, and NaN elsewhere.
+/// Mask of the lanes in which all of q and p are finite: x - x is 0 there, and NaN elsewhere.
 template <int W, int N>
 lane_mask<W> is_finite(const phase_point<pack<double, W>, N>& x) {
   pack<double, W> sum(0.0);
@@ -196,8 +196,10 @@ class first_in_lanes {
       if (lane(holds, k)) first_[static_cast<std::size_t>(k)].reset();
     }
   }
-  void set(int k, std::optional<std::int64_t> n) { first_[static_cast<std::size_t>(k)] = n; }  ///< in lane k
-  /// In lane k; empty if the condition never held there.
+  void set(int k, std::optional<std::int64_t> n) {
+    first_[static_cast<std::size_t>(k)] = n;
+  }  ///< assigns lane k
+  /// Value of lane k; empty if the condition never held there.
   const std::optional<std::int64_t>& operator[](int k) const { return first_[static_cast<std::size_t>(k)]; }
 
  private:

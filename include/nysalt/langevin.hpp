@@ -19,16 +19,16 @@
 
 namespace nysalt {
 
-/// Where letters O are in a thermostatted word S, over a whole step or two halves:
+/// Placement of letters O in a thermostatted word S, over a whole step or two halves:
 ///   end        S O              [li_lu_tao_ye_2023, equation (2.13)]
 ///   symmetric  O/2 S O/2        one draw a step
 ///   middle     S with its central letter X split: ... X/2 O X/2 ...
 enum class placement { end, symmetric, middle };
 
-/// All of them, in that order.
+/// All placements, in that order.
 inline constexpr std::array placements{placement::end, placement::symmetric, placement::middle};
 
-/// end, symmetric or middle, as programs and files write it.
+/// Name of a placement in programs and files: end, symmetric or middle.
 constexpr std::string_view to_string(placement p) {
   constexpr std::array<std::string_view, 3> names{"end", "symmetric", "middle"};
   return names[static_cast<std::size_t>(p)];
@@ -106,7 +106,7 @@ typename Result::template coefficients<C> thermostatted_coefficients(placement w
   return result;
 }
 
-/// The same as data, for the word without its letters O.
+/// Coefficients as data, for the word without its letters O.
 template <class C>
 std::vector<C> thermostatted_coefficients(const run_time_word& w, placement where, const std::vector<C>& c) {
   const std::size_t central = w.length / 2;
@@ -116,8 +116,8 @@ std::vector<C> thermostatted_coefficients(const run_time_word& w, placement wher
   return result;
 }
 
-/// Which part of a step each letter O of a word covers. Throws std::invalid_argument unless they share it as
-/// noise_intervals.hpp says.
+/// Intervals of a step that the letters O of a word cover. Throws std::invalid_argument unless they share it
+/// as noise_intervals.hpp says.
 inline noise_intervals intervals_of_noise(const run_time_word& word, const auto& coefficients) {
   std::vector<double> of_bath;
   for (std::size_t i = 0; i < word.length; ++i) {
@@ -136,7 +136,7 @@ noise_intervals intervals_of_noise(const W& word, const auto& coefficients) {
 inline run_time_word thermostatted(const run_time_word& w, placement where) {
   const std::string& letters = w.letters();
   if (w.stochastic_letters > 0) {
-    throw std::invalid_argument(sentence("the word {} has its letters O already", letters));
+    throw std::invalid_argument(sentence("thermostat: the word must have no letters O, got {}", letters));
   }
   if (w.is_processed()) {
     throw std::invalid_argument(sentence(
@@ -149,7 +149,9 @@ inline run_time_word thermostatted(const run_time_word& w, placement where) {
   if (where == placement::symmetric) return w.with_letters(o + letters + o);
   if (letters.size() % 2 == 0) {
     throw std::invalid_argument(
-        sentence("the word {} has no central letter to split: place O at the end, or symmetric", letters));
+        sentence("thermostat: the word must have a central letter to split, got {}; place O at the "
+                 "end, or symmetric",
+                 letters));
   }
   const std::size_t central = letters.size() / 2;
   return w.with_letters(letters.substr(0, central + 1) + o + letters.substr(central));

@@ -15,30 +15,32 @@
 
 namespace nysalt {
 
-/// The same options with parameters as the family holds them.
+/// Options of learn(), with parameters of the type of the family.
 template <Family F>
 struct learn_options {
-  std::optional<nysalt::coordinates> coordinates{};  ///< in which the state's error counts; see fit_options
-  parameters_of<F> start = F::start();               ///< where the first search begins
+  std::optional<nysalt::coordinates>
+      coordinates{};                    ///< coordinates in which the state's error counts; see fit_options
+  parameters_of<F> start = F::start();  ///< first initial guess
   /// A value for each parameter that is not to be learned.
   std::array<std::optional<double>, static_cast<std::size_t>(F::parameters)> fixed{};
-  int max_iterations = 200;            ///< of the search from each start
+  int max_iterations = 200;            ///< largest number of iterations of the search from each start
   int threads = 1;                     ///< changes no bit of what is learned
   std::optional<loss_choice> loss{};   ///< minimised unless an own_loss is given; empty: usual_loss()
   bool classical_starts = true;        ///< begin at the family's classical members and further starts too
   std::optional<int> random_starts{};  ///< further ones, normal around these; empty: by the effort
-  nysalt::effort effort = nysalt::effort::normal;  ///< by which their number is chosen where none is given
-  bool guarded = true;                  ///< false: an unstable optimum is found, and said not to be usable
-  bool check_force = true;              ///< at some states of the data, before the search
-  std::int64_t planned_steps = 20'000;  ///< as in fit_options: how long a run may be
-  std::uint64_t seed = 1;               ///< of the random starts
+  nysalt::effort effort =
+      nysalt::effort::normal;  ///< effort, which sets the number of random starts where none is given
+  bool guarded = true;         ///< false: an unstable optimum is found, and said not to be usable
+  bool check_force = true;     ///< whether the force is checked at some states of the data, before the search
+  std::int64_t planned_steps = 20'000;  ///< length of the planned runs, as in fit_options
+  std::uint64_t seed = 1;               ///< seed of the random starts
 };
 
-/// A learned method and what there is to know of it.
+/// A learned method with the summary of the fit.
 template <Family F>
 struct learned {
   tuned_method<F> method;  ///< carries its step and system, and refuses others
-  fit_summary summary;     ///< its `usable` says whether to use the method
+  fit_summary summary;     ///< errors and verdict of the fit; `usable` says whether to use the method
 };
 
 /// theta that minimises a loss over `data`: that of the options, by default the state's error at several
@@ -84,9 +86,9 @@ void require_sound_letters_on(const S& system, const flow_map_data& data) {
 }
 }  // namespace detail
 
-/// The same for a family as a type, whose method is one too. Its word may have letters of one's own, which
-/// check_letter() tries at four states of the data before the search, with check_force. What they do to an
-/// oscillator is not known: the guard is the trial run, and no classical method is named as a rival.
+/// Learns a member of a family as a type; the method is a type, too. The word may have letters of one's own,
+/// which check_letter() tries at four states of the data before the search, with check_force. What they do to
+/// an oscillator is not known: the guard is the trial run, and no classical method is named as a rival.
 template <Family F, SeparableSystem S, class... Own>
   requires(sizeof...(Own) <= 1)
 learned<F> learn(const F& family, const S& system, const flow_map_data& data, const flow_map_data& held_out,

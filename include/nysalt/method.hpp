@@ -18,7 +18,7 @@
 
 namespace nysalt {
 
-/// A word with its coefficients, and what it promises:
+/// A word with coefficients and declared properties:
 ///   word, coefficients(), name()      and letters() where the word is a run_time_word
 ///   order, symmetric                  as declared; measured in the tests
 ///   requires_quadratic_kinetic        the order holds for K = p M^-1 p / 2 only
@@ -37,7 +37,7 @@ concept Method = Word<typename M::word> && requires(const M& method) {
 template <Family F>
 class member {
  public:
-  using family = F;  ///< whose member it is
+  using family = F;  ///< family of the method
   using word = typename F::word;
   static constexpr int order = F::order;
   static constexpr bool symmetric = F::symmetric;
@@ -58,21 +58,21 @@ class member {
   [[no_unique_address]] F family_;
 };
 
-/// A member with the step and the system that it was learned for; it refuses any other. It knows the energies
+/// A member of a family with the step and the system of learning; it refuses any other. It knows the energies
 /// that it was learned on, too.
 /// `anywhere()` gives the plain member to those who ask for it; at_size_of() of learning/at_other_size.hpp
 /// tries it at another size of the system.
 template <Family F>
 class tuned_method {
  public:
-  using family = F;  ///< whose member it is
+  using family = F;  ///< family of the method
   using word = typename F::word;
   static constexpr int order = F::order;
   static constexpr bool symmetric = F::symmetric;
   static constexpr bool requires_quadratic_kinetic = F::requires_quadratic_kinetic;
 
-  /// `system` is what describe() says of it, `kind` what kind_of() does. Without energies, has_seen is true
-  /// everywhere; without a kind, at_size_of() finds no other size of it.
+  /// A tuned method. `system` is the text of describe(), `kind` that of kind_of(). Without energies, has_seen
+  /// is true everywhere; without a kind, at_size_of() finds no other size of it.
   tuned_method(const member<F>& plain, double step, std::string system,
                std::optional<energy_range> energies = {}, std::string kind = {})
       : member_(plain),
@@ -85,22 +85,22 @@ class tuned_method {
   typename word::template coefficients<double> coefficients() const { return member_.coefficients(); }
   word letters() const { return member_.letters(); }
   std::string name() const { return "learned:" + member_.name(); }
-  double step() const { return step_; }                  ///< at which it was learned
-  const std::string& system() const { return system_; }  ///< for which it was learned: what describe() says
-  /// Of which kind that system is; empty where that is not known.
+  double step() const { return step_; }                  ///< step of learning
+  const std::string& system() const { return system_; }  ///< system of learning, as describe() returns it
+  /// Kind of that system; empty where unknown.
   const std::string& kind() const { return kind_; }
-  /// The energies of the trajectories that it was learned from; nothing where nobody told.
+  /// Energies of the training data; empty where they are not known.
   const std::optional<energy_range>& energies() const { return energies_; }
-  /// Whether it was learned on energies like that of a state. Outside it runs all the same, and may err more:
-  /// of many starts learning/energies_outside.hpp tells whether that is chance.
+  /// Whether the training data include energies like that of a state. Outside it runs all the same, and may
+  /// err more: of many starts learning/energies_outside.hpp computes whether that is chance.
   template <HasEnergy<double> S>
   bool has_seen(const S& system, const phase_point<double, S::dimension>& state) const {
     return !energies_ || energies_->contains(energy<double>(system, state));
   }
   const member<F>& anywhere() const { return member_; }  ///< valid at any step, for any system
 
-  /// Refuses where it is not valid: throws std::invalid_argument at a step other than the learned one (to
-  /// 1e-9 relative, as steps are typed in decimals) or for another system.
+  /// Throws std::invalid_argument where the method is not valid: at a step other than the learned one
+  /// (to 1e-9 relative, as steps are typed in decimals) or for another system.
   void require_validity(const std::string& system, double step) const {
     if (std::abs(step - step_) > 1e-9 * std::abs(step_)) {
       throw std::invalid_argument(
@@ -122,8 +122,8 @@ class tuned_method {
   std::optional<energy_range> energies_;
 };
 
-/// The stepper of a method on a system, with the noise of its bath. Throws what the method's validity or the
-/// stepper refuses.
+/// The stepper of a method on a system, with the noise of its bath. Throws std::invalid_argument where the
+/// method is not valid on the system or the stepper refuses the word.
 template <System S, Method M, NoiseSource Noise = no_noise>
 stepper<S, typename M::word, double, Noise> make_stepper(const S& system, const M& method, double step,
                                                          const Noise& noise = {}) {

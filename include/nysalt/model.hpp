@@ -21,18 +21,18 @@ template <int Lanes>
 void library_is_compiled_for();
 }  // namespace detail
 
-/// Any system, in its bath if it is in one, behind one type: what the library's compiled half takes. A system
-/// converts to it. Copies share the system. Its dimension is known while running; it is a System itself, and
-/// steps by words as data with the bits of the system.
+/// A type-erased system, with its bath if any: the argument of the compiled library. Any system converts to a
+/// model. Copies share the system. The dimension is known at run time. A model is a System and steps
+/// by words as data, with the bits of the typed system.
 ///
 /// The system's functions are compiled where a model is made of it, for one trajectory and for as many as
 /// suit the processor, each with and without derivatives by two parameters. A system with `lanes = 1` is
 /// stepped one trajectory at a time.
 class model {
  public:
-  static constexpr int dimension = Eigen::Dynamic;  ///< known while running
+  static constexpr int dimension = Eigen::Dynamic;  ///< known at run time
   static constexpr int lanes = default_lanes;       ///< most trajectories side by side
-  static constexpr bool is_erased = true;           ///< what it can do is known while running
+  static constexpr bool is_erased = true;  ///< true: the members that the system offers are known at run time
 
   /// The model of a system, which is copied; it converts by itself. Cost: a copy, and one description.
   template <class S>
@@ -40,7 +40,7 @@ class model {
   model(const S& system)  // NOLINT(google-explicit-constructor)
       : system_(detail::erased(system)),
         facts_(std::make_shared<detail::model_facts>(detail::facts_of(system))),
-        kind_alone_(detail::kind_without_bath(system)) {
+        base_kind_(detail::kind_without_bath(system)) {
     detail::library_is_compiled_for<default_lanes>();
   }
 
@@ -48,13 +48,15 @@ class model {
   const std::string& description() const { return facts_->description; }  ///< the system's
   /// The description without the size, see kind_of().
   std::string kind() const {
-    return facts_->in.acts() ? kind_alone_ + " in " + facts_->in.description() : kind_alone_;
+    return facts_->in.acts() ? base_kind_ + " in " + facts_->in.description() : base_kind_;
   }
-  const nysalt::bath& bath() const { return facts_->in; }  ///< one that does not act, if it is in none
+  const nysalt::bath& bath() const {
+    return facts_->in;
+  }  ///< bath of the system; without one, a bath that does not act
   /// The system without its bath.
-  model alone() const {
+  model base() const {
     auto facts = std::make_shared<detail::model_facts>(*facts_);
-    facts->description = facts->description_alone;
+    facts->description = facts->base_description;
     facts->in = nysalt::bath::of_sigma(0.0, 0.0);
     model result = *this;
     result.facts_ = std::move(facts);
@@ -63,14 +65,14 @@ class model {
   }
   /// The system in another bath; its frequency_bands() are those that it has without one.
   model in(const nysalt::bath& other) const {
-    model result = alone();
+    model result = base();
     auto facts = std::make_shared<detail::model_facts>(*result.facts_);
     facts->in = other;
-    if (other.acts()) facts->description = facts->description_alone + " in " + other.description();
+    if (other.acts()) facts->description = facts->base_description + " in " + other.description();
     result.facts_ = std::move(facts);
     return result;
   }
-  /// The same, whose steps `threads` threads share if it is a LocalSystem; of another system they do not. The
+  /// A model whose steps `threads` threads share if it is a LocalSystem; of another system they do not. The
   /// bits are those of one thread. Throws std::invalid_argument unless threads >= 1.
   model on_threads(int threads) const {
     if (threads < 1)
@@ -79,16 +81,16 @@ class model {
     result.threads_ = threads;
     return result;
   }
-  int threads() const { return threads_; }  ///< that share a step of one trajectory
-  /// Of a LocalSystem: the functions of its sites, else null.
+  int threads() const { return threads_; }  ///< number of threads that share a step of one trajectory
+  /// Functions of the sites of a LocalSystem, else null.
   const detail::site_kernels* sites() const { return system_->sites(); }
-  /// With a copy of the system of its own, for a thread whose system may change while it computes.
+  /// A model with an own copy of the system, for a thread whose system may change while it computes.
   model separate() const {
     model result = *this;
     result.system_ = system_->clone();
     return result;
   }
-  /// What the system can do: has_energy(system) and its like ask it.
+  /// Members that the system offers: has_energy(system) and its like ask it.
   const detail::model_facts& facts() const { return *facts_; }
   /// Force evaluations of this copy so far, of a black box.
   std::int64_t calls() const { return system_->calls(); }
@@ -103,8 +105,8 @@ class model {
     return facts_->inverse_root_masses.empty() ? 1.0
                                                : facts_->inverse_root_masses[static_cast<std::size_t>(i)];
   }
-  normal_modes modes() const { return system_->modes(); }  ///< of its quadratic part, if it has_modes()
-  /// Those that the system declares, or none.
+  normal_modes modes() const { return system_->modes(); }  ///< modes of the quadratic part, if has_modes()
+  /// Frequency bands that the system declares, or none.
   std::vector<frequency_band> frequency_bands() const {
     return system_->frequency_bands(is_in_bath_ ? &facts_->in : nullptr);
   }
@@ -124,11 +126,11 @@ class model {
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     kernels<T>().force(field::soft, q, f);
   }
-  /// Over numbers with one derivative: those of two, the second of which is zero.
+  /// Force over numbers with one derivative: two derivatives are carried, the second zero.
   void force(const vector<dual<double, 1>, dimension>& q, vector<dual<double, 1>, dimension>& f) const {
     with_one_slope(field::whole, q, f);
   }
-  /// The same of the soft force.
+  /// Soft force over numbers with one derivative.
   void soft_force(const vector<dual<double, 1>, dimension>& q, vector<dual<double, 1>, dimension>& f) const {
     with_one_slope(field::soft, q, f);
   }
@@ -152,7 +154,7 @@ class model {
   }
   /// K''(p), of a kinetic energy of the system's own.
   Eigen::MatrixXd kinetic_hessian(const Eigen::VectorXd& p) const;
-  /// By the system's own kick.
+  /// Kicks by the system's own kick.
   void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const { system_->own_kick(q, p, c); }
 
  private:
@@ -174,7 +176,7 @@ class model {
 
   std::shared_ptr<const detail::any_system> system_;
   std::shared_ptr<const detail::model_facts> facts_;
-  std::string kind_alone_;  // without a bath
+  std::string base_kind_;  // without a bath
   bool is_in_bath_ = true;
   int threads_ = 1;
 };

@@ -12,12 +12,12 @@ namespace nysalt {
 /// The letter of the bath in words.
 inline constexpr char bath_letter = 'O';
 
-/// Where in a run noise is wanted: by the letter O that is number `flow` among those of the word, in the step
+/// Position of noise in a run: the letter O that is number `flow` among those of the word, in the step
 /// from `step` to `step` + 1 of a trajectory. Lane l of a pack belongs to trajectory + l.
 struct noise_place {
-  std::uint64_t trajectory = 0;  ///< whose noise it is; that of lane 0
-  std::int64_t step = 0;         ///< its number, from 0
-  int flow = 0;                  ///< which letter O, from 0
+  std::uint64_t trajectory = 0;  ///< trajectory number, of lane 0
+  std::int64_t step = 0;         ///< step number, from 0
+  int flow = 0;                  ///< number of the letter O in the word, from 0
 };
 
 // clang-format off

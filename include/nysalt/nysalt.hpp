@@ -26,7 +26,7 @@
 #include "nysalt/analysis/total_variation.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/atomic_file.hpp"
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"

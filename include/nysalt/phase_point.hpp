@@ -15,7 +15,7 @@ using vector = Eigen::Matrix<T, N, 1>;
 /// Positions q and momenta p of one state, each of the system's dimension.
 template <Scalar T, int N>
 struct phase_point {
-  using scalar_type = T;               ///< what each entry is
+  using scalar_type = T;               ///< type of each entry
   static constexpr int dimension = N;  ///< N, fixed or Eigen::Dynamic
 
   vector<T, N> q;  ///< positions, one for each degree of freedom
@@ -23,7 +23,7 @@ struct phase_point {
 
   Eigen::Index size() const { return q.size(); }  ///< degrees of freedom
 
-  /// The same state in another scalar type (constants of it).
+  /// The state in another scalar type, as constants.
   template <Scalar U>
   phase_point<U, N> cast() const {
     phase_point<U, N> result{vector<U, N>(size()), vector<U, N>(size())};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Many vectors, or points of phase space, of one dimension that is known while running.
+// Many vectors, or points of phase space, of one dimension that is known at run time.
 #pragma once
 
 #include <algorithm>
@@ -50,8 +50,8 @@ class vector_list {
   /// n vectors, their entries not set.
   vector_list(std::size_t count, Eigen::Index dimension) { resize(count, dimension); }
 
-  std::size_t size() const { return size_; }             ///< how many vectors
-  Eigen::Index dimension() const { return dimension_; }  ///< of each; 0 before there is one
+  std::size_t size() const { return size_; }             ///< number of vectors
+  Eigen::Index dimension() const { return dimension_; }  ///< length of each vector; 0 while there is none
   void resize(std::size_t count,
               Eigen::Index dimension) {  ///< vectors that are there stay if the dimension does
     dimension_ = dimension;
@@ -71,7 +71,7 @@ class vector_list {
     resize(size_ + 1, copy.size());
     (*this)[size_ - 1] = copy;
   }
-  /// Those of another list behind those that there are.
+  /// Appends the vectors of another list.
   void append(const vector_list& more) {
     const std::size_t further = more.size_;
     const std::size_t count = more.numbers_.size();
@@ -79,10 +79,10 @@ class vector_list {
     resize(size_ + further, more.dimension_);
     std::copy_n(more.numbers_.begin(), count, numbers_.end() - static_cast<std::ptrdiff_t>(count));
   }
-  auto begin() { return detail::list_iterator(this, 0); }          ///< of a loop
-  auto end() { return detail::list_iterator(this, size_); }        ///< of a loop
-  auto begin() const { return detail::list_iterator(this, 0); }    ///< of a loop
-  auto end() const { return detail::list_iterator(this, size_); }  ///< of a loop
+  auto begin() { return detail::list_iterator(this, 0); }          ///< begin iterator
+  auto end() { return detail::list_iterator(this, size_); }        ///< end iterator
+  auto begin() const { return detail::list_iterator(this, 0); }    ///< begin iterator
+  auto end() const { return detail::list_iterator(this, size_); }  ///< end iterator
   /// Equal numbers.
   friend bool operator==(const vector_list& a, const vector_list& b) {
     return a.size_ == b.size_ && a.numbers_ == b.numbers_;
@@ -99,8 +99,8 @@ class vector_list {
 /// A point of phase space in a list. Column is an Eigen::Map.
 template <class Column>
 struct listed_point {
-  using scalar_type = double;                       ///< what each entry is
-  static constexpr int dimension = Eigen::Dynamic;  ///< known while running
+  using scalar_type = double;                       ///< type of each entry
+  static constexpr int dimension = Eigen::Dynamic;  ///< known at run time
 
   Column q;  ///< positions
   Column p;  ///< momenta
@@ -111,7 +111,7 @@ struct listed_point {
   operator phase_point<double, N>() const {  // NOLINT(google-explicit-constructor)
     return {q, p};
   }
-  /// The same state in another scalar type (constants of it).
+  /// The state in another scalar type, as constants.
   template <Scalar T>
   phase_point<T, Eigen::Dynamic> cast() const {
     return phase_point<double, Eigen::Dynamic>{q, p}.template cast<T>();
@@ -136,14 +136,16 @@ class phase_points {
     for (const auto& x : points) push_back(x);
   }
 
-  std::size_t size() const { return columns_.size() / 2; }         ///< how many points
+  std::size_t size() const { return columns_.size() / 2; }         ///< number of points
   bool empty() const { return size() == 0; }                       ///< whether there is none
   Eigen::Index dimension() const { return columns_.dimension(); }  ///< degrees of freedom; 0 before a point
   /// Points that are there stay if the dimension does.
   void resize(std::size_t count, Eigen::Index dimension) { columns_.resize(2 * count, dimension); }
-  void resize(std::size_t count) { resize(count, dimension()); }  ///< of the same dimension
-  void clear() { columns_.clear(); }                              ///< the dimension stays
-  /// Point i, which may be changed.
+  void resize(std::size_t count) {
+    resize(count, dimension());
+  }                                   ///< resizes to a number of points of the same dimension
+  void clear() { columns_.clear(); }  ///< the dimension stays
+  /// Mutable view of point i.
   listed_point<Eigen::Map<Eigen::VectorXd>> operator[](std::size_t i) {
     return {columns_[2 * i], columns_[2 * i + 1]};
   }
@@ -157,17 +159,17 @@ class phase_points {
     columns_.push_back(x.q);
     columns_.push_back(p);
   }
-  /// Those of another list behind those that there are.
+  /// Appends the points of another list.
   void append(const phase_points& more) { columns_.append(more.columns_); }
   /// Puts a point, which has q and p, into a place.
   void set(std::size_t i, const auto& x) {
     columns_[2 * i] = x.q;
     columns_[2 * i + 1] = x.p;
   }
-  auto begin() { return detail::list_iterator(this, 0); }           ///< of a loop
-  auto end() { return detail::list_iterator(this, size()); }        ///< of a loop
-  auto begin() const { return detail::list_iterator(this, 0); }     ///< of a loop
-  auto end() const { return detail::list_iterator(this, size()); }  ///< of a loop
+  auto begin() { return detail::list_iterator(this, 0); }           ///< begin iterator
+  auto end() { return detail::list_iterator(this, size()); }        ///< end iterator
+  auto begin() const { return detail::list_iterator(this, 0); }     ///< begin iterator
+  auto end() const { return detail::list_iterator(this, size()); }  ///< end iterator
   /// Equal numbers.
   friend bool operator==(const phase_points&, const phase_points&) = default;
 

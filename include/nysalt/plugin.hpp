@@ -175,14 +175,14 @@ detail::member_parameter<S> parameter(std::string name, Number S::*member, std::
           }};
 }
 
-/// The initial distribution: an ensemble, such as normal_around, from law(system), or from law(system,
-/// spread), where deviations are to be multiplied by the spread.
+/// The initial distribution: an ensemble, such as normal_around, from `law(system)`, or from
+/// `law(system, spread)`, where deviations are to be multiplied by the spread.
 template <class F>
 detail::starts_of_system<F> starts(F law) {
   return {std::move(law)};
 }
 
-/// A function value(system, x) of a state x, for any scalar in it.
+/// A function value(system, x) of a state x over any scalar.
 template <class F>
 detail::observable_of_system<F> observable(std::string name, F value) {
   return {std::move(name), std::move(value)};
@@ -195,7 +195,7 @@ detail::frequency_of_system<F> frequency(F highest) {
   return {std::move(highest)};
 }
 
-/// Letters of one's own, as exact_flow describes them, by whose names words are then written: word:tct. The
+/// Letters of the user's own, of the form of exact_flow, whose names spell words: word:tct. The
 /// program tries what they state by check_letter() where a word with them is first taken.
 template <Flow... L>
 detail::letters_of_system<L...> letters() {
@@ -253,19 +253,19 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
       }
     }
     initial_value_problem made = [&] {
-      constexpr bool tells_kind = requires(const S& s) {
+      constexpr bool declares_kind = requires(const S& s) {
         { s.kind() } -> std::convertible_to<std::string>;
       };
       if constexpr (detail::TellsDescription<S>) {
-        if (tells_kind || !has_size) return detail::made_of(system, in, law.front(), highest);
+        if (declares_kind || !has_size) return detail::made_of(system, in, law.front(), highest);
       }
       const std::string text = detail::TellsDescription<S> ? describe(system) : name + "(" + listed + ")";
       std::string kind = has_size ? name + "(" + listed_of_kind + ")" : text;
-      if constexpr (tells_kind) kind = system.kind();
+      if constexpr (declares_kind) kind = system.kind();
       return detail::made_of(detail::described<S>(system, text, kind), in, law.front(), highest);
     }();
     made.observables = std::move(observables);
-    const std::string bare = made.system.alone().description();
+    const std::string bare = made.system.base().description();
     std::apply([&](const auto&... piece) { (detail::take_letters(piece, system, bare, made.letters), ...); },
                all);
     if (made.springs.pairs > 0) made.default_observable = "stiff_energy";
@@ -277,7 +277,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
 }  // namespace nysalt
 
 #ifndef NYSALT_PLUGIN_SOURCE
-/// By what files know the source; nysalt build defines it.
+/// Fingerprint of the source, for files; nysalt build defines it.
 #define NYSALT_PLUGIN_SOURCE "unknown"
 #endif
 /// Declares SYSTEM to the program, once in a file: NYSALT_SYSTEM(type, "title", parameter(...)...,

@@ -16,7 +16,7 @@ namespace nysalt {
 /// Result of recommend().
 class recommendation {
  public:
-  class contest_result;  ///< how the library holds what was found
+  class contest_result;  ///< internal form of the results
   /// Made by recommend() and recommend_for_sampling().
   explicit recommendation(std::shared_ptr<const contest_result> found) : found_(std::move(found)) {}
 
@@ -25,15 +25,15 @@ class recommendation {
   /// "learned" or "classical", whose best errs or costs less than the other by more than chance can make;
   /// "tie"; or "none".
   std::string verdict() const;
-  /// The name of the best method, as comparison_options::methods take it; empty if there is none.
+  /// The name of the best method, for comparison_options::methods; empty if there is none.
   std::string method() const;
   /// The step of the best method; NaN if there is none.
   double step() const;
-  /// Ranking and advice, as the program prints them.
+  /// Ranking and advice, the text of the program.
   std::string text() const;
   /// A JSON document of all that was found: what `nysalt recommend --json` prints.
   std::string json() const;
-  /// The winner's scheme, as scheme files hold it and comparison_options::held takes it; nothing if none that
+  /// The winner's scheme, the text of a scheme file, for comparison_options::held; nothing if none that
   /// is learned wins.
   std::optional<std::string> scheme() const;
   /// Warnings to read before the advice is taken, a sentence each.

@@ -28,14 +28,14 @@ concept ReferenceFlow = SeparableSystem<S> &&
                           { reference.description() } -> std::convertible_to<std::string>;
                         };
 
-/// Whose noise a path sees, and how far it is: after `step` times of equal length.
+/// Trajectory and position of the noise of a path: after `step` intervals of equal length.
 struct path_place {
-  std::uint64_t seed = 0;        ///< of the noise
-  std::uint64_t trajectory = 0;  ///< whose noise
-  std::int64_t step = 0;         ///< how many such times have passed before
+  std::uint64_t seed = 0;        ///< seed of the noise
+  std::uint64_t trajectory = 0;  ///< trajectory number of the noise
+  std::int64_t step = 0;         ///< number of preceding intervals of that length
 };
 
-/// The same for a system in a bath, path by path:
+/// A reference for a system in a bath, path by path:
 /// advance(system, x, t, place, xi)  x becomes the state a time t later on that path, over double and packs;
 ///                                   xi, a span, are given the noise of as many equal parts of t
 /// finer()                           the same path in half the step (error_over_difference)
@@ -66,7 +66,7 @@ concept AdvancesLanes = requires(const R& reference, const S& system, phase_poin
 };
 }  // namespace detail
 
-/// The same for the trajectories in the first `count` lanes of x: all at a time if the reference can.
+/// Advances the trajectories in the first `count` lanes of x: all at a time if the reference can.
 template <SeparableSystem S, ReferenceFlow<S> R, Scalar T>
 void advance_lanes(const S& system, const R& reference, phase_point<T, S::dimension>& x, double t,
                    int count) {
@@ -81,7 +81,7 @@ void advance_lanes(const S& system, const R& reference, phase_point<T, S::dimens
   }
 }
 
-/// The same of any reference; a flow has no noise, and leaves xi unchanged.
+/// Advances the lanes by any reference; a flow has no noise, and leaves xi unchanged.
 template <SeparableSystem S, Reference<S> R, Scalar T>
 void advance_lanes(const S& system, const R& reference, phase_point<T, S::dimension>& x, double t, int count,
                    const path_place& at, std::span<vector<T, S::dimension>> xi) {

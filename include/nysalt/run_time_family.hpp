@@ -20,8 +20,8 @@ namespace nysalt {
 
 /// A method by its name and parameters.
 struct named_parameters {
-  std::string name;       ///< what it is called
-  Eigen::VectorXd theta;  ///< its parameters
+  std::string name;       ///< name of the point
+  Eigen::VectorXd theta;  ///< parameters
 };
 
 struct contained_family;
@@ -29,11 +29,11 @@ struct contained_family;
 /// The names, bounds and promises of a family, its word, and theta -> coefficients with their Jacobian.
 class run_time_family {
  public:
-  /// From any family; learns nothing of its type but what is listed here.
+  /// A run-time family from any family; only the members below are used.
   template <class F>
     requires(!std::same_as<F, run_time_family> && Family<F>)
   explicit run_time_family(const F& family) : run_time_family(family, run_time_word(word_of(family))) {}
-  /// The same of a word with letters of one's own, as they act on this system.
+  /// A run-time family of a word with letters of the user's own, as they act on this system.
   template <Family F, System S>
     requires(TypeLevelWord<typename F::word> && !std::same_as<S, run_time_word>)
   run_time_family(const F& family, const S& system)
@@ -64,9 +64,11 @@ class run_time_family {
             {std::string(known.name), Eigen::Map<const Eigen::VectorXd>(known.theta.data(), F::parameters)});
       }
     }
-    if constexpr (requires { F::refuge(); }) {
-      const auto theta = F::refuge();
-      refuge = Eigen::Map<const Eigen::VectorXd>(theta.data(), F::parameters);
+    static_assert(
+        !requires { F::refuge(); }, "refuge() of a family is named most_stable_member()");
+    if constexpr (requires { F::most_stable_member(); }) {
+      const auto theta = F::most_stable_member();
+      most_stable_member = Eigen::Map<const Eigen::VectorXd>(theta.data(), F::parameters);
     }
     if constexpr (requires { F::further_starts(); }) {
       for (const auto& theta : F::further_starts()) {
@@ -81,12 +83,13 @@ class run_time_family {
   run_time_family(std::string method_name, run_time_word word, std::vector<double> coefficients);
 
   std::string name;
-  std::string source;                        ///< key in docs/bibliography.bib; empty: not published
-  std::vector<std::string> parameter_names;  ///< one for each parameter
-  std::vector<parameter_range> ranges;       ///< where each may lie
-  std::optional<Eigen::VectorXd> refuge;     ///< the member that is stable farthest
-  std::vector<named_parameters> starts;      ///< the family's own, its classical members, further ones
-  std::shared_ptr<const contained_family> contained;  ///< whose optimum is a start, too; null: none
+  std::string source;                                 ///< key in docs/bibliography.bib; empty: not published
+  std::vector<std::string> parameter_names;           ///< names of the parameters
+  std::vector<parameter_range> ranges;                ///< ranges of the parameters
+  std::optional<Eigen::VectorXd> most_stable_member;  ///< the one with the longest stability interval
+  std::vector<named_parameters> starts;  ///< the family's own, its classical members, further ones
+  std::shared_ptr<const contained_family>
+      contained;  ///< contained family, whose optimum is a start, too; null: none
   int order;
   bool symmetric;
   bool requires_quadratic_kinetic;
@@ -152,7 +155,7 @@ class run_time_family {
 /// A family of fewer parameters all of whose members are members of a larger one.
 struct contained_family {
   run_time_family family;
-  Eigen::MatrixXd slopes;  ///< of the parameters of the larger family by those of this one
+  Eigen::MatrixXd slopes;  ///< derivatives of the parameters of the larger family by those of this one
   Eigen::VectorXd origin;  ///< the parameters of the larger family where those of this one are 0
 
   /// The parameters of the member of the larger family.

@@ -19,11 +19,11 @@
 
 namespace nysalt {
 
-/// What word<...> knows at compile time, found when it is made: which letters merge, where the force is at
-/// hand, and how many evaluations that leaves.
+/// A word whose letters are known at run time. The constructor finds what word<...> finds at compile time:
+/// which letters merge, where the force is known, and the number of force evaluations.
 class run_time_word {
  public:
-  /// One for each slot; C is double or the scalar of the states.
+  /// Coefficients, one for each slot; C is double or the scalar of the states.
   template <class C>
   using coefficients = std::vector<C>;
 
@@ -40,12 +40,12 @@ class run_time_word {
   /// The word of a type, whose letters are known_letters.
   template <TypeLevelWord W>
   explicit run_time_word(W) : run_time_word(W::letters()) {}
-  /// The same with letters of one's own, as they act on this system, which is copied: the word steps no
+  /// A word with letters of the user's own, as they act on this system, which is copied: the word steps no
   /// other, over double and packs, and their derivatives by two parameters.
   template <TypeLevelWord W, System S>
   run_time_word(W, const S& system) : run_time_word(W::letters(), detail::bound_letters<W>(system)) {}
 
-  /// Other letters, of which those of one's own are what they are here.
+  /// A word with other letters; the user's own letters are those of this word.
   run_time_word with_letters(std::string letters) const { return {std::move(letters), own_letters_}; }
 
  private:
@@ -58,7 +58,7 @@ class run_time_word {
       : length(std::min(letters.find(processor_mark), letters.size())),
         letters_(std::move(letters)),
         own_letters_(std::move(own)) {
-    if (length == 0) throw std::invalid_argument("a word needs at least one letter");
+    if (length == 0) throw std::invalid_argument("run_time_word: letters must be one or more, got none");
     std::erase_if(own_letters_,
                   [&](const auto& own) { return letters_.find(own->facts.letter) == std::string::npos; });
     bool additive = false;
@@ -93,22 +93,24 @@ class run_time_word {
           letters_of(splitting::quadratic_part_and_rest)));
     }
     merges = length > 1 && letters_.front() == letters_[length - 1] && additive;
-    halves_meet = length > 1 && is_of_bath.front() && is_of_bath.back();
+    merges_half_steps = length > 1 && is_of_bath.front() && is_of_bath.back();
     stochastic_letters = static_cast<int>(std::count(is_of_bath.begin(), is_of_bath.end(), true));
     if (stochastic_letters == static_cast<int>(length)) {
-      throw std::invalid_argument(sentence("the word {} needs a letter beside those of the bath", letters_));
+      throw std::invalid_argument(
+          sentence("run_time_word: a word must have a letter other than O, got {}", letters_));
     }
     plan_ = {reads, moves, first_in_loop(), std::vector<evaluation>(length)};
-    if (merges) evaluations_to_look = facts_at(0).displaced_forces;  // once a run and look, not in each step
+    if (merges)
+      evaluations_to_observe = facts_at(0).displaced_forces;  // once a run and observation, not in each step
     evaluations_per_step =
-        plan_.count(plan_.in_loop) + force_derivatives + displaced_forces - evaluations_to_look;
-    evaluations_to_open = (plan_.is_known_when_open ? 1 : 0) + evaluations_to_look;
+        plan_.count(plan_.in_loop) + force_derivatives + displaced_forces - evaluations_to_observe;
+    evaluations_to_open = (plan_.is_known_when_open ? 1 : 0) + evaluations_to_observe;
     evaluations_of_plain_step = plan_.count(plan_.in_step) + force_derivatives + displaced_forces;
     kernel_slots = slots;
     if (is_processed()) take_processor();
   }
 
-  bool is_processed() const { return length < letters_.size(); }  ///< it has a processor
+  bool is_processed() const { return length < letters_.size(); }  ///< whether the word has a processor
   /// The letters of the processor P; empty of a word that has none.
   std::string processor() const { return is_processed() ? letters_.substr(length + 1) : std::string(); }
 
@@ -116,50 +118,52 @@ class run_time_word {
   void require_one_for_each_slot(const auto& coefficients) const {
     if (coefficients.size() == slots) return;
     const std::string two = slots > length ? sentence(" and {} coefficients", slots) : "";
-    throw std::invalid_argument(sentence("the word {} has {} letters{}, but {} coefficients are given",
-                                         letters_, length, two, coefficients.size()));
+    throw std::invalid_argument(
+        sentence("run_time_word: coefficients must fit the word {} with {} letters{}, got {} "
+                 "coefficients",
+                 letters_, length, two, coefficients.size()));
   }
 
-  /// Where the coefficients of letter i begin.
+  /// Index of the first coefficient of letter i.
   std::size_t first_slot(std::size_t i) const { return first_slots_[i]; }
   /// Number of coefficients of letter i.
   std::size_t slots_of(std::size_t i) const {
     return (i + 1 < length ? first_slots_[i + 1] : kernel_slots) - first_slots_[i];
   }
 
-  const std::string& letters() const { return letters_; }         ///< as they were given
-  bool has_own_letters() const { return !own_letters_.empty(); }  ///< it was made with a system
-  /// A letter of one's own; null where the letter is another one.
+  const std::string& letters() const { return letters_; }         ///< letters as given
+  bool has_own_letters() const { return !own_letters_.empty(); }  ///< whether the word was made with a system
+  /// A letter of the user's own; null where the letter is another one.
   const detail::own_letter* own_letter(char letter) const {
     for (const auto& own : own_letters_) {
       if (own->facts.letter == letter) return own.get();
     }
     return nullptr;
   }
-  /// Its letters are those of a quadratic part and the rest, R, S or H.
+  /// Whether the letters are those of a quadratic part and the rest, R, S or H.
   bool rotates() const { return rotates_; }
-  /// Where a step of an open run begins: 1 if letter 0 merges with the last.
+  /// First letter of a step of an open run: 1 if letter 0 merges with the last.
   std::size_t first_in_loop() const { return merges ? 1 : 0; }
-  /// Which letters evaluate the force, in a plain step and in an open run.
+  /// Plan of force evaluations, in a plain step and in an open run.
   const detail::evaluation_plan<std::vector<evaluation>>& plan() const { return plan_; }
 
-  std::size_t length;            ///< how many letters, those of a processor left out
-  std::size_t slots = 0;         ///< how many coefficients: those of the kernel, then those of the processor
-  std::size_t kernel_slots = 0;  ///< how many without those of the processor
+  std::size_t length;            ///< number of letters, those of a processor left out
+  std::size_t slots = 0;         ///< number of coefficients: those of the kernel, then those of the processor
+  std::size_t kernel_slots = 0;  ///< number of coefficients without the processor
   field reads = field::none;     ///< the force that its letters read
   int force_derivatives = 0;     ///< f'(q) v in a step, one evaluation each
   int displaced_forces = 0;      ///< forces at displaced points in a step
-  bool is_symplectic = true;     ///< each of its letters is
-  bool reads_modes = false;      ///< it has a letter R
+  bool is_symplectic = true;     ///< whether every letter is symplectic
+  bool reads_modes = false;      ///< whether the word has a letter R
   bool merges;                   ///< last and first letter are applied as one
-  bool halves_meet;              ///< first and last letter are of the bath
-  int stochastic_letters;        ///< how many letters are of the bath
+  bool merges_half_steps;        ///< first and last letter are of the bath
+  int stochastic_letters;        ///< number of letters O
   int evaluations_per_step;      ///< force evaluations of a step of an open run
   int evaluations_to_open;       ///< force evaluations to open a run, those of P(h)^-1 among them
-  /// Force evaluations for each time that a run is looked at: of P(-h), or of a first letter that is taken
+  /// Force evaluations of each observation of a run: those of P(-h), or of a first letter that is taken
   /// back and evaluates forces itself.
-  int evaluations_to_look = 0;
-  int evaluations_of_plain_step;  ///< force evaluations of a step from q and p alone
+  int evaluations_to_observe = 0;
+  int evaluations_of_plain_step;  ///< force evaluations of a step from only q and p
 
  private:
   void take_processor() {
@@ -187,9 +191,9 @@ class run_time_word {
           letters_));
     }
     slots += letters.size();
-    evaluations_to_look = static_cast<int>(std::count(letters.begin(), letters.end(), 'B'));
-    evaluations_to_open += evaluations_to_look;
-    evaluations_of_plain_step += 2 * evaluations_to_look;
+    evaluations_to_observe = static_cast<int>(std::count(letters.begin(), letters.end(), 'B'));
+    evaluations_to_open += evaluations_to_observe;
+    evaluations_of_plain_step += 2 * evaluations_to_observe;
   }
 
   /// The known letters of which `is_meant` holds.
@@ -202,15 +206,17 @@ class run_time_word {
     return all;
   }
 
-  /// What letter i states of itself. Throws std::invalid_argument if it is not known.
+  /// Properties of letter i. Throws std::invalid_argument if it is not known.
   detail::letter_facts facts_at(std::size_t i) const {
     if (const auto* own = own_letter(letters_[i])) return own->facts;
     detail::letter_facts result{};
     const bool is_known = detail::with_letter(
         letters_[i], known_letters{}, [&](auto flow) { result = detail::facts_of_letter<decltype(flow)>(); });
     if (is_known) return result;
-    throw std::invalid_argument(sentence("the word {} holds the letter {}; known letters are {}", letters_,
-                                         letters_[i], listed([](auto) { return true; })));
+    throw std::invalid_argument(
+        sentence("run_time_word: letters must be known, got {} with the letter {}; known letters are "
+                 "{}",
+                 letters_, letters_[i], listed([](auto) { return true; })));
   }
 
   std::string letters_;

@@ -37,6 +37,6 @@ concept SteppedBy = CoefficientOf<C, T>;
 /// a where the condition holds, else b. Systems that write it instead of a branch serve packs and their duals
 /// too, where the condition may differ from lane to lane.
 inline double select(bool condition, double a, double b) { return condition ? a : b; }
-inline bool any(bool condition) { return condition; }  ///< whether it holds in any lane
+inline bool any(bool condition) { return condition; }  ///< whether the condition holds in any lane
 
 }  // namespace nysalt

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/detail/tree_sum.hpp"
 
 namespace nysalt {
@@ -30,7 +30,7 @@ std::span<double> numbers_in(Matrix& term) {
 class shard {
  public:
   /// The share that this rank has of `total` trajectories.
-  explicit shard(std::int64_t total, const communicator& ranks = alone);
+  explicit shard(std::int64_t total, const communicator& ranks = one_rank);
 
   std::int64_t total() const { return total_; }                    ///< trajectories of all ranks
   std::int64_t first() const { return first_of(ranks_->rank()); }  ///< number of this rank's first
@@ -49,18 +49,20 @@ class shard {
   template <class T>
   T sum(const std::vector<T>& terms, const T& zero) const {
     require_length(std::ssize(terms), count());
-    if (ranks_->is_alone()) return tree_sum(terms);
+    if (ranks_->is_single()) return tree_sum(terms);
     std::vector<T> nodes = detail::sums_of_leaves(std::span<const T>(terms));
     for (int k = 0; k < level_; ++k) detail::add_neighbours(nodes);
     T result = up_the_tree(std::move(nodes), zero);
     ranks_->broadcast(std::as_writable_bytes(detail::numbers_in(result)), 0);
     return result;
   }
-  double sum(const std::vector<double>& terms) const { return sum(terms, 0.0); }  ///< the same of numbers
+  double sum(const std::vector<double>& terms) const {
+    return sum(terms, 0.0);
+  }  ///< sum of numbers over all trajectories
 
-  /// Of all trajectories each rank has filled in the items of its own: all get them all. Memory and messages
-  /// grow with the trajectories: for what is small, and once. Throws std::invalid_argument if there is not
-  /// an item for each of them.
+  /// All-gather of items: each rank has filled in those of its own trajectories, and all ranks get all.
+  /// Memory and messages grow with the trajectories: for what is small, and once. Throws
+  /// std::invalid_argument if there is not an item for each of them.
   template <class Item>
     requires std::is_trivially_copyable_v<Item>
   void gather(std::vector<Item>& all) const {

@@ -27,11 +27,11 @@ namespace nysalt {
 template <Scalar T, int N>
 struct open_run {
   flow_state<T, N> state;        ///< ahead or behind, as said above
-  std::int64_t step = 0;         ///< how many are done
-  std::uint64_t trajectory = 0;  ///< whose noise it sees; that of lane 0
+  std::int64_t step = 0;         ///< number of steps done
+  std::uint64_t trajectory = 0;  ///< trajectory number of the noise, of lane 0
 };
 
-/// A word with coefficients, a step, a system, and the noise of its bath if it has one. The system is
+/// A word with coefficients, a step, a system, and the noise of the system's bath, if any. The system is
 /// referred to, not copied. C is double, or the scalar of the states that are stepped (learning).
 ///
 /// The letters O act if the system is in a bath; in none, or in one that does not act, they are deleted from
@@ -45,11 +45,11 @@ class stepper {
   }();
 
  public:
-  using system_type = S;                          ///< what it steps
-  using noise_type = Noise;                       ///< where its noise comes from
+  using system_type = S;                          ///< type of the system
+  using noise_type = Noise;                       ///< type of the noise source
   static constexpr int dimension = S::dimension;  ///< degrees of freedom
 
-  /// One for each slot of the word.
+  /// Coefficients, one for each slot of the word.
   using coefficients_type = typename W::template coefficients<C>;
 
   /// Prepares the letters for the step, once for all runs. Throws std::invalid_argument if the step is zero
@@ -72,7 +72,7 @@ class stepper {
     }
     if (acts_) require_thermostat(word.letters());
   }
-  /// The same for a word that is known by its type.
+  /// A stepper of a word that is known by type.
   stepper(const S& system, const coefficients_type& coefficients, double step, const Noise& noise = {})
     requires TypeLevelWord<W>
       : stepper(system, W{}, coefficients, step, noise) {}
@@ -80,7 +80,7 @@ class stepper {
   stepper(const S&&, const coefficients_type&, double, const Noise& = {}) = delete;
 
   double step_size() const { return step_; }     ///< h; back in time it is negative
-  const S& system() const { return *system_; }   ///< that it steps, no copy
+  const S& system() const { return *system_; }   ///< reference to the stepped system
   const Noise& noise() const { return noise_; }  ///< a copy of its source
 
   /// Begins a run at x, with the noise of that trajectory and of those after it in further lanes. Cost: the
@@ -104,7 +104,7 @@ class stepper {
   /// throws, the run is lost: go on from a copy.
   template <Scalar T>
   void advance(open_run<T, dimension>& run, std::int64_t steps) const {
-    if (steps < 0) throw std::invalid_argument(sentence("a run cannot advance by {} steps", steps));
+    if (steps < 0) throw std::invalid_argument(sentence("stepper: steps must be >= 0, got {}", steps));
     flow_state<T, dimension> x = std::move(run.state);  // local: it cannot alias the system
     auto cursor = cursor_at<T>(run.trajectory, run.step);
     with_letters([&](const auto& all) __attribute__((always_inline)) {
@@ -116,14 +116,14 @@ class stepper {
     run.step += steps;
   }
 
-  /// The same, watched: calls look(n, x) with the synchronous state at each step n that `every` divides. The
-  /// run stays in a local copy, and looking does not change it. Cost: the word's evaluations_to_look each
-  /// time.
-  template <Scalar T, class Look>
-  void advance(open_run<T, dimension>& run, std::int64_t steps, std::int64_t every, Look&& look) const {
+  /// Advances with an observer: calls observe(n, x) with the synchronous state at each step n that `every`
+  /// divides. The run stays in a local copy, and looking does not change it. Cost: the word's
+  /// evaluations_to_observe each time.
+  template <Scalar T, class Observe>
+  void advance(open_run<T, dimension>& run, std::int64_t steps, std::int64_t every, Observe&& observe) const {
     if (steps < 0 || every < 1) {
       throw std::invalid_argument(
-          sentence("a run cannot advance by {} steps, watched every {}", steps, every));
+          sentence("stepper: steps must be >= 0 and every >= 1, got {} and {}", steps, every));
     }
     if constexpr (ErasedSystem<S>) {  // whose loop is compiled once: here a second call inlines nothing less
       if ((run.step / every + 1) * every > run.step + steps) return advance(run, steps);
@@ -140,7 +140,7 @@ class stepper {
       if constexpr (ErasedSystem<S>) {
         std::int64_t next = (step / every + 1) * every;
         return letters.advance(system, x, y, steps, next - step, every, cursor, [&] {
-          look(next, static_cast<const phase_point<T, dimension>&>(y));
+          observe(next, static_cast<const phase_point<T, dimension>&>(y));
           next += every;
         });
       }
@@ -151,7 +151,7 @@ class stepper {
         if (step % every != 0) continue;
         y = x;
         all.close(system, y, cursor);
-        look(step, static_cast<const phase_point<T, dimension>&>(y));
+        observe(step, static_cast<const phase_point<T, dimension>&>(y));
       }
     });
     run.state = std::move(x);
@@ -159,7 +159,7 @@ class stepper {
   }
 
   /// The state at the run's step, as a copy: looking does not change the run. Cost: the word's
-  /// evaluations_to_look, which only a processed word has.
+  /// evaluations_to_observe, which only a processed word has.
   template <Scalar T>
   phase_point<T, dimension> synchronous(const open_run<T, dimension>& run) const {
     if (is_processed_ && run.step == 0) return {run.state.q, run.state.p};
@@ -169,7 +169,7 @@ class stepper {
     return {std::move(x.q), std::move(x.p)};
   }
 
-  /// The same of the kernel of a processed word, without P(-h), else that of synchronous(), in x. No
+  /// State of the kernel of a processed word, without P(-h), else the synchronous state, in x. No
   /// evaluation, and no allocation where x has the system's dimension.
   template <Scalar T>
   void of_kernel(const open_run<T, dimension>& run, flow_state<T, dimension>& x) const {
@@ -199,20 +199,20 @@ class stepper {
     x = {std::move(state.q), std::move(state.p)};
   }
 
-  /// The same steps of another copy of the system, which outlives them.
+  /// A stepper of another copy of the system, which must outlive the stepper.
   stepper with_system(const S& copy) const {
     stepper result = *this;
     result.system_ = &copy;
     return result;
   }
 
-  /// A run from x (whose f is scratch) that calls look(k) after each number after[k] of steps, which rise,
+  /// A run from x (whose f is scratch) that calls observe(k) after each number after[k] of steps, which rise,
   /// with the synchronous state in y: what losses over several steps differentiate. Its noise is that of
   /// steps 0, 1, ... of the trajectory. Cost: the word's evaluations_to_open, as many times its
-  /// evaluations_per_step as there are steps, and its evaluations_to_look each time.
-  template <SteppedBy<C> T, class Look>
+  /// evaluations_per_step as there are steps, and its evaluations_to_observe each time.
+  template <SteppedBy<C> T, class Observe>
   void run(flow_state<T, dimension>& x, flow_state<T, dimension>& y, std::span<const int> after,
-           std::uint64_t trajectory, Look&& look) const {
+           std::uint64_t trajectory, Observe&& observe) const {
     auto cursor = cursor_at<T>(trajectory, 0);
     with_letters([&](const auto& letters) {
       letters.open(*system_, x, cursor);
@@ -222,13 +222,13 @@ class stepper {
         done = after[k];
         y = x;
         letters.close(*system_, y, cursor);
-        look(k);
+        observe(k);
       }
     });
   }
 
  private:
-  static constexpr bool chooses = may_be_noisy && TypeLevelWord<W>;  // while running, not compiling
+  static constexpr bool chooses = may_be_noisy && TypeLevelWord<W>;  // at run time, not at compile time
   using letters_type = prepared_word<std::conditional_t<may_be_noisy, W, conservative_word<W>>, C, dimension>;
   using quiet_type =
       std::conditional_t<chooses, prepared_word<conservative_word<W>, C, dimension>, std::monostate>;
@@ -334,8 +334,10 @@ class stepper {
   template <Scalar T>
   void require_size(const phase_point<T, dimension>& x) const {
     if (x.q.size() == size(*system_) && x.p.size() == x.q.size()) return;
-    throw std::invalid_argument(sentence("the state has {} positions and {} momenta, the system {} of each",
-                                         x.q.size(), x.p.size(), size(*system_)));
+    throw std::invalid_argument(
+        sentence("stepper: the state must fit the system, got {} positions and {} momenta for {} "
+                 "degrees of freedom",
+                 x.q.size(), x.p.size(), size(*system_)));
   }
 
   const S* system_;

@@ -40,15 +40,15 @@ namespace nysalt {
 struct mode_entry {
   Eigen::Index coordinate;  ///< row
   Eigen::Index mode;        ///< column
-  double value;             ///< in mass-weighted coordinates
+  double value;             ///< matrix entry in mass-weighted coordinates
 };
 
 /// Orthonormal modes of the quadratic part: column k of `basis` in mass-weighted coordinates M^{1/2} q,
 /// with angular frequency `frequencies[k]` (0: the quadratic part does not act on it).
 struct normal_modes {
-  Eigen::MatrixXd basis;        ///< N x N, orthogonal; 0 x 0 where `entries` tell it
-  Eigen::VectorXd frequencies;  ///< N of them, none negative
-  /// Of many coordinates and modes of a few each: all that is not zero in the basis, row by row.
+  Eigen::MatrixXd basis;        ///< N x N, orthogonal; 0 x 0 where `entries` hold the basis
+  Eigen::VectorXd frequencies;  ///< N frequencies, none negative
+  /// Non-zero entries of the basis, row by row, where modes are sums of a few of many coordinates.
   std::vector<mode_entry> entries{};
 };
 
@@ -61,7 +61,7 @@ struct frequency_band {
   double high;  ///< upper end
 };
 
-/// What can be stepped at all: it can be copied, and has `static constexpr int dimension`, positive, or
+/// A system that can be stepped: copyable, with `static constexpr int dimension`, positive, or
 /// Eigen::Dynamic and a size().
 template <class S>
 concept System =
@@ -69,7 +69,7 @@ concept System =
                            { s.size() } -> std::convertible_to<Eigen::Index>;
                          }));
 
-/// What the system can do is known while running: see nysalt/model.hpp.
+/// A system whose members are known at run time: see nysalt/model.hpp.
 template <class S>
 concept ErasedSystem = System<S> && requires { requires S::is_erased; };
 
@@ -213,7 +213,7 @@ template <class S>
 concept NystromSystem = SeparableSystem<S> && !HasKineticEnergy<S, double> && !HasVelocity<S, double>;
 
 /// K = p M^-1 p / 2, also of systems that need not be separable over double: order_probe, whose K is decided
-/// while running, says so itself.
+/// at run time, declares so itself.
 template <class S>
 concept HasQuadraticKinetic = System<S> && ((!HasKineticEnergy<S, double> && !HasVelocity<S, double>) ||
                                             requires { requires S::may_have_quadratic_kinetic; });
@@ -299,7 +299,7 @@ vector<T, S::dimension> make_vector(const S& system) {
   return vector<T, S::dimension>(size(system));
 }
 
-/// What a learned method remembers of its system, so that it can refuse another one. Without a description a
+/// Description of a system, by which a learned method refuses another system. Without a description a
 /// system is known only by its type and size: let yours name its parameters.
 template <System S>
 std::string describe(const S& system) {
@@ -316,9 +316,9 @@ std::string describe(const S& system) {
   }
 }
 
-/// Of which kind a system is: the description without the size, by a member kind(). A method that was learned
-/// for one size may be tried at another, see learning/at_other_size.hpp. Systems that do not tell have a kind
-/// of their own, the description.
+/// Kind of a system: the description without the size, by a member kind(). A method that was learned
+/// for one size may be tried at another, see learning/at_other_size.hpp. Systems without that member have a
+/// kind of their own, the description.
 template <System S>
 std::string kind_of(const S& system) {
   if constexpr (requires {

@@ -31,13 +31,13 @@ using parameter_value = std::variant<std::int64_t, double, std::string>;
 /// A parameter of a system, a number or a text, as options, help, files and Python name it.
 struct declared_parameter {
   std::string name;       ///< lower-case letters, digits and _: the option is --name
-  parameter_value usual;  ///< where none is given; it says whether it is a text, or the number is whole
-  std::string meaning{};  ///< for the help
+  parameter_value usual;  ///< default value; its type says whether it is a text, or the number is whole
+  std::string meaning{};  ///< meaning, for the help
   double least = -std::numeric_limits<double>::infinity();  ///< the smallest that is allowed
   double most = std::numeric_limits<double>::infinity();    ///< the largest that is allowed
-  double below = std::numeric_limits<double>::infinity();   ///< this itself is not allowed
+  double below = std::numeric_limits<double>::infinity();   ///< exclusive upper bound
   bool is_positive = false;                                 ///< 0 is not allowed, nor is anything below
-  bool is_size = false;  ///< how many parts there are, no property of one: two sizes are of one kind
+  bool is_size = false;  ///< whether the parameter is a number of parts: two sizes are of one kind
 
   /// Whether its values are whole numbers.
   bool is_whole() const { return std::holds_alternative<std::int64_t>(usual); }
@@ -51,9 +51,9 @@ struct declared_parameter {
 /// Values of all parameters of a system, in the order of their declaration.
 class parameter_values {
  public:
-  /// One more, behind the others.
+  /// Appends one value.
   void add(std::string name, parameter_value value) { all_.emplace_back(std::move(name), value); }
-  /// Names and values.
+  /// All parameters: names and values.
   const std::vector<std::pair<std::string, parameter_value>>& all() const { return all_; }
   /// Throws std::invalid_argument if none has the name.
   const parameter_value& operator[](std::string_view name) const;
@@ -69,14 +69,14 @@ class parameter_values {
 
 /// A function of a state, by name.
 struct named_observable {
-  std::string name;                              ///< by which --observables knows it
-  detail::over_scalars<detail::of_state> value;  ///< of one state, or of those in the lanes of packs
+  std::string name;                              ///< name in --observables
+  detail::over_scalars<detail::of_state> value;  ///< function of one state, or of those in the lanes of packs
 };
 
-/// A letter of one's own by name, as it acts on a system.
+/// A letter of the user's own by name, bound to a system.
 struct declared_letter {
   detail::named_letter named;  ///< bound to the system
-  /// check_letter() of it at some states, over the step h.
+  /// check_letter() of the letter at some states, over the step h.
   std::function<letter_check(const std::vector<phase_point<double, Eigen::Dynamic>>&, double h)> check;
 };
 
@@ -129,16 +129,16 @@ model put_in(const S& system, const bath& in) {
 
 /// A system that is made of its parameters.
 struct initial_value_problem {
-  nysalt::model system;    ///< in its bath
+  nysalt::model system;    ///< system in its bath
   initial_states starts;   ///< the initial distribution
   double frequency = 0.0;  ///< the highest of the motion, rare starts included; 0: not known
-  std::vector<named_observable> observables{};  ///< beside those of every system
-  std::vector<declared_letter> letters{};       ///< beside those of the library
-  std::string default_observable = "energy";    ///< where none is named
-  double fine_angle = 5e-3;  ///< of a reference's step, times the frequency: there srkn11b errs by rounding
-  detail::stiff_springs springs{};                       ///< of a system with stiff_energy(x, j)
+  std::vector<named_observable> observables{};  ///< observables beyond those of every system
+  std::vector<declared_letter> letters{};       ///< letters beyond those of the library
+  std::string default_observable = "energy";    ///< observable where none is named
+  double fine_angle = 5e-3;  ///< step of a reference times the frequency: there srkn11b errs by rounding
+  detail::stiff_springs springs{};                       ///< springs of a system with stiff_energy(x, j)
   bool has_exact_flow = false;                           ///< small steps then have a fixed angle
-  std::shared_ptr<const detail::any_reference> exact{};  ///< the exact flow of the system, if it is known
+  std::shared_ptr<const detail::any_reference> exact{};  ///< exact flow of the system, if known
 };
 
 namespace detail {
@@ -154,18 +154,19 @@ initial_value_problem made_of(const S& system, const bath& in, initial_states st
 
 /// All that there is to say of a system before its parameters are known.
 struct system_declaration {
-  std::string name;                              ///< by which commands and files know it
-  std::string title;                             ///< one line: its Hamiltonian, in words or as a formula
-  std::vector<declared_parameter> parameters{};  ///< in the order of help and files
-  /// With a value for each parameter. The deviations of the starts are multiplied by the spread. Throws
-  /// std::invalid_argument for values out of range.
+  std::string name;   ///< name in commands and files
+  std::string title;  ///< title, one line: the Hamiltonian, in words or as a formula
+  std::vector<declared_parameter> parameters{};  ///< parameters in the order of help and files
+  /// Makes the system with a value for each parameter. The deviations of the starts are multiplied by the
+  /// spread. Throws std::invalid_argument for values out of range.
   std::function<initial_value_problem(const parameter_values&, const bath&, double spread)> make{};
   std::string letters{};    ///< names of its own letters
   bool has_spread = true;   ///< the initial distribution has deviations
-  std::string described{};  ///< with what its description begins, if not with its name
-  std::string source{};     ///< in docs/bibliography.bib
-  std::string identity{};   ///< of the source that declares it; files refuse another. Empty: a bundled one
-  bool is_checked = false;  ///< its force is known to be that of its potential
+  std::string described{};  ///< beginning of the description, if not the name
+  std::string source{};     ///< key in docs/bibliography.bib
+  std::string identity{};   ///< fingerprint of the source that declares the system; files refuse another.
+                            ///< Empty: a bundled one
+  bool is_checked = false;  ///< whether the force is known to be that of the potential
 };
 
 }  // namespace nysalt

@@ -21,8 +21,8 @@ namespace nysalt {
 
 /// Length of a trial.
 struct trial_options {
-  std::int64_t steps = 20'000;  ///< of each trajectory
-  std::uint64_t seed = 1;       ///< of the noise, in a bath
+  std::int64_t steps = 20'000;  ///< steps of each trajectory
+  std::uint64_t seed = 1;       ///< seed of the noise, in a bath
   int threads = 1;              ///< changes no bit
   /// Whether the energy errors of all steps are compared with those of the first early_steps too. For words
   /// with kicks of parts of V, whose errors of an early step show all that a stable motion has.
@@ -31,36 +31,38 @@ struct trial_options {
 
 /// Result of a trial run: whether a trajectory diverged, and how far the energies went.
 struct trial_result {
-  std::int64_t trajectories = 0;            ///< that were run; fewer than the starts after a divergence
-  std::int64_t steps = 0;                   ///< of each
-  std::int64_t diverged = 0;                ///< number of trajectories that diverged
-  std::optional<diverged_trajectory> lost;  ///< the one of the lowest number that diverged
+  std::int64_t trajectories = 0;  ///< trajectories that were run; fewer than the starts after a divergence
+  std::int64_t steps = 0;         ///< steps of each trajectory
+  std::int64_t diverged = 0;      ///< number of trajectories that diverged
+  std::optional<diverged_trajectory> lost;  ///< diverged trajectory with the lowest number
   bool energy_was_watched = false;          ///< false: in a bath, or H is not known
-  double first_deviation = 0.0;     ///< largest |H - H_0| of all trajectories in the first tenth of the steps
-  double deviation = 0.0;           ///< the same over all steps
-  double early_deviation = 0.0;     ///< the same over the first early_steps; 0 if growth was not watched
+  double first_deviation = 0.0;  ///< largest |H - H_0| of all trajectories in the first tenth of the steps
+  double deviation = 0.0;        ///< largest energy deviation over all steps
+  double early_deviation =
+      0.0;  ///< largest energy deviation over the first early_steps; 0 if growth was not watched
   bool growth_was_watched = false;  ///< early_deviation is known
   double rounding = 0.0;            ///< bound of what rounding adds to |H - H_0|
   double kinetic_energy = 0.0;      ///< mean over trajectories and time
   double relative_deviation =
       0.0;                      ///< largest over trajectories of |H - H_0|/(the largest K of the trajectory)
-  std::int64_t unconfined = 0;  ///< trajectories left out, as an accurate method loses them as well
-  diverged_trajectory farthest{};  ///< where `deviation` was met
+  std::int64_t unconfined = 0;  ///< number of trajectories left out, which diverge by an accurate method, too
+  diverged_trajectory farthest{};  ///< trajectory with the largest deviation
   std::string not_run{};           ///< why no trial was run; else empty
 
   /// Ten times as many samples of a stationary deviation with a finite variance, or a random walk ten times
   /// as long, have a maximum larger by sqrt(10); a larger one means that the energy drifts.
-  static constexpr double stretches = 10.0;
+  static constexpr double intervals = 10.0;
 
-  /// Of fewer steps the first tenth may be shorter than a period of slow motion, some hundred steps.
+  /// Smallest number of steps of a test for drift: of fewer, the first tenth may be shorter than a period of
+  /// slow motion, some hundred steps.
   static constexpr std::int64_t fewest_steps_for_drift = 5'000;
-  /// Of the mean kinetic energy: a drift that changes a temperature by less is not seen in what runs measure.
+  /// Smallest relevant drift, as a share of the mean kinetic energy: less does not show in a temperature.
   static constexpr double smallest_drift = 0.05;
 
   /// Whether the energy went farther than the first tenth explains.
   bool energy_wanders() const {
     return energy_was_watched && deviation > smallest_drift * kinetic_energy &&
-           steps >= fewest_steps_for_drift && deviation > std::sqrt(stretches) * first_deviation + rounding;
+           steps >= fewest_steps_for_drift && deviation > std::sqrt(intervals) * first_deviation + rounding;
   }
   /// Some periods of fast modes and, at the steps of slow kicks, one of slow ones.
   static constexpr std::int64_t early_steps = 64;
@@ -78,7 +80,7 @@ struct trial_result {
   /// Whether the trial was run, no trajectory diverged and the energy did not drift.
   bool passed() const { return not_run.empty() && !lost && !energy_wanders() && !energy_grows(); }
 
-  /// One sentence on why it failed; empty if it passed or was not run.
+  /// Reason of the failure, one sentence; empty if the trial run passed or was not run.
   std::string objection() const;
 
   /// The trial and its result, in one line.

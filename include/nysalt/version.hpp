@@ -3,6 +3,6 @@
 
 namespace nysalt {
 
-inline constexpr const char* version = "0.1.0";  ///< of the headers; the build reads it here
+inline constexpr const char* version = "0.1.0";  ///< version of the headers; the build reads it here
 
 }  // namespace nysalt

@@ -140,7 +140,7 @@ def system(name: Union[str, _os.PathLike] = "fpu", *, spread: Optional[float] = 
 
     The path of what `build` made, or of its source, loads a system of your own, at full speed: it is code that
     runs as you. friction (gamma) with sigma or temperature (kT = sigma^2/(2 gamma)) puts the system into a
-    bath; `start` says where trajectories start there: "gibbs", "law" or "trajectory". `spread` multiplies the
+    bath; `start` says where trajectories start there: `"gibbs"`, `"law"` or `"trajectory"`. `spread` multiplies the
     standard deviations of the initial distribution.
     """
     return System(_nysalt.bundled({**locals(), "name": _path(name)}))

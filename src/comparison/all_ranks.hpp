@@ -2,7 +2,7 @@
 // Those who compute together: one process, or the ranks that mpirun started.
 #pragma once
 
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 
 namespace nysalt::program {
 

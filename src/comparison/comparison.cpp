@@ -148,8 +148,8 @@ void comparison::add_row(const method_source& source, double nominal) {
       planned.coefficients = coefficients_at(source, *system_, step, common_.force, otherwise, warnings_);
     } catch (const refusal& problem) {
       // Coefficients that follow from the step may end; other steps have their rows.
-      const bool is_alone = options_.steps.size() == 1;
-      if (source.adaptive == nullptr || is_alone) throw;
+      const bool is_only_step = options_.steps.size() == 1;
+      if (source.adaptive == nullptr || is_only_step) throw;
       warnings_.push_back(fmt::format("{} (no row at step {:g})", problem.what(), nominal));
       return;
     }

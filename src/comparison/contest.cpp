@@ -11,7 +11,7 @@ bool contest::is_better(const candidate& a, const candidate& b) const {
 
 void contest::rank() {
   const auto group = [](const candidate& contender) {
-    return contender.stands() ? 0 : contender.reason.empty() ? 1 : 2;
+    return contender.is_eligible() ? 0 : contender.reason.empty() ? 1 : 2;
   };
   std::ranges::stable_sort(all, [&](const candidate& a, const candidate& b) {
     return group(a) != group(b) ? group(a) < group(b) : group(a) == 0 && is_better(a, b);
@@ -20,13 +20,13 @@ void contest::rank() {
 
 const candidate* contest::best_of(bool learned) const {
   const auto found = std::ranges::find_if(all, [&](const candidate& contender) {
-    return contender.stands() && contender.is_learned() == learned;
+    return contender.is_eligible() && contender.is_learned() == learned;
   });
   return found == all.end() ? nullptr : &*found;
 }
 
 const candidate* contest::best() const {
-  return !all.empty() && all.front().stands() ? &all.front() : nullptr;
+  return !all.empty() && all.front().is_eligible() ? &all.front() : nullptr;
 }
 
 ratio_estimate contest::error_ratio(const candidate& a, const candidate& b) const {

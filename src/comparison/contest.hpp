@@ -56,7 +56,7 @@ struct candidate {
 
   bool is_learned() const { return source.family.has_value(); }
   /// The candidate stayed with the reference on every trajectory.
-  bool stands() const { return reason.empty() && error.diverged == 0; }
+  bool is_eligible() const { return reason.empty() && error.diverged == 0; }
 };
 
 enum class cost_unit { evaluations, seconds };

@@ -35,8 +35,8 @@ export_source plain_source(const method_source& source, const export_request& re
   }
   if (source.adaptive != nullptr) {
     refuse(
-        "export: {} depends on step and highest frequency, and an exported text has one list of "
-        "coefficients: learn a family at the step, or take a method with fixed coefficients",
+        "export: coefficients must not depend on step and highest frequency, got {}; learn a "
+        "family at the step, or take a method with fixed coefficients",
         source.typed);
   }
   if (source.fixed) {

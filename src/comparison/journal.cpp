@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "all_ranks.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/write_failure.hpp"
 #include "refusal.hpp"
 

@@ -152,7 +152,8 @@ std::optional<std::string> known_as(const std::string& family, const std::vector
     known.push_back(
         member(fmt::format("{} {} {}", is_own ? "the start" : name, is_own ? "of" : "in", family), at));
   }
-  if (named_family.refuge) known.push_back(member("the refuge of " + family, *named_family.refuge));
+  if (named_family.most_stable_member)
+    known.push_back(member("the most stable member of " + family, *named_family.most_stable_member));
   const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
   return known_as(member(family, at), known);
 }

@@ -19,8 +19,8 @@ namespace nysalt::program {
 std::optional<std::string> known_as(const tabulated& method, std::span<const tabulated> known);
 
 /// The same among the classical methods, and the members of a family that are written down: the classical
-/// ones, the refuge, and the start of its searches, "pefrl in r_aba4" or "the start of r_aba2". theta is of
-/// that family.
+/// ones, the most stable member, and the start of its searches, "pefrl in r_aba4" or "the start of r_aba2".
+/// theta is of that family.
 std::optional<std::string> known_as(const std::string& family, const std::vector<double>& theta,
                                     std::span<const tabulated> further = {},
                                     const detail::named_letters& of_system = {});

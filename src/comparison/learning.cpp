@@ -114,10 +114,10 @@ std::vector<learned_scheme> learn_curve(const prepared_problem& system, learn_pl
                                         std::vector<double> steps, progress& shown) {
   std::sort(steps.begin(), steps.end());
   std::vector<learned_scheme> learned;
-  const auto learn_at = [&](std::size_t n, const std::vector<double>& from, bool from_there_alone) {
+  const auto learn_at = [&](std::size_t n, const std::vector<double>& from, bool only_from_there) {
     plan.step = steps[n];
     plan.from = from;
-    plan.from_there_alone = from_there_alone;
+    plan.only_from_there = only_from_there;
     return learn_with(system, plan, shown);
   };
   std::vector<double> from;

@@ -21,7 +21,7 @@ struct scheme {
   std::optional<placement> where;  // of its letters O
   theta_curve curve;
   std::string system;  // its description
-  std::string kind;    // the same without the size; empty where the system told none
+  std::string kind;    // the same without the size; empty where the system declared none
   std::string source;  // of a system of the user's own: its source and parameters; empty: a bundled one
   bool usable;
   std::string reason;

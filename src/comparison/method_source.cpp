@@ -24,7 +24,7 @@ void count(method_source& source, const run_time_word& word) {
   source.word = word;
   source.evaluations_per_step = word.evaluations_per_step;
   source.force_derivatives = word.force_derivatives;
-  source.evaluations_to_look = word.evaluations_to_look;
+  source.evaluations_to_observe = word.evaluations_to_observe;
 }
 
 void take_file(method_source& source, method_file file) {
@@ -263,7 +263,7 @@ std::optional<std::string> warning_of_energies(const method_source& source, cons
   if (source.learned->system != system.description()) return std::nullopt;
   auto energies = system.values_at_starts(plan, "energy");
   energies.resize(std::min(energies.size(), static_cast<std::size_t>(plan.count)));
-  const auto found = look_outside(*source.learned->energies, source.learned->trajectories, energies);
+  const auto found = count_outside(*source.learned->energies, source.learned->trajectories, energies);
   if (!found.is_serious()) return std::nullopt;
   return fmt::format(
       "{}: {}: its errors may be larger than those that it was learned with; learn it from such starts, or "

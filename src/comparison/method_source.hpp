@@ -20,7 +20,8 @@ struct method_source {
   std::optional<std::string> family;          // to be learned at each step
   const adaptive_method* adaptive = nullptr;  // of the catalogue: from step and frequency
   std::optional<placement> where;             // of its letters O, if it says so: verlet@end
-  int evaluations_to_look = 0;  // of a processed method: once before the first step, and for each observation
+  int evaluations_to_observe =
+      0;  // of a processed method: once before the first step, and for each observation
   int evaluations_per_step = 0;  // of a system whose f'(q) v counts one, until charge() knows which
   int force_derivatives = 0;     // f'(q) v in a step
   std::optional<run_time_word> word;

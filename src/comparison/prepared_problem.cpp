@@ -12,7 +12,7 @@
 
 #include "catalogue.hpp"
 #include "json.hpp"
-#include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/ensembles/gibbs_of_modes.hpp"
@@ -115,10 +115,10 @@ std::string prepared_problem::starts() const {
 
 void prepared_problem::prepare_starts(std::uint64_t seed) {
   if (starts_) return;
-  const model alone = made_.system.alone();
+  const model base = made_.system.base();
   try {
     if (start_ == start::gibbs && made_.has_exact_flow) {
-      starts_.emplace(gibbs_of_modes<dynamic>(alone, made_.system.bath().temperature()));
+      starts_.emplace(gibbs_of_modes<dynamic>(base, made_.system.bath().temperature()));
     } else if (start_ == start::gibbs) {
       starts_.emplace(gibbs(made_.system, made_.starts));
     } else {
@@ -162,11 +162,11 @@ Eigen::VectorXd rate_of(const model& system, const run_time_word& letter, std::s
                         const state_in_double& x, double h) {
   std::vector<double> c(letter.slots);
   c[slot] = 1.0;
-  const tabulated alone("letter", letter, c, {1, false, false});
+  const tabulated one_letter("letter", letter, c, {1, false, false});
   state_in_double ahead = x;
   state_in_double behind = x;
-  make_stepper(system, alone, h).step(ahead);
-  make_stepper(system, alone, -h).step(behind);
+  make_stepper(system, one_letter, h).step(ahead);
+  make_stepper(system, one_letter, -h).step(behind);
   return (column_of(ahead) - column_of(behind)) / (2.0 * h);
 }
 
@@ -228,13 +228,13 @@ void prepared_problem::require_sound_letters(const std::string& name, const run_
   if (!word.has_own_letters() || size(made_.system) > most) return;
   const std::string tried = fmt::format("{} {}", word.letters(), step);
   if (sound_.contains(tried)) return;
-  const model alone = made_.system.alone();
+  const model base = made_.system.base();
   // Some moved by a part of a step: starts may be at rest, or at the minimum of V.
   const double moved_by = made_.frequency > 0.0 ? std::min(step, 0.1 / made_.frequency) : step;
-  const auto mover = make_stepper(alone, tabulated(verlet()), moved_by);
+  const auto mover = make_stepper(base, tabulated(verlet()), moved_by);
   states_in_double states;
   for (std::int64_t n = 0; n < 4; ++n) {
-    states.push_back(sound_start(alone, made_.starts, 1, n));
+    states.push_back(sound_start(base, made_.starts, 1, n));
     if (n % 2 == 1) mover.step(states.back());
   }
   for (const auto& [named, check] : made_.letters) {
@@ -245,7 +245,7 @@ void prepared_problem::require_sound_letters(const std::string& name, const run_
   std::string letters = word.letters();
   std::erase(letters, bath_letter);
   const run_time_word conservative = word.with_letters(letters);
-  const auto rates = rates_of_sum(alone, conservative, times_of_slots(conservative, letters_), states, step);
+  const auto rates = rates_of_sum(base, conservative, times_of_slots(conservative, letters_), states, step);
   for (const auto& [which, rate] : {std::pair("q", rates[0]), std::pair("p", rates[1])}) {
     if (rate.agree()) continue;
     refuse(
@@ -269,7 +269,7 @@ std::optional<double> prepared_problem::frequency_along_starts(std::uint64_t see
       states.push_back(starts_ ? (*starts_)(seed, n) : made_.starts(seed, n));
     }
     try {
-      return stiffness_along(made_.system, states).highest_frequency();
+      return hessian_spectrum(made_.system, states).highest_frequency();
     } catch (const std::invalid_argument&) {  // the force is not finite there: the run will show it
       return std::nullopt;
     }
@@ -278,7 +278,7 @@ std::optional<double> prepared_problem::frequency_along_starts(std::uint64_t see
 
 const std::vector<frequency_band>& prepared_problem::bands_along_motion() const {
   if (bands_along_motion_) return *bands_along_motion_;
-  const model system = made_.system.alone();
+  const model system = made_.system.base();
   auto& bands = bands_along_motion_.emplace();
   if (has_frequency_bands(system) || size(system) > most_for_all_frequencies || is_black_box(system))
     return bands;

@@ -51,7 +51,7 @@ struct surroundings {
 
 class prepared_problem {
  public:
-  /// Throws refusal if there is no law of such starts. `source` is what makes two kinds of one name
+  /// Throws refusal if there is no distribution of such starts. `source` is what makes two kinds of one name
   /// different.
   prepared_problem(initial_value_problem definition, std::vector<named_value> parameters,
                    const surroundings& conditions, std::string source = {});
@@ -64,7 +64,7 @@ class prepared_problem {
 
   std::string description() const;
   /// The description without the size, and what else a method that was learned at another size must agree
-  /// with; empty where the system tells no kind.
+  /// with; empty where the system declares no kind.
   std::string kind() const;
   /// Degrees of freedom.
   std::int64_t dimension() const;

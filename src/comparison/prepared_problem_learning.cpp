@@ -62,7 +62,7 @@ learnable prepared_problem::make_learnable(const learn_plan& plan, const counter
   options.seed = plan.seed;
   if (!plan.from.empty()) {
     const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(plan.from.data(), std::ssize(plan.from));
-    if (plan.from_there_alone) {
+    if (plan.only_from_there) {
       options.start = theta;
       options.random_starts = 0;
     } else {

@@ -94,7 +94,7 @@ void recommendation::run(contest& among) {
 
 bool recommendation::is_heavy(const contest& among) const {
   return std::ranges::any_of(among.all, [](const candidate& contender) {
-    return contender.stands() &&
+    return contender.is_eligible() &&
            (contender.error.is_heavy || (contender.confirmed && contender.confirmed->is_heavy));
   });
 }
@@ -105,7 +105,7 @@ void recommendation::settle(contest& among) {
     if (among.budget && !among.statistic.is_quantile && is_heavy(among)) among.statistic = statistic(true);
     if (options_.error) {
       for (auto& contender : among.all) {
-        if (!contender.stands() || contender.confirmed) continue;
+        if (!contender.is_eligible() || contender.confirmed) continue;
         if (!(among.statistic.lower_bound(contender.error.scores) > *options_.error)) continue;
         contender.reason = fmt::format("on fresh trajectories its error is {:.2e}, above {:g}",
                                        among.error_of(contender), *options_.error);

@@ -58,7 +58,7 @@ class recommendation {
   trajectories_plan plan_at(double step, std::int64_t count, std::uint64_t seed) const;
   /// Coefficients at the contender's step; of a family with the optimum of a step nearby as one more start,
   /// or the only.
-  void prepare(candidate& contender, const std::vector<double>& from = {}, bool from_there_alone = false);
+  void prepare(candidate& contender, const std::vector<double>& from = {}, bool only_from_there = false);
   std::vector<tabulated> formulas_at(double step) const;
   void measure(const std::vector<candidate*>& all, std::int64_t count, std::uint64_t seed);
   void measure_at(double step, const std::vector<candidate*>& group, std::int64_t count, std::uint64_t seed);
@@ -71,7 +71,7 @@ class recommendation {
   }
   /// Force evaluations of processing per unit time, where trajectories are observed as often as asked.
   double processing_of(const candidate& contender) const {
-    return static_cast<double>((1 + options_.looks) * contender.source.evaluations_to_look) /
+    return static_cast<double>((1 + options_.looks) * contender.source.evaluations_to_observe) /
            options_.horizon;
   }
   double seconds_of_processing(const candidate& contender) const {
@@ -94,7 +94,7 @@ class recommendation {
   std::string advice() const;
   std::string advice_of(const contest& among) const;
   std::string advice_on_seconds() const;
-  std::string advice_on_looks() const;
+  std::string advice_on_observations() const;
   std::string costs(const candidate& contender, const candidate& other) const;
   std::string as_options(const candidate& contender) const;
   std::string bound_of(const contest& among, const candidate& contender) const;

@@ -21,7 +21,7 @@ trajectories_plan recommendation::plan_at(double step, std::int64_t count, std::
   return plan;
 }
 
-void recommendation::prepare(candidate& contender, const std::vector<double>& from, bool from_there_alone) {
+void recommendation::prepare(candidate& contender, const std::vector<double>& from, bool only_from_there) {
   contender.reason.clear();
   const double samples = options_.horizon / contender.step;
   if (metric().is_along_paths() && samples < fewest_samples - 1e-9) {
@@ -41,7 +41,7 @@ void recommendation::prepare(candidate& contender, const std::vector<double>& fr
     learn_plan plan =
         plan_for(*contender.source.family, contender.where, contender.step, options_.learning, common_);
     plan.from = from;
-    plan.from_there_alone = from_there_alone;
+    plan.only_from_there = only_from_there;
     contender.learned = learn_with(*system_, plan, shown_);
     contender.method = contender.learned->method;
     const fit_summary& fit = contender.learned->fit;
@@ -93,10 +93,11 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
                                 std::uint64_t seed) {
   const trajectories_plan plan = plan_at(step, count, seed);
   shown_.part(fmt::format("comparing {} at step {:g}", group.size() == 1 ? "one" : "some", step));
-  const auto of_further_looks = [&](const candidate& contender) {  // the first one is counted with the run
-    return static_cast<double>((options_.looks - 1) * contender.source.evaluations_to_look) /
-           options_.horizon;
-  };
+  const auto of_further_observations =
+      [&](const candidate& contender) {  // the first one is counted with the run
+        return static_cast<double>((options_.looks - 1) * contender.source.evaluations_to_observe) /
+               options_.horizon;
+      };
   const auto take = [&](candidate& contender, estimate mean, std::vector<double> scores,
                         const auto& diverged_at) {
     contender.error = {mean, std::move(scores), false, std::ssize(diverged_at)};
@@ -110,7 +111,7 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
       const auto found = system_->acceptance(*contender->method, plan, options_.hmc_temperature, {});
       std::vector<double> rejected;
       for (const double a : found.of_each) rejected.push_back(1.0 - a);
-      contender->evaluations_per_time = found.evaluations_per_time + of_further_looks(*contender);
+      contender->evaluations_per_time = found.evaluations_per_time + of_further_observations(*contender);
       take(*contender, {1.0 - found.probability.mean, found.probability.standard_error}, std::move(rejected),
            found.diverged_at);
     }
@@ -129,7 +130,7 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
     if (is_root) {
       for (double& x : scores) x *= x;
     }
-    contender.evaluations_per_time = method.evaluations_per_time + of_further_looks(contender);
+    contender.evaluations_per_time = method.evaluations_per_time + of_further_observations(contender);
     if (found.reference_error) contender.reference_error = found.reference_error->mean;
     contender.reference = found.reference;
     take(contender, method.error, std::move(scores), method.diverged_at);
@@ -139,7 +140,7 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
 /// A reference that errs like the method says nothing of it.
 void recommendation::warn_of_reference(const contest& among) {
   for (const auto& contender : among.all) {
-    if (!contender.reference_error || !contender.stands() ||
+    if (!contender.reference_error || !contender.is_eligible() ||
         *contender.reference_error <= 0.1 * contender.error.mean.mean)
       continue;
     warnings_.push_back(

@@ -86,9 +86,9 @@ void recommendation::step_down(candidate& contender) {
   contender.search.has_failed = true;
   contender.search.is_found = false;
   contender.confirmed.reset();
-  std::vector<candidate> alone{contender};
-  find_steps(alone);
-  contender = std::move(alone.front());
+  std::vector<candidate> single{contender};
+  find_steps(single);
+  contender = std::move(single.front());
   if (!contender.reason.empty()) return;
   measure_on_test({&contender});
 }
@@ -111,8 +111,9 @@ void recommendation::probe(candidate& contender, int k) {
 void recommendation::judge(candidate& contender, int k) const {
   const auto judged = statistic(searches_by_quantiles_);
   const auto& scores = contender.error.scores;
-  const bool holds = contender.stands() && (contender.search.is_fine ? judged.upper_bound(scores)
-                                                                     : judged(scores)) <= *options_.error;
+  const bool holds =
+      contender.is_eligible() &&
+      (contender.search.is_fine ? judged.upper_bound(scores) : judged(scores)) <= *options_.error;
   if (holds) {
     contender.search.below = k;
     contender.search.is_found = contender.search.is_fine;

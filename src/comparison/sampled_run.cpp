@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "all_ranks.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/distributed_run.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/stepper.hpp"
@@ -58,7 +58,7 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
   const trajectories_plan& all = plan.trajectories;
   const auto stepper = make_stepper(system, method, all.step, counter_noise(all.seed));
   using batch = ensemble_run<P, std::remove_const_t<decltype(stepper)>>;
-  const std::int64_t samples = longest_stretch(all.steps, plan.stretch) / plan.every + 1;
+  const std::int64_t samples = longest_segment(all.steps, plan.segment) / plan.every + 1;
   const std::int64_t numbers = samples * std::ssize(plan.observables) + 3 * size(system);
   const std::int64_t at_a_time = trajectories_at_a_time(numbers, lanes_in<P>, ranks.total(all.threads));
   std::int64_t first = plan.from.first;
@@ -70,7 +70,7 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
     const shared_batch shared(first, count, lanes_in<P>, ranks);
     const saved_runs saved = under_way > 0 ? shared.scatter(plan.from.batch) : saved_runs();
     std::optional<batch> runs;  // a rank may have none
-    together(ranks, [&] {
+    collectively(ranks, [&] {
       if (shared.count() == 0) return;
       if (under_way > 0) {
         runs.emplace(stepper, starts, all.seed, shared.first(), shared.count(), saved, all.threads);
@@ -79,7 +79,7 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
       }
     });
     for (std::int64_t step = saved.step, end; step < all.steps; step = end) {
-      end = end_of_stretch(step, all.steps, plan.stretch);
+      end = end_of_segment(step, all.steps, plan.segment);
       const std::int64_t before = step > 0 ? step : -1;
       std::vector<record> records(static_cast<std::size_t>(shared.count()));
       for (auto& one : records) one.first = (before + plan.every) / plan.every * plan.every;
@@ -87,29 +87,29 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
         auto& of_one = records[static_cast<std::size_t>(m - shared.first())].values;
         of_one.insert(of_one.end(), values.begin(), values.end());
       };
-      const auto tell = [&](std::int64_t done) {
+      const auto report_progress = [&](std::int64_t done) {
         if (!progress) return;
-        const double of_stretch = static_cast<double>(done) / static_cast<double>(shared.count());
-        const double steps = static_cast<double>(step) + of_stretch * static_cast<double>(end - step);
+        const double of_segment = static_cast<double>(done) / static_cast<double>(shared.count());
+        const double steps = static_cast<double>(step) + of_segment * static_cast<double>(end - step);
         const double of_batch = static_cast<double>(count) * steps / static_cast<double>(all.steps);
         const double of_all = static_cast<double>(first) + of_batch;
         progress(static_cast<std::int64_t>(1000.0 * of_all / static_cast<double>(all.count)));
       };
-      together(ranks, [&] {
-        if (runs) runs->go_on(end, plan.every, watched.size(), read, keep, all.threads, tell);
+      collectively(ranks, [&] {
+        if (runs) runs->go_on(end, plan.every, watched.size(), read, keep, all.threads, report_progress);
       });
       for (std::size_t i = 0; i < records.size(); ++i) {
         const auto lost = runs->diverged_at(shared.first() + static_cast<std::int64_t>(i));
         if (lost && *lost > before) records[i].diverged_at = lost;
       }
       shared.deliver(records, take);
-      if (!plan.stretch || end == all.steps) continue;
+      if (!plan.segment || end == all.steps) continue;
       const run_progress at{first, shared.gather(runs ? runs->save() : saved_runs())};
       on_first(ranks, [&] { plan.reached(at); });
     }
     first += count;
     under_way = 0;
-    if (plan.stretch) on_first(ranks, [&] { plan.reached({first, {}}); });
+    if (plan.segment) on_first(ranks, [&] { plan.reached({first, {}}); });
   }
 }
 
@@ -152,7 +152,7 @@ void integrate(const prepared_problem& system, const tabulated& method, const tr
   sampled_plan sampled{.trajectories = plan, .observables = {}, .every = plan.steps};
   for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("q{}", i));
   for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("p{}", i));
-  sampled.stretch = short_stretch(system.dimension());
+  sampled.segment = short_segment(system.dimension());
   sampled.reached = [](const run_progress&) {};
   std::ranges::fill(q, std::numeric_limits<double>::quiet_NaN());
   std::ranges::fill(p, std::numeric_limits<double>::quiet_NaN());

@@ -40,31 +40,31 @@ struct sampled_plan {
   trajectories_plan trajectories;
   std::vector<std::string> observables;
   std::int64_t every = 1;
-  std::optional<std::int64_t> stretch = {};  // steps after which to hand over what there is; nothing: all
+  std::optional<std::int64_t> segment = {};  // steps after which to hand over what there is; nothing: all
   // Of rank 0 only:
   run_progress from = {};
-  std::function<void(const run_progress&)> reached = {};  // called after each stretch, if there are any
+  std::function<void(const run_progress&)> reached = {};  // called after each segment, if there are any
 };
 
 /// Steps that take some tenths of a second in all lanes, for callers that check progress.
-constexpr std::int64_t short_stretch(std::int64_t dimension) {
+constexpr std::int64_t short_segment(std::int64_t dimension) {
   return std::max<std::int64_t>(steps_between_checks, 20'000'000 / dimension);
 }
 /// Upper bound of the steps in one interval of a run of `steps` steps.
-inline std::int64_t longest_stretch(std::int64_t steps, std::optional<std::int64_t> length) {
+inline std::int64_t longest_segment(std::int64_t steps, std::optional<std::int64_t> length) {
   return std::min(std::min(length.value_or(steps), steps) + steps_between_checks, steps);
 }
 
 /// Step 64 k ends the interval of the multiples of its length in (64 (k - 1), 64 k].
-inline std::int64_t end_of_stretch(std::int64_t step, std::int64_t steps, std::optional<std::int64_t> asked) {
+inline std::int64_t end_of_segment(std::int64_t step, std::int64_t steps, std::optional<std::int64_t> asked) {
   const std::int64_t length = std::min(asked.value_or(steps), steps);
   const std::int64_t next = (step / length + 1) * length;
   return std::min((next + steps_between_checks - 1) / steps_between_checks * steps_between_checks, steps);
 }
 
 /// Hands records over at rank 0, batch by batch of as many trajectories as fit into memory; in a batch
-/// interval by interval, and in an interval in the order of the trajectories. An interval ends at the first
-/// multiple of 64 at or beyond each multiple of `stretch`: divergence is checked there anyway, so that
+/// segment by segment, and in a segment in the order of the trajectories. A segment ends at the first
+/// multiple of 64 at or beyond each multiple of `segment`: divergence is checked there anyway, so that
 /// cutting changes nothing in the run. Rank 0's plan says where to begin. Progress is reported in
 /// thousandths. Collective.
 void run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,

@@ -263,22 +263,22 @@ void sampling_choice::learn_and_rank() {
         step_of(candidate, candidate.found->step, seed_for(role::test, common_.seed), candidate.reason);
   }
   std::ranges::stable_sort(all_, [](const sampling_candidate& a, const sampling_candidate& b) {
-    if (a.stands() != b.stands()) return a.stands();
-    return a.stands() && a.step_of_evaluation() > b.step_of_evaluation();
+    if (a.is_eligible() != b.is_eligible()) return a.is_eligible();
+    return a.is_eligible() && a.step_of_evaluation() > b.step_of_evaluation();
   });
   shown_.clear();
 }
 
 const sampling_candidate* sampling_choice::best_of(bool learned) const {
   for (const auto& candidate : all_) {
-    if (candidate.stands() && candidate.is_learned() == learned) return &candidate;
+    if (candidate.is_eligible() && candidate.is_learned() == learned) return &candidate;
   }
   return nullptr;
 }
 
 const sampling_candidate* sampling_choice::named(const std::string& name) const {
-  const auto found =
-      std::ranges::find_if(all_, [&](const auto& one) { return one.source.typed == name && one.stands(); });
+  const auto found = std::ranges::find_if(
+      all_, [&](const auto& one) { return one.source.typed == name && one.is_eligible(); });
   return found == all_.end() ? nullptr : &*found;
 }
 

@@ -25,7 +25,7 @@ struct sampling_candidate {
   std::string reason{};  // why the candidate cannot win
 
   bool is_learned() const { return source.family.has_value(); }
-  bool stands() const { return reason.empty() && found.has_value(); }
+  bool is_eligible() const { return reason.empty() && found.has_value(); }
   double step_of_evaluation() const { return found->step / source.evaluations_per_step; }
 };
 

@@ -6,7 +6,7 @@
 
 #include "all_ranks.hpp"
 #include "nysalt/analysis/timing.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 
 namespace nysalt::program {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 
 namespace nysalt::program {
 
@@ -76,7 +76,7 @@ void shared_batch::deliver(const std::vector<record>& own, const record_taker& t
     send(*ranks_, heads, 0);
     for (const auto& one : own) send(*ranks_, one.values, 0);
   }
-  together(*ranks_, [&] {
+  collectively(*ranks_, [&] {
     if (problem) std::rethrow_exception(problem);
   });
 }

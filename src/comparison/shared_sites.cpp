@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/distributed_run.hpp"
 #include "observables.hpp"
 
@@ -89,7 +89,7 @@ class shared_trajectory {
       for (std::int64_t n = (good.step / every + 1) * every; n <= next; n += every) {
         run_.advance(n - run_.step());
         const state x = whole();
-        together(*ranks_, [&] {
+        collectively(*ranks_, [&] {
           if (ranks_->is_first()) samples.push_back(read(x));
         });
       }
@@ -209,7 +209,7 @@ void run_on_shared_sites(const initial_value_problem& made, const initial_states
     std::vector<record> records(static_cast<std::size_t>(count));
     for (std::int64_t i = 0; i < count; ++i) {
       std::optional<state> start;
-      together(ranks, [&] { start = sound_start(system, starts, all.seed, first + i); });
+      collectively(ranks, [&] { start = sound_start(system, starts, all.seed, first + i); });
       runs.emplace_back(system, method, all.step, *start, ranks);
       const auto at = static_cast<std::size_t>(i);
       if (under_way > 0) {
@@ -223,7 +223,7 @@ void run_on_shared_sites(const initial_value_problem& made, const initial_states
       }
     }
     for (std::int64_t step = under_way > 0 ? saved.step : 0, end; step < all.steps; step = end) {
-      end = end_of_stretch(step, all.steps, plan.stretch);
+      end = end_of_segment(step, all.steps, plan.segment);
       const std::int64_t before = step > 0 ? step : -1;
       for (std::size_t i = 0; i < runs.size(); ++i) {
         if (step > 0) records[i] = {};
@@ -245,7 +245,7 @@ void run_on_shared_sites(const initial_value_problem& made, const initial_states
                                              static_cast<double>(all.count)));
         });
       }
-      if (!plan.stretch || end == all.steps) continue;
+      if (!plan.segment || end == all.steps) continue;
       saved_runs here{.step = end, .numbers = {}, .diverged_at = {}};
       for (const auto& one : runs) {
         const std::vector<double> numbers = one.save();
@@ -256,7 +256,7 @@ void run_on_shared_sites(const initial_value_problem& made, const initial_states
     }
     first += count;
     under_way = 0;
-    if (plan.stretch) on_first(ranks, [&] { plan.reached({first, {}}); });
+    if (plan.segment) on_first(ranks, [&] { plan.reached({first, {}}); });
   }
 }
 

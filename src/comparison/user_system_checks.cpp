@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nysalt/derivatives/check_force.hpp"
-#include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/ensemble.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"
@@ -63,7 +63,7 @@ double frequency_of(const initial_value_problem& made, const std::string& name) 
   }
   std::vector<phase_point<double, Eigen::Dynamic>> starts;
   for (std::int64_t n = 0; n < 64; ++n) starts.push_back(sound_start(made.system, made.starts, 1, n));
-  const auto stiffness = stiffness_along(made.system, starts);
+  const auto stiffness = hessian_spectrum(made.system, starts);
   const double found = std::sqrt(std::max({stiffness.highest, -stiffness.lowest, 0.0}));
   if (found > 0.0 && std::isfinite(found)) return found;
   refuse(
@@ -75,8 +75,8 @@ double frequency_of(const initial_value_problem& made, const std::string& name) 
 }  // namespace
 
 bool is_plain_name(std::string_view name) {
-  const auto may_stand = [](char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_'; };
-  return !name.empty() && std::ranges::all_of(name, may_stand) && name.front() >= 'a';
+  const auto is_allowed = [](char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9') || c == '_'; };
+  return !name.empty() && std::ranges::all_of(name, is_allowed) && name.front() >= 'a';
 }
 
 void examine(initial_value_problem& made, const std::string& name) {

@@ -223,7 +223,7 @@ std::string verdict_of(const std::vector<best_at_cost>& found, const std::string
     for (const ranked_method& method : one.best) ranked.insert(method.method);
     if (one.next) ranked.insert(one.next->method);
   }
-  const bool is_alone = ranked.size() == 1;
+  const bool is_only_row = ranked.size() == 1;
   const bool is_tie =
       std::ranges::all_of(found, [](const best_at_cost& one) { return !one.next && one.best.size() > 1; });
   std::string text;
@@ -231,7 +231,7 @@ std::string verdict_of(const std::vector<best_at_cost>& found, const std::string
     const range_of_costs whole{found.front().cost, found.back().cost, {}};
     text = fmt::format("No method is known to be better than another {} {}: error bars do not separate {}.",
                        words_of(whole), unit, named(found.back().best));
-  } else if (is_alone) {
+  } else if (is_only_row) {
     text = fmt::format("Only {} is ranked: there is no other to compare with.", named(found.back().best));
   } else if (constexpr std::size_t readable = 4; ranges.size() > readable) {
     text = fmt::format("Who is best depends on the cost, and changes {} times: {} {}, {} {} {}.",
@@ -251,7 +251,8 @@ std::string verdict_of(const std::vector<best_at_cost>& found, const std::string
                        words_of(ranges.front()), unit);
   }
   const bool has_error_bars = std::ranges::all_of(found, &best_at_cost::has_error_bars);
-  if (!has_error_bars && !is_alone) text += " Some errors have no error bar, and differences may be chance.";
+  if (!has_error_bars && !is_only_row)
+    text += " Some errors have no error bar, and differences may be chance.";
   return text;
 }
 

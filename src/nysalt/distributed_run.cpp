@@ -6,10 +6,10 @@
 #include <optional>
 #include <stdexcept>
 
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/site_window.hpp"
 #include "nysalt/detail/tiled_steps.hpp"
-#include "nysalt/detail/together.hpp"
 #include "nysalt/detail/tree_sum.hpp"
 
 namespace nysalt {
@@ -101,7 +101,7 @@ struct distributed_run::parts {
     const auto most =
         std::min<std::int64_t>(window->kicks_of_sweep(), count / std::max<Eigen::Index>(layout.reach, 1));
     kicks_of_sweep = static_cast<int>(
-        among.least(among.is_alone() && !layout.is_periodic ? window->kicks_of_sweep() : most));
+        among.least(among.is_single() && !layout.is_periodic ? window->kicks_of_sweep() : most));
     const auto numbers = static_cast<Eigen::Index>(layout.components) * count;
     run.state = {{Eigen::VectorXd(numbers), Eigen::VectorXd(numbers)}, Eigen::VectorXd::Zero(numbers)};
   }
@@ -118,7 +118,7 @@ struct distributed_run::parts {
   }
 
   void fill(const start& at) {
-    together(*ranks, [&] {
+    collectively(*ranks, [&] {
       at(first, {run.state.q.data(), static_cast<std::size_t>(run.state.q.size())},
          {run.state.p.data(), static_cast<std::size_t>(run.state.p.size())});
       if (run.state.q.allFinite() && run.state.p.allFinite()) return;
@@ -129,7 +129,7 @@ struct distributed_run::parts {
     });
   }
 
-  /// Halos for `kicks` kicks from the ranks on both sides, or of a rank alone from itself.
+  /// Halos for `kicks` kicks from the ranks on both sides, or of a single rank from itself.
   void exchange(int kicks, const double* q, const double* p) {
     const std::size_t size = window->halo_size(kicks);
     edge.resize(size);
@@ -228,7 +228,7 @@ phase_point<double, Eigen::Dynamic> distributed_run::synchronous() const {
 double distributed_run::energy() const {
   if (!parts_->layout.has_energy) {
     throw std::invalid_argument(
-        sentence("distributed_run: energy() needs a potential_in_range(), which {} does not have",
+        sentence("distributed_run: a system must have a potential_in_range() for energy(), got {}",
                  parts_->system.description()));
   }
   const auto x = synchronous();

@@ -12,9 +12,9 @@
 #include <stdexcept>
 
 #include "learning/redistribute.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
-#include "nysalt/detail/together.hpp"
 #include "nysalt/ensembles/typical_and_energetic.hpp"
 
 namespace nysalt {
@@ -158,7 +158,7 @@ flow_map_data make_some_pairs(const model& system, const initial_states& ensembl
 /// What is counted and seen at one rank becomes that of all.
 void add_up(flow_map_data& data) {
   const shard all = data.share();
-  if (all.ranks().is_alone()) return;
+  if (all.ranks().is_single()) return;
   data.evaluations = all.ranks().total(data.evaluations);
   if (!data.energies) return;
   for (const energy_range& seen : in_order_of_ranks(all.ranks(), *data.energies)) {
@@ -232,18 +232,19 @@ flow_map_data make_flow_map_data(const model& system, const initial_states& ense
                                  const data_options& options) {
   const auto began = std::chrono::steady_clock::now();
   steps_of_each(options, size(system));
-  if (options.noise_parts > 0 && !reference->tells_noise()) {
-    throw std::invalid_argument(fmt::format(
-        "flow_map_data: the reference ({}) has no noise to keep; take fine_paths", reference->description()));
+  if (options.noise_parts > 0 && !reference->gives_noise()) {
+    throw std::invalid_argument(
+        fmt::format("flow_map_data: the reference must have noise to keep, got {}; take fine_paths",
+                    reference->description()));
   }
   const shard all(options.trajectories, *options.ranks);
   flow_map_data data;
-  together(all.ranks(), [&] {
+  collectively(all.ranks(), [&] {
     data = make_some_pairs(system, ensemble, *reference, options, all, all.first(), all.count());
   });
   add_up(data);
   data.further_starts = find_further_starts(system, ensemble, options);
-  if (options.ranks->is_alone()) data.shared.reset();
+  if (options.ranks->is_single()) data.shared.reset();
   data.step = options.step;
   data.system = describe(system);
   data.ensemble = ensemble.description();
@@ -273,7 +274,7 @@ void extend_data(const model& system, const initial_states& ensemble,
   const std::int64_t end = all.first() + all.count();
   const std::int64_t begin = std::clamp(there, all.first(), end);
   flow_map_data further;
-  together(all.ranks(), [&] {
+  collectively(all.ranks(), [&] {
     further = make_some_pairs(system, ensemble, *reference, of_further, all, begin - there, end - begin);
   });
   add_up(further);
@@ -285,7 +286,7 @@ void extend_data(const model& system, const initial_states& ensemble,
   data.further_starts = find_further_starts(system, ensemble, options);
   data.evaluations += further.evaluations;
   data.shared.reset();
-  if (!all.ranks().is_alone()) {
+  if (!all.ranks().is_single()) {
     data.shared = shared_pairs{all, static_cast<std::size_t>(all.first() * steps),
                                static_cast<std::size_t>(all.total() * steps)};
   }

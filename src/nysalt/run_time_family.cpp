@@ -160,7 +160,8 @@ run_time_family processed(const run_time_family& kernel, int pairs) {
     result.ranges.push_back({-1.0, 1.0, false});
   }
   for (auto& start : result.starts) start.theta = with_identity(start.theta, further);
-  if (result.refuge) result.refuge = with_identity(*result.refuge, further);
+  if (result.most_stable_member)
+    result.most_stable_member = with_identity(*result.most_stable_member, further);
   result.coefficients_ = [kernel, known, pairs](const Eigen::VectorXd& theta) {
     auto all = kernel.coefficients(theta.head(known));
     append_processor(all, theta, known, pairs);
@@ -280,7 +281,7 @@ run_time_family symmetric_word(std::string name, const run_time_word& word, cons
   }
   const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(start.data(), std::ssize(start));
   result.starts = {{"start", theta}};
-  if (theta.size() > 0) result.refuge = theta;
+  if (theta.size() > 0) result.most_stable_member = theta;
   result.order = 2;
   result.symmetric = true;
   result.requires_quadratic_kinetic = word.rotates();

@@ -45,7 +45,7 @@ void declared_parameter::require(const parameter_value& value) const {
 
 const parameter_value& parameter_values::operator[](std::string_view name) const {
   const auto found = std::ranges::find_if(all_, [&](const auto& one) { return one.first == name; });
-  if (found == all_.end()) throw std::invalid_argument(sentence("no parameter is called {}", name));
+  if (found == all_.end()) throw std::invalid_argument(sentence("parameter must be declared, got {}", name));
   return found->second;
 }
 

@@ -29,7 +29,7 @@ std::string trial_result::objection() const {
         "in a trial run of {} steps the energy of trajectory {} departs by {:.2g} at step {}, which is "
         "{:.2g} times the largest deviation of all trajectories in the first {} steps",
         steps, farthest.trajectory, deviation, farthest.step, deviation / first_deviation,
-        static_cast<std::int64_t>(static_cast<double>(steps) / stretches));
+        static_cast<std::int64_t>(static_cast<double>(steps) / intervals));
   }
   if (energy_grows()) {
     return fmt::format(
@@ -70,7 +70,7 @@ trial_result run_in_lanes(const model& system, const tabulated& method, double s
   result.energy_was_watched = has_energy(system) && !system.bath().acts();
 
   const listed<Eigen::Dynamic> all(starts);
-  const auto first_stretch = static_cast<double>(options.steps) / trial_result::stretches;
+  const auto first_interval = static_cast<double>(options.steps) / trial_result::intervals;
   struct deviations {
     double initial = 0.0;
     double first = 0.0;
@@ -79,7 +79,7 @@ trial_result run_in_lanes(const model& system, const tabulated& method, double s
     std::int64_t at = 0;
     double kinetic = 0.0;  // sum over observations
     double peak = 0.0;     // of the kinetic energy
-    double looks = 0.0;
+    double observations = 0.0;
     bool is_left_out = false;
   };
   std::vector<deviations> of_trajectory(starts.size());
@@ -99,8 +99,8 @@ trial_result run_in_lanes(const model& system, const tabulated& method, double s
     known.magnitude = std::max(known.magnitude, std::abs(numbers[0]));
     known.kinetic += numbers[1];
     known.peak = std::max(known.peak, numbers[1]);
-    known.looks += 1.0;
-    if (static_cast<double>(n) <= first_stretch) known.first = std::max(known.first, departure);
+    known.observations += 1.0;
+    if (static_cast<double>(n) <= first_interval) known.first = std::max(known.first, departure);
     if (departure <= known.largest) return;
     known.largest = departure;
     known.at = n;
@@ -207,12 +207,12 @@ trial_result run_in_lanes(const model& system, const tabulated& method, double s
 
   double magnitude = 0.0;
   double kinetic = 0.0;
-  double looks = 0.0;
+  double observations = 0.0;
   for (std::size_t m = 0; m < of_trajectory.size(); ++m) {
     const auto& known = of_trajectory[m];
     if (known.is_left_out) continue;
     kinetic += known.kinetic;
-    looks += known.looks;
+    observations += known.observations;
     magnitude = std::max(magnitude, known.magnitude);
     result.first_deviation = std::max(result.first_deviation, known.first);
     if (known.largest > 0.0) {
@@ -222,7 +222,7 @@ trial_result run_in_lanes(const model& system, const tabulated& method, double s
     result.deviation = known.largest;
     result.farthest = {static_cast<std::int64_t>(m), known.at};
   }
-  if (looks > 0.0) result.kinetic_energy = kinetic / looks;
+  if (observations > 0.0) result.kinetic_energy = kinetic / observations;
   if (result.unconfined > 0 && result.kept() == 0) {
     result.not_run = "an accurate method loses every start too: the motion is not confined";
   }

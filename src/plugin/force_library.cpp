@@ -36,7 +36,7 @@ struct c_functions {
   std::int64_t dimension;
   std::vector<double> inverse_masses;
   std::string description;
-  std::string kind;  // the description if the library tells none
+  std::string kind;  // the description if the library declares none
   std::string file;
 };
 

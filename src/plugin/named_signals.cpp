@@ -24,7 +24,7 @@ void put(std::string_view text) {
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
 }
 
-extern "C" void tell_signal(int number) {
+extern "C" void name_signal(int number) {
   put("nysalt: ");
   for (const auto& [known, name] : fatal) {
     if (known == number) put(name);
@@ -46,7 +46,7 @@ void name_signals(const std::string& plugin) {
   length = 0;
   std::memcpy(end_of_line.data(), text.data(), std::min(most, text.size()));
   length = std::min(most, text.size());
-  for (const auto& [number, name] : fatal) std::signal(number, &tell_signal);
+  for (const auto& [number, name] : fatal) std::signal(number, &name_signal);
 }
 
 }  // namespace nysalt::program

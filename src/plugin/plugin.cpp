@@ -48,8 +48,8 @@ F* function_in(void* library, const char* name, const std::string& path) {
 
 /// The message of dlerror(), without the path, which the message has already.
 std::string why_not_loaded(const fs::path& file) {
-  const char* told = dlerror();
-  std::string text = told == nullptr ? "unknown" : told;
+  const char* problem = dlerror();
+  std::string text = problem == nullptr ? "unknown" : problem;
   const std::string prefix = file.string() + ": ";
   if (text.starts_with(prefix)) text.erase(0, prefix.size());
   return text;

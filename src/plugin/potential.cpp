@@ -62,15 +62,16 @@ std::vector<double> centre_of(const typed_potential& typed, const std::vector<va
   for (const auto& [name, text] : values_of(typed.around, "--around")) {
     const auto bracket = name.find('[');
     const auto found = std::ranges::find(variables, name.substr(0, bracket), &variable::name);
-    if (found == variables.end()) refuse("--around: '{}' is no coordinate", name);
+    if (found == variables.end()) refuse("--around: names must be coordinates, got '{}'", name);
     const double value = number_of<double>("--around", text);
     if (bracket == std::string::npos) {
       std::fill_n(centre.begin() + found->first, found->count, value);
       continue;
     }
-    if (!found->is_list || !name.ends_with(']')) refuse("--around: '{}' is no coordinate", name);
+    if (!found->is_list || !name.ends_with(']'))
+      refuse("--around: names must be coordinates, got '{}'", name);
     const auto i = number_of<std::int64_t>("--around", name.substr(bracket + 1, name.size() - bracket - 2));
-    if (i < 1 || i > found->count) refuse("--around: '{}' is no coordinate", name);
+    if (i < 1 || i > found->count) refuse("--around: names must be coordinates, got '{}'", name);
     centre[static_cast<std::size_t>(found->first + i - 1)] = value;
   }
   return centre;

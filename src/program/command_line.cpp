@@ -17,7 +17,7 @@
 #include "comparison/prepared_problem.hpp"
 #include "comparison/refusal.hpp"
 #include "mpi_session.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "options/subcommand.hpp"
 #include "options_file.hpp"
 #include "output.hpp"

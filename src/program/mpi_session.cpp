@@ -14,7 +14,7 @@
 
 #include "comparison/refusal.hpp"
 #include "comparison/standard_error.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 
 #if defined NYSALT_HAS_MPI
 #include "nysalt/communicators/mpi.hpp"
@@ -29,10 +29,10 @@ std::string unsaid;
 void keep_unsaid(const std::string& text) { unsaid = text; }
 
 void require_agreement(const std::string& what, const std::string& text) {
-  if (all_ranks().is_alone()) return;
+  if (all_ranks().is_single()) return;
   std::string of_first = text;
   broadcast(all_ranks(), of_first);
-  together(all_ranks(), [&] {
+  collectively(all_ranks(), [&] {
     if (text == of_first) return;
     refuse("rank {} has other {} than rank 0: start all with one command line, where all see the same files",
            all_ranks().rank(), what);
@@ -69,7 +69,7 @@ class mpi_session::session {
     join(ranks_);
     ranks_here = ranks_of_machine();
   }
-  ~session() { join(alone); }
+  ~session() { join(one_rank); }
 
  private:
   struct initialised {
@@ -130,7 +130,7 @@ bool is_bound() { return cores() < static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN
 int usual_threads() { return is_bound() ? cores() : std::max(1, cores() / ranks_here); }
 
 std::string advice_on_threads(int threads) {
-  if (all_ranks().is_alone() || !is_bound() || threads <= cores()) return {};
+  if (all_ranks().is_single() || !is_bound() || threads <= cores()) return {};
   return fmt::format(
       "each rank has {} threads and may use {} core{}: let mpirun --bind-to none, or --map-by "
       "slot:PE={}",

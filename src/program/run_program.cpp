@@ -17,7 +17,7 @@ namespace nysalt::program {
 
 namespace {
 
-int told(const std::string& text, int code) {
+int reported(const std::string& text, int code) {
   complain(text);
   return code;
 }
@@ -32,15 +32,15 @@ int exit_code_of(const std::function<int()>& work) {
         fmt::format("ended by signal {}: the checkpoint is there, and --resume goes on", noted_signal()));
     return 128 + noted_signal();
   } catch (const std::bad_alloc&) {
-    return told(
+    return reported(
         "this does not fit into memory: take fewer trajectories, a shorter horizon or a smaller system",
         bad_input);
   } catch (const nysalt::detail::write_failure& problem) {
-    return told(problem.what(), not_written);
+    return reported(problem.what(), not_written);
   } catch (const std::exception& problem) {
-    return told(problem.what(), bad_input);
+    return reported(problem.what(), bad_input);
   } catch (...) {  // by a system of the user's own
-    return told("an exception that is no std::exception was thrown, which has no message", bad_input);
+    return reported("an exception that is no std::exception was thrown, which has no message", bad_input);
   }
 }
 

@@ -126,8 +126,8 @@ void require_options(const system_settings& settings, const std::map<std::string
   if (settings.spread) require("spread");
 }
 
-/// What the kind of a system of the user's own stands for: the source, and all parameters but sizes. A
-/// library of C functions has one size, so that another size is another source: nysalt_kind() alone says of
+/// What defines the kind of a system of the user's own: the source, and all parameters but sizes. A
+/// library of C functions has one size, so that another size is another source: only nysalt_kind() says of
 /// which kind it is.
 std::string source_of_kind(const system_declaration& declared, const parameter_values& values) {
   if (declared.identity.empty() || declared.parameters.empty()) return {};

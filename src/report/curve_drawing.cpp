@@ -23,7 +23,7 @@ bool has_hollow(const curve& one) {
   return std::find(one.hollow.begin(), one.hollow.end(), true) != one.hollow.end();
 }
 
-look look_of(const panel& plot, std::size_t j) {
+curve_style style_of(const panel& plot, std::size_t j) {
   // Okabe and Ito's colours but yellow, which white paper hides. 7 and 6 have no common divisor: the first 42
   // curves differ.
   static constexpr const char* colours[] = {"#D55E00", "#0072B2", "#009E73", "#CC79A7",
@@ -44,7 +44,7 @@ look look_of(const panel& plot, std::size_t j) {
 std::vector<std::string> drawing_of(const panel& plot, std::size_t j, const std::string& data) {
   const curve& one = plot.curves[j];
   if (one.front) return {data + " using 1:2 with steps lc 'black' lw 1.6 dt (3,3) notitle"};
-  const look seen = look_of(plot, j);
+  const curve_style seen = style_of(plot, j);
   std::vector<std::string> result;
   if (!one.points_only) {
     result.push_back(fmt::format("{} using 1:2 with lines lc '{}' lw {} dt {} notitle", data, seen.colour,
@@ -64,7 +64,7 @@ std::string key_entry(const panel& plot, std::size_t j) {
   const curve& one = plot.curves[j];
   if (one.front)
     return fmt::format("keyentry with lines lc 'black' lw 1.6 dt (3,3) title {}", quoted(one.label));
-  const look seen = look_of(plot, j);
+  const curve_style seen = style_of(plot, j);
   const bool points = has_points(plot) || one.points_only;
   const char* style = one.points_only ? "points" : points ? "linespoints" : "lines";
   std::string result = fmt::format("keyentry with {} lc '{}'", style, seen.colour);
@@ -73,14 +73,14 @@ std::string key_entry(const panel& plot, std::size_t j) {
   return result + " title " + quoted(one.label);
 }
 
-std::string look_of_stretches(std::size_t label) {
+std::string style_of_intervals(std::size_t label) {
   if (label == 0) return "fc '#dcebdc' fs solid 1 noborder";
   return "fc '#56B4E9' fs transparent solid 0.5 border lc '#0072B2'";
 }
 
-std::vector<std::string> labels_of_stretches(const panel& plot) {
+std::vector<std::string> labels_of_intervals(const panel& plot) {
   std::vector<std::string> labels;
-  for (const auto& one : plot.stretches) {
+  for (const auto& one : plot.intervals) {
     if (std::find(labels.begin(), labels.end(), one.label) == labels.end()) labels.push_back(one.label);
   }
   return labels;

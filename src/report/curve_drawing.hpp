@@ -11,7 +11,7 @@
 
 namespace nysalt::detail {
 
-struct look {
+struct curve_style {
   const char* colour;
   int point;  // filled; the hollow one of the same shape is the number below
   const char* dash;
@@ -22,7 +22,7 @@ struct look {
 bool has_hollow(const curve& one);
 
 /// What is emphasised is solid and thick, the others are thin and of five dashes.
-look look_of(const panel& plot, std::size_t j);
+curve_style style_of(const panel& plot, std::size_t j);
 
 /// The elements of a plot command that draw a curve, without its entry in the key.
 std::vector<std::string> drawing_of(const panel& plot, std::size_t j, const std::string& data);
@@ -30,9 +30,9 @@ std::vector<std::string> drawing_of(const panel& plot, std::size_t j, const std:
 std::string key_entry(const panel& plot, std::size_t j);
 
 /// The style of the bands of a label: the first light and without a border, the next dark with one.
-std::string look_of_stretches(std::size_t label);
+std::string style_of_intervals(std::size_t label);
 
 /// Numbers of labels, in the order of their first bands.
-std::vector<std::string> labels_of_stretches(const panel& plot);
+std::vector<std::string> labels_of_intervals(const panel& plot);
 
 }  // namespace nysalt::detail

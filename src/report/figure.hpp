@@ -28,7 +28,7 @@ struct level {
 
 /// A part of the x axis, shaded over the whole height. Those of one label have one colour, and one entry in
 /// the key.
-struct stretch {
+struct shaded_interval {
   std::string label;  ///< name in the key
   double low;         ///< where it begins, on the x axis
   double high;        ///< where it ends
@@ -36,17 +36,17 @@ struct stretch {
 
 /// A pair of axes and what is drawn on them.
 struct panel {
-  std::string title;                 ///< written above
-  std::string x_label;               ///< written at the x axis
-  std::string y_label;               ///< written at the y axis
-  bool log_log = false;              ///< with points; else plain lines
-  std::vector<curve> curves;         ///< in the order of the key
-  std::string y_range = "[*:*]";     ///< as gnuplot reads it; if not given, what the points need
-  bool linear_y = false;             ///< where log_log would be, of what does not go to 0
-  bool linear_x = false;             ///< where log_log would be, of a time
-  bool points = false;               ///< where axes are plain: points with bars as well as lines
-  std::vector<level> levels{};       ///< lines to compare with
-  std::vector<stretch> stretches{};  ///< shaded parts, behind all else
+  std::string title;                         ///< written above
+  std::string x_label;                       ///< written at the x axis
+  std::string y_label;                       ///< written at the y axis
+  bool log_log = false;                      ///< with points; else plain lines
+  std::vector<curve> curves;                 ///< in the order of the key
+  std::string y_range = "[*:*]";             ///< as gnuplot reads it; if not given, what the points need
+  bool linear_y = false;                     ///< where log_log would be, of what does not go to 0
+  bool linear_x = false;                     ///< where log_log would be, of a time
+  bool points = false;                       ///< where axes are plain: points with bars as well as lines
+  std::vector<level> levels{};               ///< lines to compare with
+  std::vector<shaded_interval> intervals{};  ///< shaded parts, behind all else
 };
 
 /// A picture of one panel or of several; draw() makes files of it.

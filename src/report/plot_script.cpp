@@ -49,10 +49,10 @@ std::string plot_command(const panel& plot, const std::string& name, std::size_t
   for (std::size_t j = 0; j < plot.curves.size(); ++j) {
     if (!plot.curves[j].front) elements.push_back(values_of(plot.curves[j], name, first_block + j));
   }
-  const auto labels = labels_of_stretches(plot);
+  const auto labels = labels_of_intervals(plot);
   for (std::size_t j = 0; j < labels.size(); ++j) {
     elements.push_back(
-        fmt::format("keyentry with boxes {} title {}", look_of_stretches(j), quoted(labels[j])));
+        fmt::format("keyentry with boxes {} title {}", style_of_intervals(j), quoted(labels[j])));
   }
   return elements.empty() ? "" : fmt::format("plot {}\n", fmt::join(elements, ", \\\n  "));
 }
@@ -73,15 +73,15 @@ int key_width(const figure& f) {
 }
 
 /// Behind all else; the later over the earlier.
-std::string stretches(const panel& plot) {
-  const auto labels = labels_of_stretches(plot);
+std::string shading(const panel& plot) {
+  const auto labels = labels_of_intervals(plot);
   std::string text = "unset object\n";
-  for (std::size_t i = 0; i < plot.stretches.size(); ++i) {
-    const auto& one = plot.stretches[i];
+  for (std::size_t i = 0; i < plot.intervals.size(); ++i) {
+    const auto& one = plot.intervals[i];
     const auto label = std::find(labels.begin(), labels.end(), one.label) - labels.begin();
     text += fmt::format(
         "set object {} rectangle from first {:.10g}, graph 0 to first {:.10g}, graph 1 behind clip {}\n",
-        i + 1, one.low, one.high, look_of_stretches(static_cast<std::size_t>(label)));
+        i + 1, one.low, one.high, style_of_intervals(static_cast<std::size_t>(label)));
   }
   return text;
 }
@@ -103,7 +103,7 @@ std::string axes(const panel& axis_pair) {
   }
   text += has_key_beside(axis_pair) ? "set key outside right top vertical Left reverse samplen 4\n"
                                     : "set key outside top center horizontal Right noreverse samplen 4\n";
-  text += "unset label\nunset arrow\n" + stretches(axis_pair);
+  text += "unset label\nunset arrow\n" + shading(axis_pair);
   bool at_right = true;  // levels may be close: their names are at the two ends in turn
   for (const auto& level : axis_pair.levels) {
     text += fmt::format(

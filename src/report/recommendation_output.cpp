@@ -128,17 +128,18 @@ std::string recommendation::advice_on_seconds() const {
 }
 
 /// The cost of observations of a processed method, where one is advised.
-std::string recommendation::advice_on_looks() const {
+std::string recommendation::advice_on_observations() const {
   const candidate* best = taken(asked());
-  if (best == nullptr || best->source.evaluations_to_look == 0) return {};
+  if (best == nullptr || best->source.evaluations_to_observe == 0) return {};
   return fmt::format(
       " {} is counted with {} observation{} of each trajectory (--looks): every further one takes {} "
       "evaluations.",
-      best->source.typed, options_.looks, options_.looks == 1 ? "" : "s", best->source.evaluations_to_look);
+      best->source.typed, options_.looks, options_.looks == 1 ? "" : "s",
+      best->source.evaluations_to_observe);
 }
 
 std::string recommendation::advice() const {
-  return advice_of(asked()) + advice_on_seconds() + advice_on_looks();
+  return advice_of(asked()) + advice_on_seconds() + advice_on_observations();
 }
 
 std::optional<std::string> recommendation::scheme() const {
@@ -170,7 +171,7 @@ json recommendation::row_json(const contest& among, const candidate& contender) 
            {"standard_error", contender.error.mean.standard_error},
            {"tail", contender.error.is_heavy},
            {"error_of_95_percent",
-            has_error && contender.stands() ? json(quantile_of(contender.error)) : json(nullptr)},
+            has_error && contender.is_eligible() ? json(quantile_of(contender.error)) : json(nullptr)},
            {"diverged", contender.error.diverged},
            {"reference_error", contender.reference_error ? json(*contender.reference_error) : json(nullptr)},
            {"confirmed", nullptr}};
@@ -258,7 +259,7 @@ std::string recommendation::readable() const {
     return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : std::string("-");
   };
   for (const auto& contender : among.all) {
-    const bool has_quantile = contender.stands() && !contender.error.scores.empty();
+    const bool has_quantile = contender.is_eligible() && !contender.error.scores.empty();
     const double quantile = has_quantile ? quantile_of(contender.error) : std::nan("");
     ranking.add(
         {contender.source.typed, fmt::format("{}", contender.order), number("{:.4g}", contender.step),

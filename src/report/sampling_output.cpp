@@ -116,7 +116,7 @@ json sampling_choice::document() const {
              {"is_longest", false},
              {"learned_at", one.plan ? json(one.plan->step) : json(nullptr)},
              {"over_verlet", nullptr}};
-    if (one.stands()) {
+    if (one.is_eligible()) {
       row["step_size"] = one.found->step;
       row["step_per_evaluation"] = one.step_of_evaluation();
       row["standard_error"] = finite_or_null(one.step_of_evaluation() * one.found->log_step.standard_error);
@@ -150,7 +150,7 @@ std::string sampling_choice::readable() const {
   table rows({"method", "evaluations", "step", "step/evaluation", "standard error", "over verlet"});
   const auto* verlet = named("verlet");
   for (const auto& one : all_) {
-    if (!one.stands()) continue;
+    if (!one.is_eligible()) continue;
     rows.add({one.source.typed, fmt::format("{}", one.source.evaluations_per_step),
               fmt::format("{:.4g}", one.found->step), fmt::format("{:.4g}", one.step_of_evaluation()),
               fmt::format("{:.1e}", one.step_of_evaluation() * one.found->log_step.standard_error),

@@ -46,13 +46,13 @@ panel stability_panel(const std::string& name, const stability_curve& curve, con
       points.y.push_back(std::copysign(1.0, curve.half_trace[static_cast<std::size_t>(next)]));
     }
   }
-  for (const auto& window : chart.windows) plot.stretches.push_back({"stable", window.low, window.high});
+  for (const auto& window : chart.windows) plot.intervals.push_back({"stable", window.low, window.high});
   if (!marked) return plot;
   plot.title += fmt::format(", {} at step {:g}", marked->system, marked->step);
   for (const auto& band : marked->bands) {
     const double low = marked->step * band.low;
     if (low >= curve.z.back()) continue;
-    plot.stretches.push_back(
+    plot.intervals.push_back(
         {"frequencies of the system", low, std::min(marked->step * band.high, curve.z.back())});
   }
   return plot;

@@ -8,7 +8,7 @@ namespace nysalt::program::paper {
 
 namespace {
 
-constexpr const char* choice_of_law = "the law of the starts";
+constexpr const char* choice_of_law = "the initial distribution";
 
 /// "(1/omega) N(0, 1)" as a standard deviation 1/omega, and as a variance.
 struct both_laws {
@@ -46,8 +46,8 @@ std::vector<reading> in_both(const both_laws& all, const std::function<bool(cons
 std::string both(const std::string& narrow, const std::string& wide) {
   return fmt::format("deviation 1/omega: {}; variance 1/omega: {}", narrow, wide);
 }
-std::string both(const both_laws& all, const std::function<std::string(const sweep&)>& told_of) {
-  return both(told_of(all.narrow), told_of(all.wide));
+std::string both(const both_laws& all, const std::function<std::string(const sweep&)>& described) {
+  return both(described(all.narrow), described(all.wide));
 }
 
 std::string compare_command(const both_laws& all, double horizon) {
@@ -68,7 +68,7 @@ tested_claim threshold(const both_laws& all, const std::string& name, double pri
           both(all, [&](const sweep& s) { return with_error(at(s)); }),
           verdict_of(choice_of_law, readings),
           fmt::format("{}; within one distance of the paper's grid ({:g}) and two standard errors",
-                      told(readings), distance),
+                      summary_of(readings), distance),
           ""};
 }
 
@@ -78,7 +78,7 @@ tested_claim slope_of_two(const both_laws& all, const std::string& name) {
   return {
       "T = 0.5: the error of " + name + " grows with slope 2",         "exponent over gaps 10 .. 100",
       both(all, [&](const sweep& s) { return with_error(slope(s)); }), verdict_of(choice_of_law, readings),
-      told(readings) + "; 2 to a tenth and two standard errors",       ""};
+      summary_of(readings) + "; 2 to a tenth and two standard errors", ""};
 }
 
 tested_claim two_magnitudes(const both_laws& all) {
@@ -88,7 +88,7 @@ tested_claim two_magnitudes(const both_laws& all) {
           "least ratio of the errors for gaps up to 300",
           both(all, [&](const sweep& s) { return fmt::format("{:.3g}", ratio(s)); }),
           verdict_of(choice_of_law, readings),
-          told(readings) + "; its decimal logarithm, rounded, must be 2 or more",
+          summary_of(readings) + "; its decimal logarithm, rounded, must be 2 or more",
           ""};
 }
 
@@ -107,7 +107,7 @@ tested_claim quadruple(const both_laws& all) {
           ours,
           verdict_of("the rival: at equal force evaluations it is two half steps of Verlet, or McLachlan",
                      readings),
-          told(readings) + "; four, rounded",
+          summary_of(readings) + "; four, rounded",
           ""};
 }
 
@@ -150,7 +150,7 @@ exhibit accuracy_on_long_times(const setting& setup) {
                              "last gap up to which it does",
                              both(all, [&](const sweep& s) { return fmt::format("{:g}", up_to(s)); }),
                              verdict_of(choice_of_law, readings),
-                             told(readings),
+                             summary_of(readings),
                              ""};
   const auto slope = [](const sweep& s) { return s.of("NySALT").exponent_within(10, 50); };
   const auto is_two = in_both(all, [&](const sweep& s) { return agrees(slope(s), 2.0, 0.2); });
@@ -159,7 +159,7 @@ exhibit accuracy_on_long_times(const setting& setup) {
       "exponent over gaps 10 .. 50",
       both(all, [&](const sweep& s) { return with_error(slope(s)); }),
       verdict_of(choice_of_law, is_two),
-      told(is_two) + "; 2 to a tenth and two standard errors",
+      summary_of(is_two) + "; 2 to a tenth and two standard errors",
       ""};
   exhibit result{
       "Accuracy at T = 100",

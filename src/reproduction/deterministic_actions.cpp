@@ -68,7 +68,7 @@ exhibit conserved_action(const setting& setup) {
         fmt::format("I {}, H {}; exact dynamics change I by {}", with_error(exponent(steps, of_I)),
                     with_error(exponent(steps, of_H)), with_error(exact)),
         verdict_of("what is called an action", readings),
-        told(readings) +
+        summary_of(readings) +
             "; at least 2 within two standard errors. I is an adiabatic invariant, no action: it moves "
             "by itself, however small the step",
         "nysalt run --system fpu --method srkn6b --step 0.02 --horizon 10000 --sample-every 10 --observables "

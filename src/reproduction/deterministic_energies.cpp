@@ -141,7 +141,7 @@ exhibit energies_at_400(const setting& setup) {
        {"it captures the main patterns of the energy transfer up to time 150",
         "mean over times of sum |I_j - I_j^ref|/I^ref, against energies that are frozen at their start", ours,
         verdict_of("the time", readings),
-        told(readings) + "; it must be below the frozen ones by two standard errors",
+        summary_of(readings) + "; it must be below the frozen ones by two standard errors",
         "nysalt compare --system fpu --methods learned:nystrom --steps 0.04 --horizon 150 --trajectories 200 "
         "--metric exchange"}},
       {},

@@ -113,7 +113,7 @@ exhibit growth_of_error(const setting& setup) {
         "exponent of the error of the state (energy norm) against time, up to saturation and after half of "
         "the time",
         ours, verdict_of("the time", readings),
-        told(readings) +
+        summary_of(readings) +
             "; at most 1, to a fifth and two standard errors. The theorem is of integrable systems "
             "near their tori; the chain is chaotic, and shows it from time 50 on",
         "nysalt compare --system fpu --methods learned:nystrom --learn-loss state:1 --steps 0.02 --horizon 2 "

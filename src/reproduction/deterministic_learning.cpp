@@ -78,19 +78,20 @@ exhibit parameters_against_omega(const setting& setup) {
   constexpr double close = 0.01;
   const std::vector<reading> readings{{"a loss in (q, p)", farthest(all[0], omegas) <= close},
                                       {"a loss in the modes", farthest(all[1], omegas) <= close}};
-  return {"Optimal parameters against the stiffness",
-          "Figure 2 (left), section 5.2",
-          {{"for omega >= 30 the parameters are close to those of the linear system",
-            "largest distance of b1 and beta1 from (0.5, " + fmt::format("{:.4f})", linear_beta1()),
-            fmt::format("{:.4f} in (q, p), {:.4f} in the modes", farthest(all[0], omegas),
-                        farthest(all[1], omegas)),
-            verdict_of("the coordinates of the loss", readings), told(readings) + "; close: to a hundredth",
-            "nysalt learn --system fpu --loss state:1 --omega 50 --step 0.02 --coordinates modes"}},
-          {"M = 100 trajectories over Ttr = 1/2, delta = 1/omega."},
-          {{"Learned parameters with the errors of the fit:", rows}},
-          {{picture_of(all, omegas),
-            "Learned parameters against omega at delta = 1/omega, and those of the linear system (energy "
-            "norm)."}}};
+  return {
+      "Optimal parameters against the stiffness",
+      "Figure 2 (left), section 5.2",
+      {{"for omega >= 30 the parameters are close to those of the linear system",
+        "largest distance of b1 and beta1 from (0.5, " + fmt::format("{:.4f})", linear_beta1()),
+        fmt::format("{:.4f} in (q, p), {:.4f} in the modes", farthest(all[0], omegas),
+                    farthest(all[1], omegas)),
+        verdict_of("the coordinates of the loss", readings), summary_of(readings) + "; close: to a hundredth",
+        "nysalt learn --system fpu --loss state:1 --omega 50 --step 0.02 --coordinates modes"}},
+      {"M = 100 trajectories over Ttr = 1/2, delta = 1/omega."},
+      {{"Learned parameters with the errors of the fit:", rows}},
+      {{picture_of(all, omegas),
+        "Learned parameters against omega at delta = 1/omega, and those of the linear system (energy "
+        "norm)."}}};
 }
 
 exhibit convergence_in_trajectories(const setting& setup) {

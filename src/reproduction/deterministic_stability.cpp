@@ -79,7 +79,7 @@ exhibit largest_stable_step(const setting& setup) {
             fmt::format("learned {:.3f}, fixed (0.5, 0.40) {:.3f}; steps are {:g} apart", learned, fixed,
                         distance),
             verdict_of("whether parameters are learned at each step", readings),
-            told(readings) + "; close: within 5 %",
+            summary_of(readings) + "; close: within 5 %",
             "nysalt stability --family nystrom --parameters 0.5,0.4 --system fpu --step 0.05"}},
           {fmt::format("{} trajectories to time 150. Learning here asks for linear stability at the chain's "
                        "frequencies; the parameters move with it, and with them the limit.",

@@ -65,7 +65,7 @@ exhibit other_starts(const setting& setup) {
             "largest ratio of the error of the scheme learned on the others to that learned there, state on "
             "[0, 0.5]",
             ours, verdict_of("which starts are tested on", readings),
-            told(readings) + "; at most twice the error of the scheme that was learned there", ""}},
+            summary_of(readings) + "; at most twice the error of the scheme that was learned there", ""}},
           {"Stiff-dominated starts are the paper's (5.5). Soft-dominated ones have the same stiff springs, "
            "and the "
            "energy omega^2 in the soft ones: x_0 = omega^(1/2), y_0 = omega/3^(1/2)."},

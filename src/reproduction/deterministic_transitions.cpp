@@ -74,7 +74,7 @@ tested_claim smaller_than_suboptimal(const transitions& all, const std::string& 
           fmt::format("whole time {} and {}; up to t = {:.3g} {} and {}", with_error(late[0]),
                       with_error(late[1]), end, with_error(early[0]), with_error(early[1])),
           verdict_of("the time", readings),
-          told(readings) +
+          summary_of(readings) +
               "; paired over trajectories, by more than two standard errors. Beyond that time the "
               "reference itself is not known to 1 % (its finer self differs), and errors are due to chaos",
           ""};

@@ -97,9 +97,10 @@ exhibit exhibit_of(const estimator_errors& found, const std::string& printed, do
             fmt::format("{} with a reference from other data, {} with one from the same data and more",
                         with_error(found.exponent_from_others), with_error(found.exponent_nested)),
             verdict_of("whether the reference estimator shares the data", readings),
-            told(readings) + "; within two standard errors and half the last digit. An exact reference would "
-                             "give -0.5; one with an error of its own flattens the end of the curve, and one "
-                             "that shares the data steepens it",
+            summary_of(readings) +
+                "; within two standard errors and half the last digit. An exact reference would "
+                "give -0.5; one with an error of its own flattens the end of the curve, and one "
+                "that shares the data steepens it",
             ""}},
           {},
           {{"Mean over repetitions of (|b1 - b1'| + |beta1 - beta1'|)/2:", rows}},

@@ -58,7 +58,7 @@ inline std::string verdict_of(const std::string& choice, const std::vector<readi
 }
 
 /// "holds for a; fails for b, c"
-inline std::string told(const std::vector<reading>& readings) {
+inline std::string summary_of(const std::vector<reading>& readings) {
   std::string holds;
   std::string fails;
   for (const auto& one : readings) {

@@ -17,8 +17,8 @@ struct both_starts {
 std::vector<reading> in_both(const both_starts& all, const std::function<bool(const sweep&)>& holds) {
   return {{"starts from one long trajectory", holds(all.pooled)}, {"Gibbs starts", holds(all.gibbs)}};
 }
-std::string both(const both_starts& all, const std::function<std::string(const sweep&)>& told_of) {
-  return fmt::format("one long trajectory: {}; Gibbs: {}", told_of(all.pooled), told_of(all.gibbs));
+std::string both(const both_starts& all, const std::function<std::string(const sweep&)>& described) {
+  return fmt::format("one long trajectory: {}; Gibbs: {}", described(all.pooled), described(all.gibbs));
 }
 
 constexpr const char* choice_of_starts = "the starts";
@@ -26,13 +26,13 @@ constexpr const char* choice_of_starts = "the starts";
 tested_claim threshold(const both_starts& all, const std::string& name, double printed, double distance) {
   const auto at = [&](const sweep& s) { return crossing(s.of(name), 0.1); };
   const auto readings = in_both(all, [&](const sweep& s) { return is_gap(at(s), printed, distance); });
-  return {
-      fmt::format("{}: 10 % up to gap {:g}", name, printed),
-      "gap at which the average relative RMSE of I reaches 10 %",
-      both(all, [&](const sweep& s) { return with_error(at(s)); }),
-      verdict_of(choice_of_starts, readings),
-      fmt::format("{}; within one distance of gaps ({:g}) and two standard errors", told(readings), distance),
-      ""};
+  return {fmt::format("{}: 10 % up to gap {:g}", name, printed),
+          "gap at which the average relative RMSE of I reaches 10 %",
+          both(all, [&](const sweep& s) { return with_error(at(s)); }),
+          verdict_of(choice_of_starts, readings),
+          fmt::format("{}; within one distance of gaps ({:g}) and two standard errors", summary_of(readings),
+                      distance),
+          ""};
 }
 
 tested_claim slope_until(const both_starts& all, const std::string& name, double printed, double last) {
@@ -42,7 +42,7 @@ tested_claim slope_until(const both_starts& all, const std::string& name, double
           fmt::format("exponent over gaps 30 .. {:g}", last),
           both(all, [&](const sweep& s) { return with_error(slope(s)); }),
           verdict_of(choice_of_starts, readings),
-          told(readings) + "; to a tenth and two standard errors",
+          summary_of(readings) + "; to a tenth and two standard errors",
           ""};
 }
 
@@ -67,7 +67,7 @@ tested_claim smaller_from_70(const both_starts& all) {
           "gap from which on it does (starts from one long trajectory)",
           ours,
           verdict_of("the rival: at equal force evaluations it is BAOAB with half the step", readings),
-          told(readings),
+          summary_of(readings),
           ""};
 }
 

@@ -78,7 +78,7 @@ tested_claim acf_threshold(const std::vector<acfs>& all, const std::string& name
       fmt::format("gap at which the RMS error of the normalised ACF rises above {:g} times the floor", level),
       ours,
       verdict_of("the starts", readings),
-      fmt::format("{}; within {:g} gaps and two standard errors", told(readings), distance),
+      fmt::format("{}; within {:g} gaps and two standard errors", summary_of(readings), distance),
       ""};
 }
 
@@ -108,10 +108,10 @@ exhibit autocovariance_of_energy(const setting& setup) {
                  "Figures 2 (section 2) and 6 (right), section 5.3",
                  {{"at delta = 0.02 BAOAB produces an inaccurate ACF, NySALT remains very reliable",
                    "RMS error of the normalised ACF over lags up to 1", of_200,
-                   verdict_of("the starts", at_200), told(at_200) + rule, ""},
+                   verdict_of("the starts", at_200), summary_of(at_200) + rule, ""},
                   {"at gap 190 NySALT is almost exactly as the reference, BAOAB oscillates much more",
                    "RMS error of the normalised ACF over lags up to 1", of_190,
-                   verdict_of("the starts", at_190), told(at_190) + rule, ""},
+                   verdict_of("the starts", at_190), summary_of(at_190) + rule, ""},
                   acf_threshold(all, "BAOAB", 100, 30, "the error of BAOAB grows from gap 100 on", 2.0),
                   acf_threshold(all, "NySALT", 400, 50, "NySALT remains accurate until about gap 400", 10.0)},
                  {"The paper's ACF is not normalised; here rho(k) = C(k)/C(0), so that starts which inflate "

@@ -68,11 +68,11 @@ laws measure_laws(const setting& setup, const std::string& start, const std::vec
       plan.bins = bins;
       const auto found = system.statistics(methods[k], plan, stiff_energy, {});
       auto& errors = result.methods[k].curve.errors;
-      const bool stands = 2 * found.counted > plan.trajectories.count;
+      const bool is_stable = 2 * found.counted > plan.trajectories.count;
       // No error is known of a total variation; half the floor is taken for it.
-      errors.push_back({stands ? total_variation_of(found, all) : std::numeric_limits<double>::infinity(),
+      errors.push_back({is_stable ? total_variation_of(found, all) : std::numeric_limits<double>::infinity(),
                         0.5 * result.floor});
-      if (gap == shown_gap && stands) {
+      if (gap == shown_gap && is_stable) {
         result.densities.push_back(density_curve(result.methods[k].name, *found.histogram, false));
       }
     }
@@ -96,7 +96,7 @@ tested_claim at_one_gap(const std::vector<laws>& all, const std::string& name, d
           fmt::format("total variation at gap {:g}", gap),
           ours,
           verdict_of("the starts", readings),
-          told(readings) + "; " + rule,
+          summary_of(readings) + "; " + rule,
           ""};
 }
 
@@ -119,7 +119,7 @@ tested_claim smaller_from_200(const std::vector<laws>& all) {
           "least ratio of the rival's TVD to that of NySALT after gap 200, for both ways to start",
           ours,
           verdict_of("the rival: at equal force evaluations it is BAOAB with half the step", readings),
-          told(readings) + "; above 1 at every gap. At the floor such a ratio is chance",
+          summary_of(readings) + "; above 1 at every gap. At the floor such a ratio is chance",
           ""};
 }
 
@@ -148,8 +148,8 @@ exhibit law_of_energy(const setting& setup) {
                   smaller_from_200(all)},
                  {"The floor is the mean distance between pairs of four ensembles of the reference: no error "
                   "below it can be seen. "
-                  "T = 40 is 0.4 of a relaxation time: this is how far a method has left the law of its "
-                  "starts, not its invariant law."},
+                  "T = 40 is 0.4 of a relaxation time: this is the departure from the initial distribution, "
+                  "not the error of the stationary distribution."},
                  {},
                  {}};
   std::vector<panel> distances;
@@ -159,8 +159,9 @@ exhibit law_of_energy(const setting& setup) {
     distances.push_back(panel_of_laws(one.methods, one.name, "total variation", one.floor));
     densities.push_back({one.name + ", gap 330", "I", "density", false, one.densities});
   }
-  result.pictures.push_back({{"law_distance", distances, 1200, 520},
-                             "Total variation of the law of I over [0, 40] from that of fine steps."});
+  result.pictures.push_back(
+      {{"law_distance", distances, 1200, 520},
+       "Total variation of the distribution of I over [0, 40] from that of fine steps."});
   result.pictures.push_back({{"law_density", densities, 1200, 480}, "Density of I at gap 330."});
   for (auto& one : result.claims) {
     one.command = fmt::format(

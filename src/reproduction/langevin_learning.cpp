@@ -140,10 +140,10 @@ exhibit parameters_against_gap(const setting& setup) {
           {{"the mean of both estimators is close to the optimum of the linear Langevin system",
             "largest distance of the mean of b1 and beta1 from it over all gaps", distances,
             verdict_of("the coordinates of the loss and the starts", near),
-            told(near) + "; close: to a hundredth", command},
+            summary_of(near) + "; close: to a hundredth", command},
            {"the error bar is barely noticeable", "largest standard deviation over repetitions", scatters,
             verdict_of("the coordinates of the loss and the starts", narrow),
-            told(narrow) + "; at most a hundredth", command}},
+            summary_of(narrow) + "; at most a hundredth", command}},
           {fmt::format("M = {} trajectories over Ttr = 1 by BAOAB with h = 1e-4, {} repetitions (3 below gap "
                        "50); O at the end.",
                        setup.pick(512, 16), repetitions)},

@@ -55,9 +55,9 @@ exhibit run_times(const setting& setup) {
         "ratio of seconds for 10^4 trajectories to T = 40, one core",
         fmt::format("{:.3g} to fine steps, {:.2f} to BAOAB with half the step", factor, half_baoab / coarse),
         verdict_of("what it is compared with", readings),
-        told(readings) + "; at least three quarters of 115. 190 fine steps are replaced by one of two "
-                         "evaluations: a factor "
-                         "of 95 by counting",
+        summary_of(readings) + "; at least three quarters of 115. 190 fine steps are replaced by one of two "
+                               "evaluations: a factor "
+                               "of 95 by counting",
         "nysalt compare --system fpu --friction 0.01 --sigma 0.05 --steps 0.019 --methods "
         "baoab,learned:nystrom@end"},
        {"learning takes 854 s", "seconds of learning from M = 512, data included",

@@ -53,7 +53,7 @@ tested_claim value_of_optimum() {
           fmt::format("energy norm {:.5f}, {:.5f}; printed Sigma {:.5f}, {:.5f}", by_energy[0], by_energy[1],
                       as_printed[0], as_printed[1]),
           verdict_of("the weights of the loss", readings),
-          told(readings) + "; to the printed digits",
+          summary_of(readings) + "; to the printed digits",
           "nysalt learn --system oscillator --loss state:1 --omega 50 --step 0.02 --coordinates energy"};
 }
 
@@ -77,7 +77,7 @@ tested_claim independence_of_omega() {
           "largest change of beta1* from omega = 1 to 50 at delta omega = 1",
           fmt::format("energy norm {:.1e}; printed Sigma {:.4f}", by_energy, as_printed),
           verdict_of("the weights of the loss", readings),
-          told(readings) +
+          summary_of(readings) +
               "; a change of half the last printed digit (.005) is none. diag(1, Omega^2) adds "
               "squares of different units",
           ""};
@@ -97,7 +97,7 @@ tested_claim independence_of_delta() {
           "largest change of beta1* (energy norm) from delta omega = 0.1 on",
           fmt::format("{:.4f} up to 1, {:.4f} up to 2", change_up_to(1.0), change_up_to(2.0)),
           verdict_of("how large the step is", readings),
-          told(readings) + "; a change of half the last printed digit (.005) is none",
+          summary_of(readings) + "; a change of half the last printed digit (.005) is none",
           "nysalt learn --system oscillator --loss state:1 --omega 50 --steps 0.01,0.02,0.03,0.04 "
           "--coordinates energy"};
 }
@@ -207,7 +207,7 @@ exhibit linear_stability(const setting&) {
         "limit over that of Verlet, a step and an evaluation",
         fmt::format("{:.4f} and {:.4f}", limit / verlet, 0.5 * limit / verlet),
         verdict_of("what is counted: a step takes two force evaluations, one of Verlet one", cost),
-        told(cost), "nysalt stability --method verlet"}}};
+        summary_of(cost), "nysalt stability --method verlet"}}};
 }
 
 }  // namespace nysalt::program::paper

@@ -55,7 +55,7 @@ exhibit linear_langevin_optimum(const setting&) {
         fmt::format("{:.4f}, {:.4f} and {:.4f} at delta omega = 0.2, 1 and 2", slope_of_optimum(0.2, false),
                     slope_of_optimum(1.0, false), slope_of_optimum(2.0, false)),
         verdict_of("the step: the remark expands in it", readings),
-        told(readings) + "; to the printed digits", ""}},
+        summary_of(readings) + "; to the printed digits", ""}},
       {"The slope is of the placement, not of the system: with half of the bath before the step and half "
        "behind there is none. In the setting of section 5.3 the shift is below 0.0005."},
       {{"The slope:", all}},
@@ -106,7 +106,7 @@ exhibit linear_langevin_order(const setting&) {
           "Remark on the order, section 4.2",
           {{"the local strong order is 1.5",
             "exponent of the root mean square error of one step, Omega = 1, gamma = 0.5",
-            fmt::format("{:.3f} (noise of q alone {:.3f}, of p alone {:.3f})", order.mean,
+            fmt::format("{:.3f} (noise of q only {:.3f}, of p only {:.3f})", order.mean,
                         exponent(steps, of_q).mean, exponent(steps, of_p).mean),
             verdict_of(agrees(order, 1.5, 0.1)),
             "to the printed digits; the covariance of the noise is integrated, no sampling", ""}},

@@ -13,7 +13,7 @@ const std::vector<part_of_paper>& parts_of_paper() {
         {"Langevin optimum", 0.1, linear_langevin_optimum},
         {"Langevin order", 0.1, linear_langevin_order}}},
       {"deterministic",
-       "The chain alone",
+       "The chain without bath",
        {{"table 1", 20, table_1},
         {"parameters against omega", 5, parameters_against_omega},
         {"convergence in M", 20, convergence_in_trajectories},

@@ -58,7 +58,7 @@ class timetable {
 }  // namespace
 
 int reproduce(const reproduce_command& command, const common_settings& common) {
-  if (!all_ranks().is_alone()) refuse("nysalt_paper is the work of one process: start it without mpirun");
+  if (!all_ranks().is_single()) refuse("nysalt_paper must run as one process; start it without mpirun");
   const auto planned = parts_named(command.parts);
   if (!command.output.empty()) {
     const std::filesystem::path folder(command.output);

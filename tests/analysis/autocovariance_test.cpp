@@ -45,7 +45,7 @@ double bartlett(double phi, double k) {
   return ((1.0 + square) * (1.0 - at_lag) / (1.0 - square) - 2.0 * k * at_lag) / n;
 }
 
-/// sqrt(2) cos(omega t + phase) for so many phases all around: means over them are cos(omega k) and 0.
+/// sqrt(2) cos(omega t + phase) for that many phases all around: means over them are cos(omega k) and 0.
 autocovariance of_phases(double omega, int phases) {
   std::vector<autocovariance_sums> sums;
   for (int m = 0; m < phases; ++m) {
@@ -108,17 +108,18 @@ BOOST_AUTO_TEST_CASE(groups_without_a_trajectory_do_not_count) {
 }
 
 BOOST_AUTO_TEST_CASE(what_has_no_autocovariance_is_refused) {
-  const autocovariance nobody(1.0, 0.0, {autocovariance_sums(3)});
-  BOOST_TEST(std::isnan(nobody.mean()));
-  BOOST_TEST(refuses<std::runtime_error>([&] { nobody.normalised(); }, {"no trajectory counts"}));
+  const autocovariance none(1.0, 0.0, {autocovariance_sums(3)});
+  BOOST_TEST(std::isnan(none.mean()));
+  BOOST_TEST(refuses<std::runtime_error>([&] { none.normalised(); }, {"no trajectory counts"}));
   autocovariance_along<double> constant(2, 4.0);
   for (int t = 0; t < 9; ++t) constant.add(4.0);
   const autocovariance frozen(1.0, 4.0, {constant.in_lane(0)});
   BOOST_TEST(refuses<std::runtime_error>([&] { frozen.normalised(); }, {"does not vary"}));
-  BOOST_TEST(refuses<std::invalid_argument>([] { autocovariance(1.0, 0.0, {}); }, {"no group"}));
+  BOOST_TEST(refuses<std::invalid_argument>([] { autocovariance(1.0, 0.0, {}); },
+                                            {"groups of trajectories must be one or more"}));
   BOOST_TEST(refuses<std::invalid_argument>(
       [] {
         autocovariance(1.0, 0.0, {autocovariance_sums(3), autocovariance_sums(5)});
       },
-      {"2 and of 4 lags"}));
+      {"got 2 and 4"}));
 }

@@ -84,9 +84,9 @@ BOOST_AUTO_TEST_CASE(what_diverged_has_no_error_and_no_part_in_the_order) {
 BOOST_AUTO_TEST_CASE(steps_and_halvings_that_cannot_be_are_refused) {
   using wrong = std::invalid_argument;
   const fine_steps<> fine(1e-2);
-  BOOST_TEST(refuses<wrong>([&] { measure(verlet(), fine, 0, 3); }, {"convergence_order", "0 steps"}));
-  BOOST_TEST(refuses<wrong>([&] { measure(verlet(), fine, -4, 3); }, {"convergence_order", "-4 steps"}));
-  BOOST_TEST(refuses<wrong>([&] { measure(verlet(), fine, 16, -1); }, {"convergence_order", "-1 halvings"}));
+  BOOST_TEST(refuses<wrong>([&] { measure(verlet(), fine, 0, 3); }, {"convergence_order", "got 0,"}));
+  BOOST_TEST(refuses<wrong>([&] { measure(verlet(), fine, -4, 3); }, {"convergence_order", "got -4,"}));
+  BOOST_TEST(refuses<wrong>([&] { measure(verlet(), fine, 16, -1); }, {"convergence_order", ", -1 and"}));
   for (const double horizon : {0.0, nowhere}) {
     BOOST_TEST(refuses<wrong>([&] { convergence_order(swing, verlet(), fine, start, horizon, 4, 2); },
                               {"convergence_order", "horizon"}));

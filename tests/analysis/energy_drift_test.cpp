@@ -116,6 +116,6 @@ BOOST_AUTO_TEST_CASE(long_runs_need_no_more_memory) {
   BOOST_TEST(allocations - before == 0U);
   BOOST_TEST(record.largest > 0.0);
   std::vector<double> something(8);
-  asm volatile("" : : "r"(something.data()) : "memory");  // clang leaves out what nobody can see
+  asm volatile("" : : "r"(something.data()) : "memory");  // clang leaves out what has no effect
   BOOST_TEST(allocations - before > 0U);                  // the count would see it
 }

@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(oscillators_have_a_normal_histogram) {
 }
 
 // One look at each: independent samples, of which each counts, exactly but for rounding. Along the way the
-// time mean of n samples is A cos(...) D, D = sin(n turn/2)/(n sin(turn/2)): so many more samples are worth
+// time mean of n samples is A cos(...) D, D = sin(n turn/2)/(n sin(turn/2)): that many more samples are worth
 // 1/D^2 each; the variance of 1024 means is known to sqrt(2/1024).
 BOOST_AUTO_TEST_CASE(samples_count_as_they_do) {
   const statistics_wanted moments{.moments = true};
@@ -257,10 +257,10 @@ BOOST_AUTO_TEST_CASE(what_is_not_finite_is_lost) {
   std::size_t lost = 0;
   for (std::uint64_t m = 0; m < 200; ++m) {
     std::int64_t first = -1;
-    const auto look = [&](std::int64_t n, double, const auto& x) {
+    const auto observe = [&](std::int64_t n, double, const auto& x) {
       if (first < 0 && x.q[0] > 2.0) first = n;
     };
-    integrate(stepper, oscillation::law(1, m), 10, look, 1);
+    integrate(stepper, oscillation::law(1, m), 10, observe, 1);
     if (first < 0) continue;
     BOOST_TEST(found.lost.at(lost).trajectory == static_cast<std::int64_t>(m));
     BOOST_TEST(found.lost.at(lost).step == first);

@@ -92,7 +92,7 @@ double expected_modulus(double h) {
   return std::sqrt(2.0 / std::numbers::pi) * sum;
 }
 
-/// How often the bar of so many standard errors covers what is true, and half of it.
+/// How often the bar of that many standard errors covers what is true, and half of it.
 struct coverage {
   int whole = 0;
   int half = 0;

@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(too_few_lags_are_said) {
   BOOST_TEST(!time.enough);
   BOOST_TEST(time.window == 90U);
   BOOST_TEST(std::isnan(effective_sample_size(1000.0, time)));
-  BOOST_TEST(refuses<std::invalid_argument>([] { tau({1.0}); }, {"no lag"}));
+  BOOST_TEST(refuses<std::invalid_argument>([] { tau({1.0}); }, {"lags must be one or more"}));
 }
 
 // tau = Re (1 + a)/(1 - a), a = exp(-decay + i omega). Its partial sums dip at three quarters of a turn:

@@ -59,7 +59,7 @@ double squared_distance(const star& a, const star& b) {
   return (a.q - b.q).squaredNorm() + (a.p - b.p).squaredNorm();
 }
 
-/// The mean rate at which distances grow over so many samples, drawn in to 1e-8 after each.
+/// The mean rate at which distances grow over that many samples, drawn in to 1e-8 after each.
 double growth_rate(const std::vector<star>& starts, int samples) {
   double sum = 0.0;
   for (star x : starts) {

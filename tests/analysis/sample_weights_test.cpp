@@ -37,7 +37,7 @@ BOOST_AUTO_TEST_CASE(means_up_to_a_horizon_are_those_of_what_lies_between) {
   for (const double step : {0.1, 0.083, 0.0999, 0.05, 0.011}) {
     const auto samples = static_cast<std::int64_t>(std::ceil(1.0 / step - 1e-9));
     const sample_weights weights(step, samples, 1.0);
-    const auto near = boost::test_tools::tolerance(100 * eps);  // of so many terms at most
+    const auto near = boost::test_tools::tolerance(100 * eps);  // of that many terms at most
     BOOST_TEST(weights.total() == 1.0 / step, near);
     BOOST_TEST(mean_of_power(weights, step, samples, 0) == 1.0, near);
     BOOST_TEST(mean_of_power(weights, step, samples, 1) == 0.5, near);

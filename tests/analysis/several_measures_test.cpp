@@ -113,8 +113,8 @@ BOOST_AUTO_TEST_CASE(in_a_bath_they_do_so_too) {
   BOOST_TEST(!same_bits(together[0].methods[0], together[1].methods[0]));
 }
 
-// Once along each of 20 trajectories, and along 16 for the finer one; as often for perturbed starts. Nobody
-// asks for one if energies alone are compared.
+// Once along each of 20 trajectories, and along 16 for the finer one; as often for perturbed starts. None
+// is needed if energies alone are compared.
 BOOST_AUTO_TEST_CASE(one_reference_serves_all_measures) {
   const in_lanes<fpu_chain<3>, 1> singly(chain);
   const auto asked = [&](const auto& measures, std::optional<double> perturbation) {
@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(a_measure_in_trouble_is_named) {
       refuses<std::runtime_error>([&] { judge(no_number); }, {"trajectory 0 ", "path error", "step 1"}));
 }
 
-// 1e9 numbers are the most. Of 1 method and 2 references, stretches of 64 samples in all lanes hold 6e8 with
+// 1e9 numbers are the most. Of 1 method and 2 references, intervals of 64 samples in all lanes hold 6e8 with
 // one measure of this width, and 1.2e9 with two.
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   error_measure wide = state_measure(chain);
@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const trajectory_options many{.step = .02, .steps = 5, .trajectories = 40'000'000};
   BOOST_CHECK_NO_THROW(require_room(many, 1, 1, 2));
   BOOST_TEST(refuses<std::invalid_argument>([&] { require_room(many, 1, 1, 3); }, {"fit into memory"}));
-  BOOST_TEST(refuses<std::invalid_argument>([&] { judge({}, options); }, {"at least one measure"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { judge({}, options); }, {"measures must be one or more"}));
   for (const double perturbation : {0.0, -1.0, static_cast<double>(INFINITY), std::nan("")}) {
     trajectory_options perturbed_options = options;
     perturbed_options.perturbation = perturbation;

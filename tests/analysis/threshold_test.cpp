@@ -128,5 +128,5 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   BOOST_TEST(refused({{.1, 1.0, 0.0}, {.1, 2.0, 0.0}}, .3, "row 2", "sorted"));
   BOOST_TEST(refused({{.1, 1.0, 0.0}, {.3, 2.0, 0.0}, {.2, 2.0, 0.0}}, .3, "row 3", "sorted"));
   BOOST_TEST(refused({{-.1, 1.0, 0.0}}, .3, "positive"));
-  BOOST_TEST(refused({{.1, -1.0, 0.0}}, .3, "negative error"));
+  BOOST_TEST(refused({{.1, -1.0, 0.0}}, .3, "errors >= 0"));
 }

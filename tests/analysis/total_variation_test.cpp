@@ -154,11 +154,12 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
     return refuses<std::invalid_argument>(action, {words...});
   };
   BOOST_TEST(refused([&] { total_variation(some[0], other); }, "40 bins", "39"));
-  BOOST_TEST(refused([&] { total_variation(some[0], empty); }, "nothing was added"));
-  BOOST_TEST(refused([&] { sampling_floor(std::span(some).first(3)); }, "3 independent", "at least"));
-  BOOST_TEST(refused([&] { mean_total_variation(some[0], {}); }, "nothing to compare"));
+  BOOST_TEST(refused([&] { total_variation(some[0], empty); }, "one or more for fractions"));
+  BOOST_TEST(refused([&] { sampling_floor(std::span(some).first(3)); }, "4 or more", "got 3"));
+  BOOST_TEST(refused([&] { mean_total_variation(some[0], {}); }, "to compare with must be"));
   BOOST_TEST(sampling_floor(some) > 0.0);
   const std::vector<std::vector<histogram>> nothing{{}};
-  BOOST_TEST(refused([&] { mean_total_variation(some, nothing); }, "no group"));
-  BOOST_TEST(refused([&] { mean_total_variation(some, std::span(nothing).first(0)); }, "nothing to compare"));
+  BOOST_TEST(refused([&] { mean_total_variation(some, nothing); }, "groups of trajectories must be"));
+  BOOST_TEST(
+      refused([&] { mean_total_variation(some, std::span(nothing).first(0)); }, "to compare with must be"));
 }

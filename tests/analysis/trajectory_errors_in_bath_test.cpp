@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(the_noise_is_common) {
   BOOST_TEST(together.reference.starts_with("baoab with step"));
 }
 
-// 150 steps are three stretches, of which the path is kept one at a time.
+// 150 steps are three intervals, of which the path is kept one at a time.
 BOOST_AUTO_TEST_CASE(streaming_gives_what_the_formula_says) {
   const trajectory_options options{.step = 0.12, .steps = 150, .trajectories = 21, .seed = 7};
   const fine_paths reference(0.02);
@@ -222,17 +222,17 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
                            std::initializer_list<std::string_view> words) {
     return refuses<wrong>([&] { judged(methods, options, fine_paths(fine)); }, words);
   };
-  BOOST_TEST(refused(all, 0.06, {"0.12 in 6 equal parts", "fine step 0.06"}));
-  BOOST_TEST(refused({by_thirds}, 0.03, {"0.12 in 3 equal parts", "fine step 0.03"}));
+  BOOST_TEST(refused(all, 0.06, {"0.12 in the 6 equal parts", "fine step 0.06"}));
+  BOOST_TEST(refused({by_thirds}, 0.03, {"0.12 in the 3 equal parts", "fine step 0.03"}));
   BOOST_TEST(!refused({by_baoab, by_halves}, 0.06, {}));
   BOOST_TEST(refused({by_baoab, tabulated(verlet())}, 0.06, {"BAB has no letter O"}));
   BOOST_TEST(refused({tabulated(verlet())}, 0.06, {"BAB has no letter O"}));
   const tabulated half("half", run_time_word("ABOBA"), {0.5, 0.5, 0.5, 0.5, 0.5}, {});
-  BOOST_TEST(refused({half}, 0.06, {"ABOBA cover 0.5"}));
+  BOOST_TEST(refused({half}, 0.06, {"ABOBA must cover one step", "got 0.5"}));
   const tabulated back("back", run_time_word("OABOBAO"), {1.0, 0.5, 0.5, -1.0, 0.5, 0.5, 1.0}, {});
-  BOOST_TEST(refused({back}, 0.06, {"back in time"}));
+  BOOST_TEST(refused({back}, 0.06, {"forward in time"}));
   const auto along_a_flow = [&] { judged(all, options, fine_steps<>(0.06)); };
-  BOOST_TEST(refuses<wrong>(along_a_flow, {"srkn11b", "no noise to share", "fine_paths"}));
+  BOOST_TEST(refuses<wrong>(along_a_flow, {"srkn11b", "must have noise to share", "fine_paths"}));
 }
 
 BOOST_AUTO_TEST_CASE(the_energy_error_needs_the_noise_alone) {

@@ -49,7 +49,7 @@ const auto path = path_measure(chain, stiff_energy);
 /// Two of one type: two half Verlets, and nearly McLachlan.
 const std::array<pair, 2> pairs{pair({.5, .375}), pair({.5, .4034})};
 
-/// Where one trajectory is gone through after the other.
+/// Where one trajectory is read after the other.
 const in_lanes<fpu_chain<3>, 1> singly(chain);
 
 /// No reference: it throws when it is asked.
@@ -195,13 +195,15 @@ BOOST_AUTO_TEST_CASE(a_relative_error_needs_an_observable_of_one_sign) {
         judge({law(1, 0), left}, far);
       },
       {"relative error", "changes its sign", "path error"}));
-  const auto stretch = [](const state& x) { return x.q[1] - x.q[0]; };
+  const auto elongation = [](const state& x) { return x.q[1] - x.q[0]; };
   trajectory_options longer{.step = .002, .steps = 100, .trajectories = 1};
   BOOST_TEST(refuses<std::invalid_argument>(
-      [&] { trajectory_errors(chain, reference, law, verlet(), relative_measure(chain, stretch), longer); },
+      [&] {
+        trajectory_errors(chain, reference, law, verlet(), relative_measure(chain, elongation), longer);
+      },
       {"relative error", "changes its sign"}));
   BOOST_CHECK_NO_THROW(
-      trajectory_errors(chain, reference, law, verlet(), path_measure(chain, stretch), longer));
+      trajectory_errors(chain, reference, law, verlet(), path_measure(chain, elongation), longer));
 }
 
 BOOST_AUTO_TEST_CASE(errors_of_second_order_fall_by_four_with_the_step) {
@@ -413,7 +415,8 @@ BOOST_AUTO_TEST_CASE(a_reference_that_breaks_is_told_of) {
       {"trajectory 0 ", "path error", "step 1"}));
 }
 
-// Two are lost, the later one earlier; it is the first of them that is named, whoever goes beside it.
+// Two are lost, the later one earlier; it is the first of them that is named, whichever trajectories are
+// stepped beside it.
 BOOST_AUTO_TEST_CASE(the_first_trajectory_that_is_lost_is_named_by_any_number_of_lanes) {
   const trajectory_options options{.step = .01, .steps = 60, .trajectories = 30};
   std::vector<state> starts;
@@ -443,7 +446,7 @@ BOOST_AUTO_TEST_CASE(the_first_trajectory_in_trouble_is_named_by_any_number_of_t
     const trajectory_options options{.step = .01, .steps = 5, .trajectories = 40, .threads = threads};
     BOOST_TEST(refuses<std::invalid_argument>(
         [&] { trajectory_errors(chain, reference, listed<6>(starts), verlet(), path, options); },
-        {"start 20 ", "not finite"}));
+        {"start 20 ", "must be finite"}));
   }
 }
 
@@ -487,7 +490,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   BOOST_TEST(refused({.step = .01, .steps = 1, .threads = 0}, "thread"));
   BOOST_TEST(refused({.step = .01, .steps = 1, .threads = 1'000'000}, "fit into memory", "threads"));
   BOOST_TEST(refused({.step = .01, .steps = 1, .trajectories = 2'000'000'000}, "fit into memory"));
-  BOOST_TEST(refused({.step = .0103, .steps = 1}, "not a multiple"));  // of the fine step
+  BOOST_TEST(refused({.step = .0103, .steps = 1}, "a multiple"));  // of the fine step
   const auto nothing = path_measure(chain, [](const state&) { return 0.0; });
   BOOST_TEST(refuses<std::invalid_argument>([&] { judge({.step = .01, .steps = 1}, nothing); },
                                             {"path error", "which is 0"}));

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/shard.hpp"
 
 using namespace nysalt;
@@ -102,6 +102,6 @@ BOOST_AUTO_TEST_CASE(what_fails_on_one_fails_on_all) {
   const auto fails = [&] {
     if (ranks.rank() == 1) throw std::invalid_argument("the second");
   };
-  BOOST_CHECK_EXCEPTION(together(ranks, fails), std::invalid_argument,
+  BOOST_CHECK_EXCEPTION(collectively(ranks, fails), std::invalid_argument,
                         [](const auto& problem) { return problem.what() == std::string("the second"); });
 }

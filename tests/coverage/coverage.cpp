@@ -145,7 +145,8 @@ std::string page_of(const std::vector<row>& all, const extent& what) {
       "covers "
       "if it and that of the {} are not farther apart than both together allow. `tail`: few trajectories "
       "decide "
-      "the mean (Cochran's rule), told of each sample by itself, and of the row if most samples are marked, "
+      "the mean (Cochran's rule), marked for each sample by itself, and of the row if most samples are "
+      "marked, "
       "or "
       "the {}. A sample misleads if it neither covers nor is marked. Errors of other numbers of trajectories "
       "({}) agree if they lie within three standard errors, or are marked.",
@@ -160,7 +161,7 @@ std::string page_of(const std::vector<row>& all, const extent& what) {
                    count([](const row& line) { return !line.covers() && !line.has_tail(); })),
        fmt::format("in {} rows errors at other numbers of trajectories do not agree",
                    count([](const row& line) { return !line.agrees; })),
-       fmt::format("in {} rows more than three of 16 samples mislead: what no sample has met, none tells",
+       fmt::format("in {} rows more than three of 16 samples mislead: no sample shows what none has met",
                    count([](const row& line) { return 16 * line.misled > 3 * line.samples; })),
        fmt::format("of the rows that cover, {} are marked: their intervals are better than the rule asks",
                    count([](const row& line) { return line.covers() && line.has_tail(); }))});

@@ -8,7 +8,7 @@
 #include "../support/black_box_in_units.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/check_force.hpp"
-#include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/derivatives/symplecticity.hpp"
 #include "nysalt/families/fg4.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
@@ -143,8 +143,8 @@ void check_checks(const units& scales) {
     wrong.bond_factor = factor;
     BOOST_TEST((N == 1 || !check_force(wrong, points).passed()), "bonds times " << factor);
   }
-  const auto boxed = stiffness_along(wells.boxed, wells.states);
-  const auto open = stiffness_along(wells.open, wells.states);
+  const auto boxed = hessian_spectrum(wells.boxed, wells.states);
+  const auto open = hessian_spectrum(wells.open, wells.states);
   BOOST_TEST(std::abs(boxed.highest / open.highest - 1.0) < 1e-6);
   BOOST_TEST(open.highest_frequency() * scales.time > 0.5);
 }

@@ -353,7 +353,8 @@ BOOST_AUTO_TEST_CASE(velocities_are_looked_at_where_the_momenta_are) {
 
 BOOST_AUTO_TEST_CASE(there_must_be_points_and_they_must_fit) {
   using wrong = std::invalid_argument;
-  BOOST_TEST(refuses<wrong>([] { check_force(twisted{1.0}, {}); }, {"check_force", "no points"}));
+  BOOST_TEST(
+      refuses<wrong>([] { check_force(twisted{1.0}, {}); }, {"check_force", "points must be one or more"}));
   const std::vector<Eigen::VectorXd> points{Eigen::VectorXd::Ones(3), Eigen::VectorXd::Ones(2)};
   BOOST_TEST(refuses<wrong>([&] { check_force(dynamic_potential(), points); },
                             {"point 2 has 2 coordinates, the system 3"}));

@@ -22,7 +22,7 @@ std::optional<resonance> near(const tabulated& method, const std::vector<frequen
   return near_resonance(method.letters(), method.coefficients(), bands, step);
 }
 
-/// Position Verlet in so many equal steps, whose phase at z is 2 n asin(z/(2 n)).
+/// Position Verlet in that many equal steps, whose phase at z is 2 n asin(z/(2 n)).
 tabulated many_steps(int n) {
   std::string letters = "A";
   std::vector<double> c{0.5 / n};

@@ -87,6 +87,29 @@ def parts(path, text):
     return parts_of_markdown(text) if language == "markdown" else [(1, "comment", text)]
 
 
+def exceptions(page):
+    """{word: (whether it may be a name, pieces of code with it)}: what follows "except" in the second column."""
+    found = {}
+    for word, rest in re.findall(r"^\| `(.*?)`.*?\| (.*?) \|$", section_of_words.search(page)[0], re.MULTILINE):
+        _, _, excepted = rest.partition("except ")
+        found[word] = (excepted.startswith("in names"), re.findall(r"`([^`]+)`", excepted))
+    return found
+
+
+def without_code(text, pieces, is_text):
+    """The text without what is no prose: code between backticks, quoted names, and these pieces of code. A text of one
+    word is a key."""
+    def blank(match):
+        return re.sub(r"[^\n]", " ", match[0])
+    if is_text and text in pieces:
+        return ""
+    text = re.sub(r"`[^`\n]*`", blank, text)
+    for piece in pieces:
+        if " " in piece:
+            text = re.sub(rf"(?<![-\w]){re.escape(piece)}(?![-\w])", blank, text)
+    return text
+
+
 def words_not_used(page):
     """{word: expression} of the section `Words that are not used`; a word in a table's first column stands for all its
     listed forms, and `cannot be` is one where nothing follows that says what."""
@@ -97,7 +120,7 @@ def words_not_used(page):
     found = {}
     for row in re.findall(r"^\| (`.*?) \|", section[0], re.MULTILINE):
         forms = re.findall(r"`([^`]+)`", row)
-        expression = r"(?i)(?<![-\w])(?:" + "|".join(gap.join(map(re.escape, form.split())) for form in forms) + r")(?![-\w])"
+        expression = r"(?i)(?<![-\w/])(?:" + "|".join(gap.join(map(re.escape, form.split())) for form in forms) + r")(?![-\w])"
         if forms == ["cannot be"]:
             expression += r"(?=\s*(?:[.,:;?!)\"]|$|of\b|at\b))"
         found[forms[0]] = re.compile(expression)
@@ -123,7 +146,8 @@ def folder_of(root, path):
 
 def found_in(root):
     """[(path, line, folder, word)] of the words, also as parts of names, and sentences on what has no exception."""
-    words = words_not_used((root / "docs/notation.md").read_text())
+    page = (root / "docs/notation.md").read_text()
+    words, excepted = words_not_used(page), exceptions(page)
     places, wrong, names = [], [], set()  # a name counts once in a folder
     for path in files(root):
         name = path.relative_to(root).as_posix()
@@ -135,6 +159,9 @@ def found_in(root):
                 if text == "its":
                     wrong.append(f"{name}:{line}: `its` is not an identifier; name what it is")
                 for word, expression in words.items():
+                    may_be_name, pieces = excepted[word]
+                    if may_be_name or text in pieces:
+                        continue
                     if expression.search(text.replace("_", " ")) and (folder_of(root, path), text) not in names:
                         names.add((folder_of(root, path), text))
                         places.append((name, line, folder_of(root, path), f"{word} (names)"))
@@ -142,7 +169,9 @@ def found_in(root):
             if kind == "text" and re.search(r"cannot be\s*(?:[.:;,]|$)", text):
                 wrong.append(f"{name}:{line}: \"{text[:60]}\": write `WHO: PARAMETER must CONDITION, got VALUE; REMEDY`")
             for word, expression in words.items():
-                for match in expression.finditer(text):
+                may_be_name, pieces = excepted[word]
+                keys = [*pieces, word] if may_be_name else pieces
+                for match in expression.finditer(without_code(text, keys, kind == "text")):
                     at = line + text.count("\n", 0, match.start())
                     places.append((name, at, folder_of(root, path), word))
     return places, wrong

@@ -102,6 +102,18 @@ class InACopy(unittest.TestCase):
         self.assertEqual(len(rose), 1)
         self.assertIn("'told (names)' 1 times, 0 are recorded", rose[0])
 
+    def test_what_the_table_excepts_is_not_found(self):
+        for text in ('const auto fpu_law = law("law");\n', 'refuse("--spread needs --start law");\n', "// Made by `law(system)`.\n",
+                     'take("looks", looks);\n'):
+            self.write("src/b.cpp", text)
+            with self.subTest(text):
+                self.assertEqual(self.judged()[0], [])
+        for text in ("// The law of the starts.\n", 'refuse("the law of --start law");\n', "int look = 1;\n", "// It looks.\n",
+                     "// `looks` that looks.\n", "int first_looks = 1;\n"):
+            self.write("src/b.cpp", text)
+            with self.subTest(text):
+                self.assertEqual(len(self.judged()[0]), 1)
+
     def test_a_count_may_only_fall(self):
         self.write("include/b.hpp", "// The second alone.\n")
         self.assertIn("'alone' 2 times, 1 are recorded", self.judged()[0][0])

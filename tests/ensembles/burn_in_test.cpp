@@ -137,9 +137,10 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
                           std::initializer_list<std::string_view> words) {
     return refuses<wrong>([&] { gibbs(system, around_0, options); }, words);
   };
-  BOOST_TEST(refused({oscillator, bath::of_sigma(0.0, 0.1)}, {}, {"gibbs", "no temperature"}));
-  BOOST_TEST(refused({oscillator, bath::of_sigma(0.0, 0.0)}, {}, {"gibbs", "no temperature"}));
-  BOOST_TEST(refused({oscillator, bath::of_sigma(0.1, 0.0)}, {}, {"gibbs", "temperature 0", "rests"}));
+  BOOST_TEST(refused({oscillator, bath::of_sigma(0.0, 0.1)}, {}, {"gibbs", "must have a temperature"}));
+  BOOST_TEST(refused({oscillator, bath::of_sigma(0.0, 0.0)}, {}, {"gibbs", "must have a temperature"}));
+  BOOST_TEST(
+      refused({oscillator, bath::of_sigma(0.1, 0.0)}, {}, {"gibbs", "temperature must be > 0", "rests"}));
   const auto sound = at(1.0, oscillator);
   BOOST_TEST(refused(sound, {.friction = -1.0}, {"friction", "positive"}));
   BOOST_TEST(refused(sound, {.step = -1.0}, {"step", "positive"}));

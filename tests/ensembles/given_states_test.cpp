@@ -25,8 +25,8 @@ BOOST_AUTO_TEST_CASE(listed_states_come_in_their_order_and_no_further) {
   BOOST_TEST(same_bits(two(1, 0), centre));
   BOOST_TEST(same_bits(two(2, 0), centre));  // the seed is of no account
   BOOST_TEST(same_bits(two(1, 1), other));
-  BOOST_TEST(refuses<std::out_of_range>([&] { two(1, 2); }, {"listed", "start 3", "2 are given"}));
-  BOOST_TEST(refuses<std::out_of_range>([] { listed<2>({})(1, 0); }, {"0 are given"}));
+  BOOST_TEST(refuses<std::out_of_range>([&] { two(1, 2); }, {"listed", "number 3 of 2"}));
+  BOOST_TEST(refuses<std::out_of_range>([] { listed<2>({})(1, 0); }, {"number 1 of 0"}));
   BOOST_TEST(two.description() == "listed(2 states)");
 }
 
@@ -59,11 +59,11 @@ BOOST_AUTO_TEST_CASE(without_deviation_it_is_the_centre) {
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   for (const double bad : {-0.1, not_a_number, infinite}) {
     BOOST_TEST(
-        refuses<wrong>([&] { normal_around<2>(centre, bad, 0.1); }, {"normal_around", "deviations >= 0"}));
+        refuses<wrong>([&] { normal_around<2>(centre, bad, 0.1); }, {"normal_around", "deviations must be"}));
     BOOST_TEST(
-        refuses<wrong>([&] { normal_around<2>(centre, 0.1, bad); }, {"normal_around", "deviations >= 0"}));
+        refuses<wrong>([&] { normal_around<2>(centre, 0.1, bad); }, {"normal_around", "deviations must be"}));
   }
   const point nowhere{{not_a_number, 0.0}, {0.0, 0.0}};
-  BOOST_TEST(
-      refuses<wrong>([&] { normal_around<2>(nowhere, 0.1, 0.1); }, {"normal_around", "finite centre"}));
+  BOOST_TEST(refuses<wrong>([&] { normal_around<2>(nowhere, 0.1, 0.1); },
+                            {"normal_around", "centre must be finite"}));
 }

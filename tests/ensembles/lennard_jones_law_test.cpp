@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(the_whole_neither_moves_nor_turns) {
   }
 }
 
-// 2 K/kT is the sum of so many squares of standard normals: of mean n and variance 2 n.
+// 2 K/kT is the sum of that many squares of standard normals: of mean n and variance 2 n.
 BOOST_AUTO_TEST_CASE(what_is_left_has_the_temperature) {
   constexpr std::uint64_t count = 5'000;
   constexpr double temperature = 0.3;

@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(the_whole_rests_and_has_the_temperature) {
     }
     sum += x.p.squaredNorm() / 1.44;
   }
-  // A sum of so many squares of standard normals, of variance twice their number; five standard deviations.
+  // A sum of that many squares of standard normals, of variance twice their number; five standard deviations.
   const double directions = starts * 3.0 * 255.0;
   BOOST_TEST(std::abs(sum - directions) <= 5.0 * std::sqrt(2.0 * directions));
   BOOST_TEST(same_bits(law(3, 5), law(3, 5)));

@@ -27,7 +27,7 @@ double against_tableau(const member<nystrom>& method, const tableau& oracle, dra
   auto theirs = x;
   step_map(system, method, h)(ours);
   oracle.step(system, theirs, h);
-  return distance(ours, theirs) / (12.0 * eps * size_of(x) * magnification(method, h, at));
+  return distance(ours, theirs) / (12.0 * eps * size_of(x) * transient_growth(method, h, at));
 }
 
 }  // namespace

@@ -56,9 +56,9 @@ BOOST_AUTO_TEST_CASE(with_the_whole_force_the_kick_is_that_of_the_formula) {
   draws random;
   for (int n = 0; n < 10; ++n) {
     const auto x = random.state(two_masses(), 1.0);
-    const double stretch = x.q[1] - x.q[0];
+    const double elongation = x.q[1] - x.q[0];
     const vector<double, 2> cubes = x.q.array().cube();
-    const vector<double, 2> f = vector<double, 2>(stretch, -stretch) - cubes;
+    const vector<double, 2> f = vector<double, 2>(elongation, -elongation) - cubes;
     const Eigen::Matrix2d slope{{-1.0 - 3.0 * x.q[0] * x.q[0], 1.0}, {1.0, -1.0 - 3.0 * x.q[1] * x.q[1]}};
     const auto y = expected(x, f, slope);
     BOOST_TEST_CONTEXT("seed " << draws::seed) {
@@ -159,7 +159,7 @@ void check_cost(const auto& system, std::int64_t plain, std::int64_t ten_steps) 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(it_costs_two_evaluations_and_by_differences_three) {
-  const std::array alone{std::int64_t{2}, std::int64_t{11}};  // the force is at hand: q does not move
+  const std::array alone{std::int64_t{2}, std::int64_t{11}};  // the force is known: q does not move
   BOOST_TEST((evaluations_of(two_masses(), word<gradient_kick>(), {b, c}) == alone));
   // fg_chin: the last kick's force is the first one's of the next step.
   check_cost<fg_chin>(potential_only(), 4, 1 + 10 * 3);

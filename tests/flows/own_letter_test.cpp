@@ -139,14 +139,14 @@ BOOST_AUTO_TEST_CASE(lanes_change_no_bit) {
 BOOST_AUTO_TEST_CASE(evaluations_are_those_of_the_word) {
   using W = own_kicks_first::word;
   static_assert(W::merges && W::evaluations_per_step == 2 && W::evaluations_of_plain_step == 3 &&
-                W::evaluations_to_open == 1 && W::evaluations_to_look == 1);
+                W::evaluations_to_open == 1 && W::evaluations_to_observe == 1);
   const run_time_word as_data(W{}, henon_heiles());
   BOOST_TEST(as_data.letters() == "babab");
   BOOST_TEST(as_data.merges);
   BOOST_TEST(as_data.has_own_letters());
   BOOST_TEST(as_data.evaluations_per_step == W::evaluations_per_step);
   BOOST_TEST(as_data.evaluations_to_open == W::evaluations_to_open);
-  BOOST_TEST(as_data.evaluations_to_look == W::evaluations_to_look);
+  BOOST_TEST(as_data.evaluations_to_observe == W::evaluations_to_observe);
   BOOST_TEST(as_data.evaluations_of_plain_step == W::evaluations_of_plain_step);
   BOOST_TEST(!run_time_word("BAB").has_own_letters());
 }
@@ -161,8 +161,7 @@ BOOST_AUTO_TEST_CASE(letters_are_taken_from_a_list_by_their_names) {
   BOOST_TEST(seen(system, method, start) != seen(system, own_kicks_first(), start));
   BOOST_TEST(!run_time_word("BAB", known).has_own_letters());  // what a word does not hold it does not carry
   BOOST_TEST(run_time_word("BaB", known).own_letter('b') == nullptr);
-  BOOST_TEST(refuses<std::invalid_argument>([&] { run_time_word("aca", known); },
-                                            {"the word aca holds the letter c"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { run_time_word("aca", known); }, {"aca with the letter c"}));
 }
 
 BOOST_AUTO_TEST_CASE(what_a_file_states_of_a_letter_is_read_and_not_stepped) {
@@ -173,7 +172,7 @@ BOOST_AUTO_TEST_CASE(what_a_file_states_of_a_letter_is_read_and_not_stepped) {
       std::make_shared<const detail::stated_letter>(detail::facts_of_letter<my_kick>(), "henon_heiles()")};
   const run_time_word word("babab", stated);
   BOOST_TEST(word.evaluations_per_step == bound.evaluations_per_step);
-  BOOST_TEST(word.evaluations_to_look == bound.evaluations_to_look);
+  BOOST_TEST(word.evaluations_to_observe == bound.evaluations_to_observe);
   BOOST_TEST(word.merges);
   const tabulated method("stated", word, std::vector<double>{0.3, 0.5, 0.4, 0.5, 0.3}, {2, true, false});
   BOOST_TEST(refuses<std::invalid_argument>([&] { make_stepper(system, method, 0.1); },
@@ -183,9 +182,10 @@ BOOST_AUTO_TEST_CASE(what_a_file_states_of_a_letter_is_read_and_not_stepped) {
 BOOST_AUTO_TEST_CASE(a_bound_word_steps_its_system_alone) {
   const tabulated method(own_drifts_first{}, henon_heiles{});
   const pendulum other;
-  BOOST_TEST(refuses<std::invalid_argument>([&] { make_stepper(other, method, 0.1); },
-                                            {"the word ababa cannot step pendulum(): the letter a is of "
-                                             "henon_heiles(); make the word with this system"}));
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] { make_stepper(other, method, 0.1); },
+      {"the word ababa must be made with the system pendulum(), got the letter a of "
+       "henon_heiles(); make the word with this system"}));
   const henon_heiles same;
   BOOST_CHECK_NO_THROW(make_stepper(same, method, 0.1));
 }

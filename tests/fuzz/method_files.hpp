@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Whoever reads a method from a file.
+// The readers of a method file.
 #pragma once
 
 #include <string>

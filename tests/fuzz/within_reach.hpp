@@ -18,7 +18,7 @@ inline bool is_within_reach(double value) {
   return is_little || is_past_counting || !(size < 1e307) || (size >= 1e-308 && size <= 1e-307);
 }
 
-/// Numbers between small and extreme become moderate ones, and paths names in the folder at hand.
+/// Numbers between small and extreme become moderate ones, and paths names in the current folder.
 inline std::string within_reach(std::string text) {
   for (char& c : text) {
     if (c == '/') c = '_';

@@ -17,7 +17,7 @@ namespace nysalt::hard {
 
 /// The relative error of the energy, |H - H_0|/|H_0|, or |H - H_0| where H_0 is 0 but for rounding.
 struct energy_story {
-  curve shown;           // its largest value within stretches of time that grow by a quarter
+  curve shown;           // its largest value within intervals of time that grow by a quarter
   double largest = 0.0;  // in all that was seen
   double early = 0.0;    // in the first half of the time
   double late = 0.0;     // in the second
@@ -44,7 +44,7 @@ class energy_watch {
     story_.last = error;
     if (t == 0.0) return;
     if (edge_ == 0.0) edge_ = t;
-    in_stretch_ = std::max(in_stretch_, error);
+    in_interval_ = std::max(in_interval_, error);
     if (t < edge_) return;
     add_point(t);
     while (edge_ <= t) edge_ *= 1.25;
@@ -59,14 +59,14 @@ class energy_watch {
  private:
   void add_point(double t) {
     story_.shown.x.push_back(t);
-    story_.shown.y.push_back(std::max(in_stretch_, 1e-17));  // the axis is logarithmic
-    in_stretch_ = 0.0;
+    story_.shown.y.push_back(std::max(in_interval_, 1e-17));  // the axis is logarithmic
+    in_interval_ = 0.0;
   }
 
   double initial_;
   double half_;
   double edge_ = 0.0;
-  double in_stretch_ = 0.0;
+  double in_interval_ = 0.0;
   energy_story story_;
 };
 

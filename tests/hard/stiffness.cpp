@@ -6,7 +6,7 @@
 
 #include "energy_story.hpp"
 #include "hard_case.hpp"
-#include "nysalt/derivatives/magnification.hpp"
+#include "nysalt/derivatives/transient_growth.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "words.hpp"
@@ -34,7 +34,7 @@ double largest_magnification(const tabulated& method, double theta, double h, st
   double largest = 1.0;
   for (const double k : {1.0, 3.0, 10.0, 30.0}) {
     largest =
-        std::max(largest, magnification(method.letters(), method.coefficients(), theta, h * h * k, steps));
+        std::max(largest, transient_growth(method.letters(), method.coefficients(), theta, h * h * k, steps));
   }
   return largest;
 }

@@ -16,7 +16,7 @@ inline double gentle_step(const shears& at) { return 0.25 / at.frequency(); }
 /// products with Omega and the transpose add 2 n terms of the square of that size.
 template <SeparableSystem S, Method M>
 double jacobian_rounding(const S& system, const M& method, double step, const shears& at) {
-  const double size_of_jacobian = magnification(method, step, at);
+  const double size_of_jacobian = transient_growth(method, step, at);
   return 4.0 * static_cast<double>(size(system)) * roundings(method, size(system)) * eps * size_of_jacobian *
          size_of_jacobian;
 }
@@ -44,7 +44,7 @@ template <SeparableSystem S, Method M>
 double reversibility_broken(const S& system, const M& method, const phase_point<double, S::dimension>& x) {
   const auto at = shears_at(system, x);
   const double step = gentle_step(at);
-  const double magnified = magnification(method, step, at);
+  const double magnified = transient_growth(method, step, at);
   const double rounding = 4.0 * roundings(method, size(system)) * eps * size_of(x) * magnified * magnified;
   return reversibility_defect(system, method, step, x) / rounding;
 }
@@ -54,7 +54,7 @@ template <SeparableSystem S, Method M>
 double undoing_broken(const S& system, const M& method, const phase_point<double, S::dimension>& x) {
   const auto at = shears_at(system, x);
   const double step = gentle_step(at);
-  const double magnified = magnification(method, step, at);
+  const double magnified = transient_growth(method, step, at);
   auto y = x;
   step_map(system, method, step)(y);
   step_map(system, method, -step)(y);

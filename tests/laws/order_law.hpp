@@ -38,7 +38,7 @@ table table_of(const M& method) {
   return {run_time_word(word_of(method).letters()), {c.begin(), c.end()}};
 }
 
-/// Root mean square error over the starts after the whole time in so many steps.
+/// Root mean square error over the starts after the whole time in that many steps.
 template <SeparableSystem S>
 double error_in(std::int64_t steps, const S& system, const table& method,
                 const solved<S::dimension>& problem) {

@@ -97,8 +97,8 @@ phase_point<double, S::dimension> observed_finish(const S& system, const M& meth
                                                   const phase_point<double, S::dimension>& x,
                                                   std::int64_t steps, std::int64_t every,
                                                   const Noise& noise = {}) {
-  const auto look = [](std::int64_t, double, const auto&) {};
-  return integrate(make_stepper(system, method, step, noise), x, steps, look, every).finish;
+  const auto observe = [](std::int64_t, double, const auto&) {};
+  return integrate(make_stepper(system, method, step, noise), x, steps, observe, every).finish;
 }
 
 /// The finish of a run that is cut in two, the open run being all that is kept.

@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(a_kind_is_the_description_without_the_size) {
   BOOST_TEST(kind_of(warm(3, 0.1)) != kind_of(warm(3, 0.2)));
   BOOST_TEST(kind_of(warm(3, 0.1)) != kind_of(small));
   BOOST_TEST(model(warm(3, 0.1)).kind() == kind_of(warm(3, 0.1)));
-  BOOST_TEST(model(warm(3, 0.1)).alone().kind() == kind_of(small));
+  BOOST_TEST(model(warm(3, 0.1)).base().kind() == kind_of(small));
   BOOST_TEST(model(small).in(bath::of_temperature(0.1, 1.0)).kind() == kind_of(warm(3, 0.1)));
   const with_quadratic_part parted(phi4_chain<>(4), Eigen::MatrixXd::Identity(4, 4));
   BOOST_TEST(kind_of(parted) == describe(parted));

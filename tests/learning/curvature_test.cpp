@@ -29,8 +29,8 @@ Eigen::Matrix2d exact_hessian(const auto& pairs, const parameters_of<nystrom>& t
     lifted[i] = outer::variable(inner::variable(theta[i], k), k);
   }
   outer sum(0.0);
-  const double share = 1.0 / static_cast<double>(pairs.stretches());
-  for (std::size_t pair = 0; pair < pairs.stretches(); ++pair) {
+  const double share = 1.0 / static_cast<double>(pairs.windows());
+  for (std::size_t pair = 0; pair < pairs.windows(); ++pair) {
     for (const outer& r : pairs.at(pair, lifted)) sum += r * r * share;
   }
   Eigen::Matrix2d result;

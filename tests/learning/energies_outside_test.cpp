@@ -67,16 +67,16 @@ BOOST_AUTO_TEST_CASE(the_probability_is_that_of_the_beta_binomial_law) {
         const double expected =
             boost::math::quadrature::gauss_kronrod<double, 61>::integrate(at_least, 0.0, 1.0, 15, 1e-12);
         const energies_outside counts{
-            .seen = {0.0, 1.0}, .trajectories = m, .looked_at = n, .outside = outside};
+            .seen = {0.0, 1.0}, .trajectories = m, .examined = n, .outside = outside};
         BOOST_TEST_CONTEXT(outside << " of " << n << " beyond " << m) {
           BOOST_TEST(counts.probability() == expected, boost::test_tools::tolerance(1e-9));
         }
       }
     }
   }
-  const energies_outside one{.seen = {0.0, 1.0}, .trajectories = 100, .looked_at = 1, .outside = 1};
+  const energies_outside one{.seen = {0.0, 1.0}, .trajectories = 100, .examined = 1, .outside = 1};
   BOOST_TEST(one.probability() == 2.0 / 101.0, boost::test_tools::tolerance(1e-12));
-  const energies_outside blind{.seen = {0.0, 0.0}, .trajectories = 1, .looked_at = 50, .outside = 50};
+  const energies_outside blind{.seen = {0.0, 0.0}, .trajectories = 1, .examined = 50, .outside = 50};
   BOOST_TEST(blind.probability() == 1.0);  // one trajectory tells no range
   BOOST_TEST(!blind.is_serious());
 }
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(starts_of_the_same_law_are_hardly_ever_serious) {
       int outside = 0;
       for (int k = 0; k < trials; ++k) {
         const auto seen = range_of(draw(100));
-        const auto found = look_outside(seen, 100, draw(n));
+        const auto found = count_outside(seen, 100, draw(n));
         serious += found.is_serious();
         outside += found.outside > 0;
       }
@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(starts_of_the_same_law_are_hardly_ever_serious) {
                                  << " outside of " << trials) {
         // Two tests of one in a thousand each: 4 in the mean, and four standard deviations of that.
         BOOST_TEST(serious <= 12);
-        if (n == 1000) BOOST_TEST(outside > trials / 2);  // whoever minded one would always warn
+        if (n == 1000) BOOST_TEST(outside > trials / 2);  // a warning for one would always come
       }
     }
   }
@@ -111,28 +111,28 @@ BOOST_AUTO_TEST_CASE(starts_of_other_energies_are_serious) {
   const auto seen = range_of(draw(100));
   for (auto* other : {&hotter, &colder}) {
     for (const std::size_t n : {10U, 1000U}) {
-      const auto found = look_outside(seen, 100, (*other)(n));
+      const auto found = count_outside(seen, 100, (*other)(n));
       BOOST_TEST_CONTEXT(found.report()) BOOST_TEST(found.is_serious());
     }
   }
   // A single start, and one among a thousand, if they are far enough.
   const double width = seen.high - seen.low;
-  BOOST_TEST(!look_outside(seen, 100, std::vector{seen.high + 0.4 * width}).is_serious());
-  BOOST_TEST(look_outside(seen, 100, std::vector{seen.high + 0.6 * width}).is_serious());
+  BOOST_TEST(!count_outside(seen, 100, std::vector{seen.high + 0.4 * width}).is_serious());
+  BOOST_TEST(count_outside(seen, 100, std::vector{seen.high + 0.6 * width}).is_serious());
   std::vector<double> many(1000, 0.5 * (seen.low + seen.high));
   many[17] = seen.high + 1.5 * width;
-  BOOST_TEST(!look_outside(seen, 100, many).is_serious());
+  BOOST_TEST(!count_outside(seen, 100, many).is_serious());
   many[17] = seen.high + 2.5 * width;
-  BOOST_TEST(look_outside(seen, 100, many).is_serious());
+  BOOST_TEST(count_outside(seen, 100, many).is_serious());
   // Where all had one energy, another is far.
-  BOOST_TEST(!look_outside({-0.5, -0.5}, 100, std::vector(20, -0.5 * (1.0 + 1e-9))).is_serious());
-  BOOST_TEST(look_outside({-0.5, -0.5}, 100, std::vector{-0.4}).is_serious());
+  BOOST_TEST(!count_outside({-0.5, -0.5}, 100, std::vector(20, -0.5 * (1.0 + 1e-9))).is_serious());
+  BOOST_TEST(count_outside({-0.5, -0.5}, 100, std::vector{-0.4}).is_serious());
 }
 
 BOOST_AUTO_TEST_CASE(the_report_says_how_many_and_what_was_seen) {
-  const auto found = look_outside({1.0, 2.0}, 100, std::vector{0.5, 1.5, 7.0});
+  const auto found = count_outside({1.0, 2.0}, 100, std::vector{0.5, 1.5, 7.0});
   BOOST_TEST(found.outside == 2U);
-  BOOST_TEST(found.looked_at == 3U);
+  BOOST_TEST(found.examined == 3U);
   BOOST_TEST(found.farthest == 5.0);
   for (const char* words : {"2 of 3 starts", "1 to 2", "0.5 to 7"}) {
     BOOST_TEST(found.report().find(words) != std::string::npos, found.report());

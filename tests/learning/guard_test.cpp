@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Where the best of a family is unstable, the guard sees to it that nobody is handed that.
+// Where the best of a family is unstable, the guard does not return it.
 #include "nysalt/learning/stability_guard.hpp"
 
 #include <boost/test/unit_test.hpp>

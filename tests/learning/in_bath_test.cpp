@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(held_out_data_are_new_if_starts_or_noise_are) {
   };
   BOOST_TEST(is_new(with(2, 2)));
   BOOST_TEST(!is_new(with(1, 2)));
-  BOOST_TEST(!is_new(with(1, 4)));  // nobody can tell
+  BOOST_TEST(!is_new(with(1, 4)));  // the data do not show it
 }
 
 BOOST_AUTO_TEST_CASE(threads_change_no_bit) {

@@ -78,9 +78,9 @@ std::vector<double> learned_from(std::int64_t trajectories, const communicator& 
 
 BOOST_AUTO_TEST_CASE(what_is_learned_does_not_depend_on_the_ranks) {
   for (const std::int64_t trajectories : {20, 150}) {
-    const auto expected = learned_from(trajectories, alone);
-    BOOST_TEST(!same_bits(learned_from(trajectories + 1, alone), expected));  // so the test can tell
-    for (const int size : {2, 3, 11}) {                                       // some have nothing
+    const auto expected = learned_from(trajectories, one_rank);
+    BOOST_TEST(!same_bits(learned_from(trajectories + 1, one_rank), expected));  // so the test can tell
+    for (const int size : {2, 3, 11}) {                                          // some have nothing
       std::mutex guard;
       run_ranks(size, [&](const thread_communicator& ours) {
         const auto found = learned_from(trajectories, ours);
@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(data_that_grow_change_hands) {
     }
     return numbers_of(learn(nystrom{}, swing, data, make(100, 2, ranks)));
   };
-  const auto expected = grown(alone);
+  const auto expected = grown(one_rank);
   for (const int size : {2, 5}) {
     std::mutex guard;
     run_ranks(size, [&](const thread_communicator& ours) {

@@ -42,7 +42,7 @@ auto state_after_three(const metric& measure, double of_positions = 1.0) {
   return own_loss{"my state", 3, error};
 }
 
-/// A loss that asks no stretches, (theta_0 - .45)^2 (theta_0 - .55)^2 + (theta_1 - .4)^2: it has two minima,
+/// A loss that asks no windows, (theta_0 - .45)^2 (theta_0 - .55)^2 + (theta_1 - .4)^2: it has two minima,
 /// both 0. Each trajectory has an equal part of it.
 class two_minima {
  public:
@@ -55,12 +55,12 @@ class two_minima {
   const shard& share() const { return share_; }
 
   std::vector<Eigen::VectorXd> sums(const Eigen::VectorXd& theta, bool, Eigen::Index terms,
-                                    const terms_of_stretch<double>& of_stretch) const {
+                                    const terms_of_window<double>& of_window) const {
     const double left = theta[0] - 0.45;
     const double right = theta[0] - 0.55;
-    const residuals_of_stretch<double> r{2, {left * right, theta[1] - 0.4}, {left + right, 0.0, 0.0, 1.0}};
+    const residuals_of_window<double> r{2, {left * right, theta[1] - 0.4}, {left + right, 0.0, 0.0, 1.0}};
     std::vector<double> numbers(static_cast<std::size_t>(terms));
-    of_stretch(r, numbers);
+    of_window(r, numbers);
     const Eigen::VectorXd all = Eigen::Map<const Eigen::VectorXd>(numbers.data(), terms);
     return {static_cast<std::size_t>(share_.count()), all / static_cast<double>(share_.total())};
   }

@@ -56,7 +56,7 @@ double recovery_error(const data_sets& sets, const parameters_of<nystrom>& theta
   const one_step<nystrom> loss(galaxy, sets.data, measure);
   // |V''| <= 1 + 4 |q|, and |q| stays below 1/2. Beyond its bound the family's coefficients grow no larger.
   const double magnified =
-      magnification(member<nystrom>({theta[0], std::min(0.5, theta[1])}), h, {3.0, 1.0, 0.0});
+      transient_growth(member<nystrom>({theta[0], std::min(0.5, theta[1])}), h, {3.0, 1.0, 0.0});
   Eigen::Vector4d squares = Eigen::Vector4d::Zero();
   for (std::size_t n = 0; n < sets.data.pairs(); ++n) {
     const auto& x = sets.data.start[n];

@@ -73,8 +73,8 @@ BOOST_AUTO_TEST_CASE(an_optimum_that_is_unstable_on_the_systems_frequencies_is_f
     return integrate(oscillator, fit.method, fit.method.step(), start, 10000).diverged_at.has_value();
   };
   const auto stable = fit_oscillator(1.25, {.coordinates = coordinates::energy});
-  // z = 2.8, where the start is unstable too; the guard has a refuge there, and without it the optimum is
-  // found.
+  // z = 2.8, where the start is unstable too; the guard has a most stable member there, and without it the
+  // optimum is found.
   const auto guarded = fit_oscillator(1.4, {.coordinates = coordinates::energy});
   const auto unstable = fit_oscillator(1.4, {.coordinates = coordinates::energy, .guarded = false});
   BOOST_TEST_CONTEXT(stable.summary.full() << guarded.summary.full() << unstable.summary.full()) {
@@ -198,8 +198,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_learned_is_refused_with_the_reason) {
     return refuses<wrong>([&] { learn(nystrom{}, system, training, held_out, options); }, words);
   };
   const linear_chain other(Eigen::MatrixXd::Constant(1, 1, 9.0));
-  BOOST_TEST(refused(other, data, data, {}, {"the data are of", describe(oscillator), describe(other)}));
-  BOOST_TEST(refused(oscillator, data, of_oscillator(0.25), {}, {"step 0.5", "0.25"}));
+  BOOST_TEST(refused(other, data, data, {}, {"the data must be of", describe(oscillator), describe(other)}));
+  BOOST_TEST(refused(oscillator, data, of_oscillator(0.25), {}, {"same step", "0.5 and 0.25"}));
   BOOST_TEST(refused(oscillator, data, data, {.start = {1.2, 0.4}}, {"b1", "(0, 1)", "1.2"}));
   BOOST_TEST(refused(oscillator, data, data, {.start = {0.5, 0.6}}, {"beta1", "[0, 0.5]", "0.6"}));
   BOOST_TEST(refused(oscillator, data, data, {.fixed = {std::nullopt, -0.1}}, {"beta1", "-0.1"}));

@@ -34,7 +34,7 @@ fit fit_of(const run_time_family& family, const S& system, const E& law, const R
   return learn(family, system, data_of(1), data_of(2), options);
 }
 
-/// Of 64 starts that no fit has seen, those that are lost in so many steps.
+/// Of 64 starts that no fit has seen, those that are lost in that many steps.
 template <class S, class E>
 std::int64_t lost_of(const S& system, const E& law, const run_time_family& family, const fit& found,
                      std::int64_t steps) {

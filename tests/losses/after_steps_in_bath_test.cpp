@@ -60,14 +60,14 @@ double loss_of(const flow_map_data& data, const parameters_of<nystrom>& theta, i
   return loss_value(loss, column_of(theta));
 }
 
-/// The formula, stretch by stretch over double, with letters O of which each is told its noise.
+/// The formula, window by window over double, with letters O of which each is told its noise.
 template <Family F>
 double loss_by_hand(const flow_map_data& data, const parameters_of<nystrom>& theta, std::size_t steps) {
   const auto c = F::coefficients(theta);
   const std::string letters = F::word::letters();
   const bath& heat_bath = warm.bath();
   vector<double, 2> of_q(0.0, 0.0), of_p(0.0, 0.0), sigma_q(0.0, 0.0), sigma_p(0.0, 0.0);
-  double stretches = 0.0;
+  double windows = 0.0;
   for (std::size_t m = 0; m < data.trajectories(); ++m) {
     for (std::size_t n = data.first_of[m]; n + steps <= data.first_of[m + 1]; ++n) {
       phase_point<double, 2> x = data.start[n];
@@ -83,7 +83,7 @@ double loss_by_hand(const flow_map_data& data, const parameters_of<nystrom>& the
       }
       of_q += (x.q - data.finish[n + steps - 1].q).cwiseAbs2();
       of_p += (x.p - data.finish[n + steps - 1].p).cwiseAbs2();
-      stretches += 1.0;
+      windows += 1.0;
     }
   }
   const auto pairs = static_cast<double>(data.pairs());
@@ -91,13 +91,13 @@ double loss_by_hand(const flow_map_data& data, const parameters_of<nystrom>& the
     sigma_q += (data.start[n].q - data.finish[n].q).cwiseAbs2() / pairs;
     sigma_p += (data.start[n].p - data.finish[n].p).cwiseAbs2() / pairs;
   }
-  return (of_q.cwiseQuotient(sigma_q).sum() + of_p.cwiseQuotient(sigma_p).sum()) / stretches;
+  return (of_q.cwiseQuotient(sigma_q).sum() + of_p.cwiseQuotient(sigma_p).sum()) / windows;
 }
 
 template <Family F>
 void check_formula(int parts, int steps) {
   const auto data = made<F>(parts);
-  // Some thirty operations a step, and 200 stretches added.
+  // Some thirty operations a step, and 200 windows added.
   BOOST_TEST(loss_of<F>(data, elsewhere, steps) == loss_by_hand<F>(data, elsewhere, std::size_t(steps)),
              boost::test_tools::tolerance(200 * 30 * steps * eps));
   // Who made the data has no loss but that of rounding; increments are .03 or more.
@@ -113,7 +113,7 @@ void check_formula(int parts, int steps) {
   BOOST_TEST(loss_of<F>(shuffled, maker, steps) > 0.1);
   // The noise of each step counts, the last one's too.
   shuffled = data;
-  const std::size_t last = numbers - static_cast<std::size_t>(parts);  // of the last stretch's last step
+  const std::size_t last = numbers - static_cast<std::size_t>(parts);  // of the last window's last step
   shuffled.noise[last].swap(shuffled.noise[last - static_cast<std::size_t>(parts)]);
   BOOST_TEST(loss_of<F>(shuffled, maker, steps) > 1e-5);
 }

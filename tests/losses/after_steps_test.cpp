@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(packs_are_for_systems_that_serve_them) {
       make_flow_map_data(box, starts, fine_steps<>(0.05), {.step = 0.4, .horizon = 2.0, .trajectories = 3});
   const metric measure(box, data, coordinates::qp);
   const one_step<nystrom, double> loss(box, data, measure);
-  loss_value(loss, theta);  // derivatives along two parameters are carried even where nobody asks for them
+  loss_value(loss, theta);  // derivatives along two parameters are carried even where no caller asks for them
   BOOST_TEST(loss.evaluations() == 2 * 15 * (1 + 2 * 2));
   squares_at(loss, theta);  // and count one each
   BOOST_TEST(loss.evaluations() == 2 * (2 * 15 * (1 + 2 * 2)));

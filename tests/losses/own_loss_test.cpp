@@ -34,7 +34,7 @@ template <class S>
 flow_map_data data_of(const S& system) {
   const vector<double, S::dimension> zero = Eigen::VectorXd::Zero(size(system));
   const normal_around<S::dimension> starts({zero, zero}, 0.1, 0.2);
-  // Of the second trajectory five steps are one more, and lanes are left over: there are 54 stretches of
+  // Of the second trajectory five steps are one more, and lanes are left over: there are 54 windows of
   // five.
   auto data = make_flow_map_data(system, starts, fine_steps<>(0.05),
                                  {.step = 0.4, .horizon = 13.2, .trajectories = 2});
@@ -44,7 +44,7 @@ flow_map_data data_of(const S& system) {
 
 /// Of five steps.
 template <Scalar R>
-squares squares_of(const model& system, const flow_map_data& data, const stretch_error<R>& error,
+squares squares_of(const model& system, const flow_map_data& data, const window_error<R>& error,
                    int threads = 1) {
   const after_steps<R> loss(run_time_family(nystrom()), system, data, error,
                             {.steps = {5}, .threads = threads});
@@ -190,7 +190,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_a_number_is_none_of_the_loss_either) {
   const auto error = []<class T>(const phase_point<T, 2>&, const phase_point<T, 2>& finish,
                                  const phase_point<T, 2>&) -> T {
     using std::sqrt;
-    return sqrt(finish.q[0] - 100.0);  // which no stretch has
+    return sqrt(finish.q[0] - 100.0);  // which no window has
   };
   BOOST_TEST(!squares_of(galaxy, data, own_error(galaxy, error)).is_finite());
   BOOST_TEST(squares_of(galaxy, data, own_error(galaxy, bent)).is_finite());
@@ -214,6 +214,6 @@ BOOST_AUTO_TEST_CASE(residuals_that_change_in_number_are_refused) {
     BOOST_TEST(
         refuses<wrong>(of_so_many(2, 3, threads), {"the same for every pair of states", "got 2 and 3"}));
     BOOST_TEST(!refuses<wrong>(of_so_many(3, 3, threads), {}));
-    BOOST_TEST(refuses<wrong>(of_so_many(0, 0, threads), {"no residuals"}));
+    BOOST_TEST(refuses<wrong>(of_so_many(0, 0, threads), {"residuals must be one or more"}));
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Losses over several steps have the bits of stretch after stretch over double, whatever the number of
+// Losses over several steps have the bits of window after window over double, whatever the number of
 // parameters.
 #include <boost/test/unit_test.hpp>
 
@@ -55,12 +55,12 @@ parameters_of<F> elsewhere() {
   return theta;
 }
 
-stretch_error<> error_of(const asked& what, const flow_map_data& data, const metric& measure) {
+window_error<> error_of(const asked& what, const flow_map_data& data, const metric& measure) {
   return what.of_energy ? energy_error(galaxy, data) : state_error(measure);
 }
 
 template <Family F>
-void check_bits(const asked& what, std::size_t stretches) {
+void check_bits(const asked& what, std::size_t windows) {
   const auto& options = what.options;
   const auto data = uneven_data();
   const metric measure(galaxy, data, coordinates::qp);
@@ -72,7 +72,7 @@ void check_bits(const asked& what, std::size_t stretches) {
     in_threads.threads = threads;
     const after_steps<> loss(run_time_family(F()), galaxy, data, error_of(what, data, measure), in_threads);
     BOOST_TEST_CONTEXT(F::name << " over " << options.steps.back() << " steps") {
-      BOOST_TEST(blocks.stretches() == stretches);
+      BOOST_TEST(blocks.windows() == windows);
       BOOST_TEST(same(squares_at(loss, theta), expected));
       BOOST_TEST(loss_value(loss, theta) == expected.value);
       BOOST_TEST(expected.half_gradient.cwiseAbs().minCoeff() > 1e-9);
@@ -84,7 +84,7 @@ void check_bits(const asked& what, std::size_t stretches) {
       using word = typename F::word;
       const std::int64_t of_run =
           word::evaluations_to_open + options.steps.back() * std::int64_t{word::evaluations_per_step};
-      BOOST_TEST(loss.evaluations() == passes * of_run * static_cast<std::int64_t>(stretches));
+      BOOST_TEST(loss.evaluations() == passes * of_run * static_cast<std::int64_t>(windows));
     }
   }
 }
@@ -121,7 +121,7 @@ double energy_loss_by_hand(const flow_map_data& data, const parameters_of<nystro
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(bits_are_those_of_stretch_after_stretch) {
+BOOST_AUTO_TEST_CASE(bits_are_those_of_window_after_window) {
   check_bits<nystrom>(five_steps, 1 + 7 + 8 + 5 + 36);
   check_bits<nystrom>(apart, 1 + 2 + 2 + 1 + 8);
   check_bits<nystrom>(several_times, 1 + 3 + 3 + 2 + 12);

@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(stages_lead_from_a_few_steps_to_whole_trajectories) {
   BOOST_TEST(stages[2].back() == 320);
 }
 
-BOOST_AUTO_TEST_CASE(early_stages_look_at_a_few_stretches_and_the_last_at_all) {
+BOOST_AUTO_TEST_CASE(early_stages_use_a_few_windows_and_the_last_at_all) {
   const auto& kind = *loss_named("trajectory").kind;
   for (const int shortest : {17, 100, 320}) {
     const auto stages = kind.stages(1, shortest);
@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(short_trajectories_have_fewer_stages) {
   BOOST_TEST(times("trajectory", 17).size() == 3U);
 }
 
-BOOST_AUTO_TEST_CASE(losses_after_k_steps_look_at_a_few_stretches_first) {
+BOOST_AUTO_TEST_CASE(losses_after_k_steps_use_a_few_windows_first) {
   BOOST_TEST((times("state:1", 320) == several{{1}, {1}}));
   BOOST_TEST((times("energy:7", 320) == several{{7}, {7}}));
   const auto stages = loss_named("state:5").kind->stages(5, 320);

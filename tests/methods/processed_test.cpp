@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(the_letters_of_kernel_and_processor) {
   BOOST_TEST(word.slots == 7U);
   BOOST_TEST(word.evaluations_per_step == 1);
   BOOST_TEST(word.evaluations_to_open == 2);
-  BOOST_TEST(word.evaluations_to_look == 2);
+  BOOST_TEST(word.evaluations_to_observe == 2);
   BOOST_TEST(word.evaluations_of_plain_step == 5);
   BOOST_TEST(!run_time_word("ABA").is_processed());
   BOOST_TEST(detail::pre_processor(word).letters() == "ABAB");
@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(words_that_are_none) {
   const auto none = [](const std::string& letters, const std::string& what) {
     BOOST_TEST(refuses<std::invalid_argument>([&] { run_time_word{letters}; }, {what}), letters);
   };
-  none("|BA", "at least one letter");
+  none("|BA", "one or more");
   none("ABA|", "processor");
   none("ABA|BBA", "in turn");
   none("ABA|BGA", "in turn");
@@ -210,17 +210,17 @@ BOOST_AUTO_TEST_CASE(what_is_counted_is_what_is_evaluated) {
     const auto x = random.state(system, 1.0);
     const run_time_word& word = method.letters();
     BOOST_TEST_CONTEXT(method.name()) {
-      const std::int64_t of_looks = 5 * word.evaluations_to_look;
+      const std::int64_t of_looks = 5 * word.evaluations_to_observe;
       BOOST_TEST(nysalt::test::evaluations_of_run(system, method, 0.1, x, 5) ==
                  word.evaluations_to_open + 5 * word.evaluations_per_step + of_looks);
       BOOST_TEST(nysalt::evaluations_of_run(system, method, 0.1, 5, x) ==
-                 word.evaluations_to_open + 5 * word.evaluations_per_step + word.evaluations_to_look);
+                 word.evaluations_to_open + 5 * word.evaluations_per_step + word.evaluations_to_observe);
       BOOST_TEST(evaluations_of_step(system, method, 0.1, x) == word.evaluations_of_plain_step);
     }
   }
 }
 
-// A run that is watched over for divergence pays for no look that nobody asked for.
+// A run that is watched over for divergence pays for no observation that was not requested.
 BOOST_AUTO_TEST_CASE(watching_over_a_run_takes_no_evaluation) {
   draws random;
   const pendulum system;
@@ -235,7 +235,7 @@ BOOST_AUTO_TEST_CASE(watching_over_a_run_takes_no_evaluation) {
                method.name());
     run.synchronous();
     BOOST_TEST(watched.evaluations ==
-                   word.evaluations_to_open + 200 * word.evaluations_per_step + word.evaluations_to_look,
+                   word.evaluations_to_open + 200 * word.evaluations_per_step + word.evaluations_to_observe,
                method.name());
   }
 }

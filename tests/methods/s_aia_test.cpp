@@ -29,7 +29,7 @@ double a_at(double highest_z) { return s_aia2(highest_z).coefficients()[0]; }
 
 double b_at(double highest_z) { return s_aia3(highest_z).coefficients()[0]; }
 
-/// The worst rho on so many points up to z.
+/// The worst rho on that many points up to z.
 double worst_of(double (*rho)(double, double), double coefficient, double z, int points) {
   double most = 0.0;
   for (int i = 1; i <= points; ++i) {
@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(for_small_z_it_is_the_closed_one) {
   BOOST_TEST(std::abs(a_at(1e-2) - best_at_zero) > 1e-8 + 4.0 * eps);  // the limit itself is another
 }
 
-// So many points miss a hump by 2 (1.2/points)^2 of its height (it is at half its zero, and that is at 0.83
+// That many points miss a hump by 2 (1.2/points)^2 of its height (it is at half its zero, and that is at 0.83
 // x), which is 1e-8 and 1e-5 here. A change of a by 1e-8 raises hump or end by more than 1e-7.
 BOOST_AUTO_TEST_CASE(no_other_coefficient_is_better) {
   for (const double z : {0.3, 1.0, 2.0, 2.5, 2.8}) {

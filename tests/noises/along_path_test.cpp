@@ -166,11 +166,11 @@ BOOST_AUTO_TEST_CASE(a_path_that_is_too_short_is_refused) {
   const auto along = stepper_of(path, baoab());
   auto run = along.open(start);
   along.advance(run, 9);
-  BOOST_TEST(refuses<wrong>([&] { along.advance(run, 1); }, {"0 to 59", "needs 54 to 60", "longer"}));
+  BOOST_TEST(refuses<wrong>([&] { along.advance(run, 1); }, {"0 to 59", "for 54 to 60", "longer"}));
   const auto by_halves = stepper_of(path, symmetric);
   auto other = by_halves.open(start);
   by_halves.advance(other, 10);  // the last half is still to come
-  BOOST_TEST(refuses<wrong>([&] { by_halves.synchronous(other); }, {"needs 57 to 60"}));
+  BOOST_TEST(refuses<wrong>([&] { by_halves.synchronous(other); }, {"for 57 to 60"}));
 }
 
 BOOST_AUTO_TEST_CASE(the_path_of_another_trajectory_is_refused) {
@@ -178,16 +178,16 @@ BOOST_AUTO_TEST_CASE(the_path_of_another_trajectory_is_refused) {
   const auto along = stepper_of(path, baoab());
   for (const std::uint64_t other : {0U, 2U, 4U}) {
     auto run = along.open(start, other);
-    BOOST_TEST(refuses<wrong>([&] { along.advance(run, 1); },
-                              {"of trajectory 3", "not of " + std::to_string(other)}));
+    BOOST_TEST(
+        refuses<wrong>([&] { along.advance(run, 1); }, {"trajectory 3", "not of " + std::to_string(other)}));
   }
   using T = pack<double, 4>;
   const auto four = path_of<T>(3, 60);
   const auto together = stepper_of(four, baoab());
   auto shifted = together.open(start.cast<T>(), 4);  // would see its neighbours' noise
-  BOOST_TEST(refuses<wrong>([&] { together.advance(shifted, 1); }, {"of trajectory 3", "not of 4"}));
+  BOOST_TEST(refuses<wrong>([&] { together.advance(shifted, 1); }, {"trajectory 3", "not of 4"}));
   auto beyond = together.open(start, 7);
-  BOOST_TEST(refuses<wrong>([&] { together.advance(beyond, 1); }, {"of trajectory 3", "not of 7"}));
+  BOOST_TEST(refuses<wrong>([&] { together.advance(beyond, 1); }, {"trajectory 3", "not of 7"}));
   auto last = together.open(start, 6);
   together.advance(last, 1);
 }
@@ -198,10 +198,10 @@ BOOST_AUTO_TEST_CASE(steps_are_whole_intervals_in_the_parts_that_are_needed) {
     return refuses<wrong>([&] { noise_of(path, method, h); }, words);
   };
   BOOST_TEST(!refused(baoab(), 0.06, {}));
-  BOOST_TEST(refused(symmetric, 0.06, {"the step 0.06 in 2 parts", "whole intervals 0.02"}));
-  BOOST_TEST(refused(baoab(), 0.05, {"the step 0.05 in 1 parts"}));
+  BOOST_TEST(refused(symmetric, 0.06, {"the step 0.06 in the 2 parts", "whole intervals 0.02"}));
+  BOOST_TEST(refused(baoab(), 0.05, {"the step 0.05 in the 1 parts"}));
   BOOST_TEST(refused(baoab(), 0.01, {"the step 0.01"}));
   BOOST_TEST(refused(baoab(), -0.02, {"the step -0.02"}));
   BOOST_TEST(!refused(thirds, 0.06, {}));
-  BOOST_TEST(refused(thirds, 0.04, {"in 3 parts"}));
+  BOOST_TEST(refused(thirds, 0.04, {"in the 3 parts"}));
 }

@@ -154,10 +154,11 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   const auto refused = [](const noise_counter& at, std::size_t count, std::string_view word) {
     return refuses<wrong>([&] { numbers(1, at, count); }, {"standard_normals", word});
   };
-  BOOST_TEST(refused({.trajectory = last_trajectory + 1}, 2, "trajectory 281474976710656 is too large"));
+  BOOST_TEST(
+      refused({.trajectory = last_trajectory + 1}, 2, "trajectory must be < 2^48, got 281474976710656"));
   BOOST_TEST(refused({.trajectory = ~std::uint64_t{0}}, 2, "trajectory"));
-  BOOST_TEST(refused({.step = last_step + 1}, 2, "step 281474976710656 has no noise"));
-  BOOST_TEST(refused({.step = -1}, 2, "step -1 has no noise"));
+  BOOST_TEST(refused({.step = last_step + 1}, 2, "< 2^48, got 281474976710656"));
+  BOOST_TEST(refused({.step = -1}, 2, "step must be >= 0"));
   BOOST_TEST(refused({.slot = last_slot + 1}, 1, "slot 16777216"));
   BOOST_TEST(refused({.slot = last_slot}, 3, "2 slots from slot 16777215"));
   BOOST_TEST(refused({.slot = ~std::uint64_t{0}}, 2, "slot"));

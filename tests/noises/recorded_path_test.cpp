@@ -169,8 +169,8 @@ BOOST_AUTO_TEST_CASE(a_path_gives_the_noise_of_its_intervals) {
   BOOST_TEST((over(9, 10) == noise[9]));
   path.forget_before(-3);  // nothing more
   BOOST_TEST(path.begin() == 4);
-  BOOST_TEST(refuses<wrong>([&] { over(3, 6); }, {"4 to 10", "needs 3 to 6", "0.1"}));
-  BOOST_TEST(refuses<wrong>([&] { over(9, 11); }, {"4 to 10", "needs 9 to 11", "longer"}));
+  BOOST_TEST(refuses<wrong>([&] { over(3, 6); }, {"4 to 10", "for 3 to 6", "0.1"}));
+  BOOST_TEST(refuses<wrong>([&] { over(9, 11); }, {"4 to 10", "for 9 to 11", "longer"}));
   path.forget_before(100);
   BOOST_TEST(path.begin() == 10);
   path.add(noise[0]);
@@ -202,9 +202,9 @@ BOOST_AUTO_TEST_CASE(what_is_no_path_is_refused) {
   const auto refused = [](double interval, double friction, std::initializer_list<std::string_view> words) {
     return refuses<wrong>([&] { recorded_path<double, 2>(interval, friction); }, words);
   };
-  BOOST_TEST(refused(0.0, 1.0, {"positive interval", "got 0 and 1"}));
-  BOOST_TEST(refused(-0.1, 1.0, {"positive interval", "-0.1"}));
-  BOOST_TEST(refused(nan, 1.0, {"positive interval", "nan"}));
+  BOOST_TEST(refused(0.0, 1.0, {"interval must be > 0", "got 0 and 1"}));
+  BOOST_TEST(refused(-0.1, 1.0, {"interval must be > 0", "-0.1"}));
+  BOOST_TEST(refused(nan, 1.0, {"interval must be > 0", "nan"}));
   BOOST_TEST(refused(0.1, -1.0, {"friction >= 0", "-1"}));
   BOOST_TEST(refused(0.1, nan, {"friction >= 0", "nan"}));
   BOOST_TEST(!refused(0.1, 0.0, {}));

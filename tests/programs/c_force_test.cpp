@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told) {
   must_be_told(replaced(whole, "nysalt_dimension", "my_dimension"), "nysalt_dimension is missing");
   must_be_told(replaced(whole, "return 2;", "return 0;"), "nysalt_dimension must be 1 to");
   must_be_told(replaced(whole, "-q[0] - 2.0", "-q[0] + 2.0"), "force");
-  must_be_told(replaced(whole, "0.1 * normals[i]", "0.0 / 0.0"), "not finite");
+  must_be_told(replaced(whole, "0.1 * normals[i]", "0.0 / 0.0"), "must be finite");
   must_be_told(whole + "double nysalt_inverse_mass(int64_t i) { return i - 1.0; }\n",
                "nysalt_inverse_mass(0) must be");
   must_be_told(whole + "double nysalt_frequency(void) { return -1.0; }\n", "nysalt_frequency must be");

@@ -77,7 +77,7 @@ std::string made_short(const std::string& arguments) {
 
 void must_end_well(const scratch& folder, const std::string& arguments) {
   const auto done = run(folder, arguments);
-  // In so many seconds a step no method may be as fast, where the program is built to be examined.
+  // In that many seconds a step no method may be as fast, where the program is built to be examined.
   const bool depends_on_build = arguments.find("--budget-seconds") != std::string::npos;
   BOOST_TEST((done.code == 0 || (done.code == 3 && depends_on_build)),
              "nysalt " << arguments << ": " << done.code << ", " << done.err);

@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(tables_hold_the_noise_of_a_path) {
   write(folder, "baoab.json", table("BAOAB", "0.5, 0.5, 1, 0.5, 0.5"));
   for (const std::string& bath : {std::string(), in_the_bath}) {
     all_refused(folder, {{run_it + "short.json" + bath, {"short.json", "0.9", "step"}},
-                         {run_it + "back.json" + bath, {"back.json", "-0.5", "back in time"}},
+                         {run_it + "back.json" + bath, {"back.json", "-0.5", "forward in time"}},
                          {run_it + "alone.json" + bath, {"alone.json", "letter"}},
                          {run_it + "uneven.json" + bath, {"uneven.json", "equal parts"}},
                          {run_it + "placed.json" + bath, {"placed.json", "placement", "O"}},

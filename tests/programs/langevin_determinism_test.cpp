@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(files_are_the_same_bytes_by_any_number_of_threads) {
   BOOST_TEST(contents(folder / "1.json") == contents(folder / "5.json"));
 }
 
-// A trajectory has its number's start and noise, whoever runs beside it.
+// A trajectory has its number's start and noise, whichever trajectories run beside it.
 BOOST_AUTO_TEST_CASE(more_trajectories_leave_the_first_as_they_are) {
   const auto csv = [](const std::string& trajectories) {
     return run("run --method obabo --step 0.2 --horizon 4 --trajectories " + trajectories + pendulum).out;

@@ -238,7 +238,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused_and_leaves_nothing) {
   for (const auto& kind : kinds) {
     const scratch folder("arrays_refused");
     refused(folder, command + in_bath + "--output none/a" + kind, "there is no folder none");
-    // A file may have so many blocks of 512 bytes, and the kernel says so rather than kill the process.
+    // A file may have that many blocks of 512 bytes, and the kernel says so rather than kill the process.
     constexpr int not_written = 4;  // an exit code
     const std::string limited =
         "export LLVM_PROFILE_FILE=/dev/null; ulimit -f 100; ";  // counts of lines elsewhere

@@ -521,7 +521,7 @@ BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
            {"word:tOt", "got O; write a table"},
            {"word:tctt", "must read the same from both ends"},
            {"word:tcct", "two equal neighbours"},
-           {"word:", "at least one letter"},
+           {"word:", "one or more"},
            {"word:tAt", "must add up to H"}}) {
     refused(folder, "run --method " + word + here, {word, said});
   }

@@ -31,7 +31,7 @@ bool refused(const finished& done, const std::vector<std::string>& words) {
   return all;
 }
 
-/// Whoever reads a method from a file must refuse this one.
+/// Every reader of a method file must refuse this one.
 void all_refuse(const scratch& folder, const std::string& name, const std::vector<std::string>& words) {
   for (const auto& arguments : {"run --step 0.02 --horizon 0.2 --method " + name,
                                 errors + "verlet," + name + " --steps 0.02", "stability --method " + name}) {

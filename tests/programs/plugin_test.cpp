@@ -230,7 +230,7 @@ BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
       "frequency([](const tried& s) { return s.k == 7.0 ? -1.0 : 1.0; })");
   must_say(by_k, "--k 2", "tried: I will not");
   must_say(by_k, "--k 3", "no std::exception");
-  must_say(by_k, "--k 4", "is not finite");
+  must_say(by_k, "--k 4", "must be finite");
   must_say(by_k, "--k 6", "check its sign");
   must_say(by_k, "--k 7", "frequency(...) must be positive and finite, got -1");
   must_say(by_k, "--n 4294967297", "at most 2147483647, got 4294967297");  // which an int would take for 1

@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(texts_that_are_no_potential_are_refused) {
            {"--potential 'k*x^2' --variables x --parameter k=abc", "'abc' is not a finite number"},
            {"--potential 'x^2' --variables x --mass 0", "--mass must be positive"},
            {"--potential 'x^2' --variables x --mass 1,2", "--mass must be one"},
-           {"--potential 'x^2' --variables x --around y=1", "'y' is no coordinate"}}) {
+           {"--potential 'x^2' --variables x --around y=1", "must be coordinates, got 'y'"}}) {
     const auto done = run(fmt::format("learn {} --step 0.1", options));
     BOOST_TEST(done.code == 2, options);
     BOOST_TEST(done.err.find(said) != std::string::npos, options << ": " << done.err);

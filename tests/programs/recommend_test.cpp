@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(run_does_not_warn_of_what_is_advised) {
   }
 }
 
-// Where a fit is the refuge of its family, it is not said to be learned.
+// Where a fit is the most stable member of its family, it is not said to be learned.
 BOOST_AUTO_TEST_CASE(a_fit_that_is_a_classical_method_is_named_as_that) {
   const auto all = document(
       "recommend --system oscillator --omega 1 --budget 4 --horizon 10 --families aba4 --fix a1=0.125 "

@@ -25,7 +25,7 @@ std::string rows(const scratch& folder, const std::string& name) {
   return without_times_in_csv(contents(folder / (name + "/rows.csv")));
 }
 
-/// The journal of a run of the line above that was killed without warning when so many of its lines were
+/// The journal of a run of the line above that was killed without warning when that many of its lines were
 /// there.
 std::string killed_after(const scratch& folder, const std::string& name, int lines) {
   const std::string journal = name + "/journal.jsonl";

@@ -28,7 +28,7 @@ std::string at(double step) {
 
 bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
-/// Whether all of 8 trajectories of so many steps stayed bounded.
+/// Whether all of 8 trajectories of that many steps stayed bounded.
 bool is_bounded(const std::string& what, double step, int steps) {
   std::ostringstream line;
   line << "run" << what << at(step) << " --trajectories 8 --sample-every 100000 --json --horizon "

@@ -103,7 +103,7 @@ def test_what_a_function_raises_comes_through(after):
     with pytest.raises(ZeroDivisionError, match="the mass is zero") as caught:
         nysalt.learn(henon_heiles_by_functions(force=force), **LEARNING)
     assert any(frame.name == "raises" for frame in traceback.extract_tb(caught.value.__traceback__))
-    assert force.calls == after + 1  # nobody asked again
+    assert force.calls == after + 1  # no further call
     assert nysalt.learn(henon_heiles_by_functions(force=Troubled(raises, 10**9)), **LEARNING).theta.size == 2
 
 

@@ -100,5 +100,5 @@ BOOST_AUTO_TEST_CASE(odeint_damps_and_refuses_noise) {
 
   const in_bath noisy(alone, bath::of_sigma(gamma, 0.1));
   BOOST_TEST(refuses<wrong>([&] { odeint_reference(1e-12).advance(noisy, x, t); },
-                            {"odeint_reference", "noisy", "fine_paths"}));
+                            {"odeint_reference", "without noise", "fine_paths"}));
 }

@@ -39,7 +39,7 @@ struct followed {
   state x = start;
   noise xi;
 };
-/// `times` times t further, with the noise of each in so many parts.
+/// `times` times t further, with the noise of each in that many parts.
 followed follow(const auto& reference, double t, int times, std::size_t parts, path_place at = {7, 3, 0},
                 const galaxy& system = warm) {
   followed result;
@@ -249,12 +249,12 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_followed_is_refused) {
   BOOST_TEST(refused(0.0, 0.1, 0, {"positive and finite", "got 0"}));
   BOOST_TEST(refused(-0.1, 0.1, 0, {"positive and finite", "-0.1"}));
   BOOST_TEST(refused(nan, 0.1, 0, {"positive and finite", "nan"}));
-  BOOST_TEST(refused(0.01, 0.105, 0, {"0.105 in 1 equal parts", "fine step 0.01"}));
-  BOOST_TEST(refused(0.01, 0.11, 2, {"0.11 in 2 equal parts", "fine step 0.01"}));
+  BOOST_TEST(refused(0.01, 0.105, 0, {"0.105 in the 1 equal parts", "fine step 0.01"}));
+  BOOST_TEST(refused(0.01, 0.11, 2, {"0.11 in the 2 equal parts", "fine step 0.01"}));
   BOOST_TEST(!refused(0.01, 0.12, 2, {}));
-  BOOST_TEST(refused(0.01, 0.005, 0, {"0.005", "not a multiple"}));
-  BOOST_TEST(refused(0.01, -0.1, 0, {"-0.1", "not a multiple"}));
-  BOOST_TEST(refused(0.01, nan, 0, {"nan", "not a multiple"}));
+  BOOST_TEST(refused(0.01, 0.005, 0, {"0.005", "a multiple"}));
+  BOOST_TEST(refused(0.01, -0.1, 0, {"-0.1", "a multiple"}));
+  BOOST_TEST(refused(0.01, nan, 0, {"nan", "a multiple"}));
   const auto far = [] { follow(fine_paths(0.01), 0.1, 1, 1, {7, 3, std::int64_t{1} << 45}); };
   BOOST_TEST(refuses<wrong>(far, {"step", "2^48"}));  // ten fine steps each
 }

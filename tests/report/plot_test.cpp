@@ -259,11 +259,11 @@ BOOST_AUTO_TEST_CASE(names_hold_nothing_that_a_shell_reads) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(stretches_are_shaded_behind_the_curves) {
+BOOST_AUTO_TEST_CASE(intervals_are_shaded_behind_the_curves) {
   const scratch folder("plot");
   panel one;
   one.curves.push_back({"a", {0, 1, 2}, {1, 2, 1}});
-  one.stretches = {{"calm", 0.0, 0.5}, {"calm", 1.0, 1.5}, {"it's wild", 0.25, 0.3}};
+  one.intervals = {{"calm", 0.0, 0.5}, {"calm", 1.0, 1.5}, {"it's wild", 0.25, 0.3}};
   panel other;
   other.curves.push_back({"b", {0, 1}, {1, 2}});
   BOOST_TEST(draw({"shaded", {one, other}}, folder.path()) == has_gnuplot);

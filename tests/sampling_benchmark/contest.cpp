@@ -128,7 +128,7 @@ outcome run_chains(const target& of, const tabulated& word, double step, const s
       hmc(of.system, word, of.starts, chains, [&](const hmc_draw& draw) { errors.take(draw.chain, draw.q); });
   // The force at the start of a trajectory is that at the end of the one before, and not counted.
   const double evaluations =
-      found.evaluations_of_draw - word.letters().evaluations_to_open - word.letters().evaluations_to_look;
+      found.evaluations_of_draw - word.letters().evaluations_to_open - word.letters().evaluations_to_observe;
   const auto cost = [&](std::vector<double> error_curve::*which) {
     return estimate{draws_to_low_error(errors.curves(), which) * evaluations,
                     deviation_of_draws(errors.curves(), which) * evaluations};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Normal laws: equal frequencies, and a spread that estimated masses leave.
+// Normal distributions: equal frequencies, and a spread that estimated masses leave.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -89,7 +89,7 @@ std::vector<contender> classical_words() {
           {tabulated(omelyan5v{}), 2.0}};
 }
 
-/// Steps at an acceptance of 0.9 alone, of words that were learned for each spread.
+/// Steps at an acceptance of 0.9 only, of words that were learned for each spread.
 void add_spreads(const extent& how, page& to, table& rows) {
   const Eigen::Index size = how.quick ? 4096 : 65'536;
   constexpr Eigen::Index fitted_on = 64;
@@ -170,7 +170,7 @@ void add_gaussians(const extent& how, page& to, table& rows) {
 
   const std::int64_t draws = how.quick ? 4000 : 8000;
   const std::vector<tried_length> lengths{{0.7, draws}, {1.0, draws}};
-  to.heading("Normal laws");
+  to.heading("Normal distributions");
   to.text(fmt::format(
       "Independent oscillators. Low is an error below 0.01 of the mean of q_i^2: its squared bias over the "
       "variance 2/omega_i^4, the largest over all coordinates (which is what the published counts are of) or "

@@ -91,7 +91,7 @@ double nanoseconds_per_site(const target& of) {
   return least;
 }
 
-/// Steps at an acceptance of 0.9 alone.
+/// Steps at an acceptance of 0.9 only.
 void add_steps_on(Eigen::Index side, double lambda, const target& smaller, std::vector<contender> words,
                   const contest_options& options, const extent& how, page& to, table& rows) {
   const model system = lattice_of(side, lambda);
@@ -201,7 +201,7 @@ void add_lattice(const extent& how, page& to, table& rows) {
   const Eigen::Index largest = how.quick ? 128 : 1024;
   const double lambda = how.quick ? coupling : 4.266;
   to.subheading(fmt::format("{} x {} sites", largest, largest));
-  to.text(fmt::format("Steps at an acceptance of 0.9 alone, lambda = {:g}, the same words{}", lambda,
+  to.text(fmt::format("Steps at an acceptance of 0.9 only, lambda = {:g}, the same words{}", lambda,
                       how.quick ? ":" : " (published: leapfrog .0088, McLachlan's .019):"));
   add_steps_on(largest, lambda, large, found.words, {.length = found.length, .threads = how.threads}, how, to,
                rows);

@@ -8,7 +8,7 @@ errors: the state's error at single steps, of both losses and of the best classi
 evaluations per unit time at which the state's error comes to a level; other: systems that no start or bound of the
 search was chosen on; times: seconds of one core that a fit takes. A prototype of the loss `trajectory`, which shares
 no code with the program, gave other numbers for the first two; a cell errs where the program is worse by more than
-1.4, by which one search differs from another, and a threshold where it is dearer by more than a tenth, or 15 % with
+1.4, by which one search differs from another, and a threshold where it is more expensive by more than a tenth, or 15 % with
 a processor. Errors are of 96 trajectories that no fit has seen.
 Writes errors, thresholds, other, times: .csv, and trajectories.md.
 """
@@ -262,7 +262,7 @@ def write(folder, parts):
                     f"{row['factor']:.2f}", f"{as_text(row['rival_error'])} `{row['rival']}`",
                     "bad" if row["bad"] else ""] for row in parts["errors"]])
         if parts.get("thresholds"):
-            table(file, ["case", "error", "method", "first crossing", "last crossing", "with one look", "prototype", ""],
+            table(file, ["case", "error", "method", "first crossing", "last crossing", "with one observation", "prototype", ""],
                   [[row["case"], f"{row['level']:g}", f"`{row['method']}`", cost(row["first"]), cost(row["last"]),
                     cost(row["charged"]), cost(row["prototype"]), "bad" if row["bad"] else ""]
                    for row in parts["thresholds"]])

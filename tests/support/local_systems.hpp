@@ -107,7 +107,7 @@ Eigen::Index row_of(const S& system) {
   return 1;
 }
 
-/// visit(system) for each kind, with about so many sites.
+/// visit(system) for each kind, with about that many sites.
 void for_each_local_system(const auto& visit, Eigen::Index sites = 12) {
   visit(fpu_chain<>(1, 50.0));
   visit(fpu_chain<>(sites, 50.0));

@@ -10,7 +10,7 @@
 
 namespace nysalt::test {
 
-/// "mpirun -n RANKS " for a line of shell(): whoever tests, on however few cores.
+/// "mpirun -n RANKS " for a line of shell(): for any user and any number of cores.
 inline std::string mpirun(int ranks) {
   std::string line = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ";
   line += "OMPI_MCA_btl_vader_single_copy_mechanism=none ";

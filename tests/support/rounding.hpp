@@ -105,7 +105,7 @@ shears shears_at(const S& system, const phase_point<double, S::dimension>& x) {
 /// them, with shears twice as large as at the start, since the state moves. A rotation is a shear of both
 /// kinds at most. Those of the bath do not magnify.
 template <Method M>
-double magnification(const M& method, double step, const shears& at) {
+double transient_growth(const M& method, double step, const shears& at) {
   double product = 1.0;
   const auto word = word_of(method);
   const auto c = method.coefficients();

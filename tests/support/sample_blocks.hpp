@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The loss over steps as a textbook has it: stretch after stretch over double, by the word as a type, and a
+// The loss over steps as a textbook has it: window after window over double, by the word as a type, and a
 // Ceres block for each. It shares no loop with the library's own: an oracle for tests, and what benchmarks
 // compare with.
 #pragma once
@@ -39,7 +39,7 @@ class sample_blocks {
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
       std::size_t pair = data.first_of[m];
       while (pair + steps <= data.first_of[m + 1]) {
-        stretches_.push_back({m, pair});
+        windows_.push_back({m, pair});
         pair += static_cast<std::size_t>(options.apart);
       }
     }
@@ -48,18 +48,18 @@ class sample_blocks {
     }
   }
 
-  std::size_t stretches() const { return stretches_.size(); }
-  int residuals_of_stretch() const { return of_energy_ ? 1 : static_cast<int>(metric_->residuals()); }
+  std::size_t windows() const { return windows_.size(); }
+  int residuals_of_window() const { return of_energy_ ? 1 : static_cast<int>(metric_->residuals()); }
 
-  /// The residuals of one stretch over double, or anything that carries derivatives by theta.
+  /// The residuals of one window over double, or anything that carries derivatives by theta.
   template <Scalar C>
-  residuals<C> at(std::size_t stretch, const std::array<C, parameters>& theta) const {
+  residuals<C> at(std::size_t window, const std::array<C, parameters>& theta) const {
     const stepper<S, typename F::word, C> one(*system_, F::coefficients(theta), data_->step);
-    const std::size_t pair = stretches_[stretch].first_pair;
+    const std::size_t pair = windows_[window].first_pair;
     const phase_point<double, S::dimension> first = data_->start[pair];
     auto x = first.template cast<C>();
     const std::vector<int>& steps = options_.steps;
-    residuals<C> r(residuals_of_stretch() * std::ssize(steps));
+    residuals<C> r(residuals_of_window() * std::ssize(steps));
     auto run = one.open(x);
     for (std::size_t k = 0; k < steps.size(); ++k) {
       if (steps.back() == 1) {
@@ -68,7 +68,7 @@ class sample_blocks {
         one.advance(run, steps[k] - run.step);
         x = one.synchronous(run);
       }
-      C* const of_time = r.data() + static_cast<Eigen::Index>(k) * residuals_of_stretch();
+      C* const of_time = r.data() + static_cast<Eigen::Index>(k) * residuals_of_window();
       if (of_energy_) {
         if constexpr (HasEnergy<S, C>) {
           *of_time = (energy<C>(*system_, x) - energy<C>(*system_, first.template cast<C>())) * energy_scale_;
@@ -87,18 +87,18 @@ class sample_blocks {
     return result;
   }
 
-  /// The mean over stretches, by trajectory: a stretch's terms are added first, then those of a trajectory.
+  /// The mean over windows, by trajectory: a window's terms are added first, then those of a trajectory.
   std::vector<squares> by_trajectory(const std::array<double, parameters>& theta) const {
     const auto lifted = with_derivatives(theta.data());
     const squares zero{0.0, Eigen::VectorXd::Zero(F::parameters),
                        Eigen::MatrixXd::Zero(F::parameters, F::parameters)};
     std::vector<squares> result(data_->trajectories(), zero);
-    for (std::size_t n = 0; n < stretches(); ++n) {
-      squares of_stretch = zero;
-      for (const D& r : at(n, lifted)) add(of_stretch, r);
-      add(result[stretches_[n].trajectory], of_stretch);
+    for (std::size_t n = 0; n < windows(); ++n) {
+      squares of_window = zero;
+      for (const D& r : at(n, lifted)) add(of_window, r);
+      add(result[windows_[n].trajectory], of_window);
     }
-    const double share = 1.0 / static_cast<double>(stretches() * options_.steps.size());
+    const double share = 1.0 / static_cast<double>(windows() * options_.steps.size());
     for (auto& part : result) {
       part.value *= share;
       part.half_gradient *= share;
@@ -147,7 +147,7 @@ class sample_blocks {
     return std::sqrt(tree_sum(squares) / static_cast<double>(squares.size()));
   }
 
-  struct stretch {
+  struct window {
     std::size_t trajectory;
     std::size_t first_pair;
   };
@@ -158,19 +158,19 @@ class sample_blocks {
   after_steps_options options_;
   bool of_energy_;  // instead of the state's error
   double energy_scale_ = 1.0;
-  std::vector<stretch> stretches_;
+  std::vector<window> windows_;
 };
 
-/// One stretch as a Ceres cost.
+/// One window as a Ceres cost.
 template <class Blocks>
 class sample_cost final : public ceres::CostFunction {
  public:
-  sample_cost(const Blocks& blocks, std::size_t stretch, std::function<bool(const Eigen::VectorXd&)> defined)
+  sample_cost(const Blocks& blocks, std::size_t window, std::function<bool(const Eigen::VectorXd&)> defined)
       : blocks_(&blocks),
-        stretch_(stretch),
+        window_(window),
         defined_(std::move(defined)),
-        share_(1.0 / std::sqrt(static_cast<double>(blocks.stretches()))) {
-    set_num_residuals(blocks.residuals_of_stretch());
+        share_(1.0 / std::sqrt(static_cast<double>(blocks.windows()))) {
+    set_num_residuals(blocks.residuals_of_window());
     mutable_parameter_block_sizes()->push_back(static_cast<int>(Blocks::parameters));
   }
 
@@ -180,11 +180,11 @@ class sample_cost final : public ceres::CostFunction {
     for (std::size_t k = 0; k < count; ++k) theta[k] = at[0][k];
     if (defined_ && !defined_(column_of(theta))) return false;
     if (jacobians == nullptr || jacobians[0] == nullptr) {
-      for (const double r : blocks_->at(stretch_, theta)) *residuals++ = r * share_;
+      for (const double r : blocks_->at(window_, theta)) *residuals++ = r * share_;
       return true;
     }
     double* slope = jacobians[0];
-    for (const auto& r : blocks_->at(stretch_, Blocks::with_derivatives(at[0]))) {
+    for (const auto& r : blocks_->at(window_, Blocks::with_derivatives(at[0]))) {
       *residuals++ = r.value * share_;
       for (const double d : r.derivative) *slope++ = d * share_;
     }
@@ -193,7 +193,7 @@ class sample_cost final : public ceres::CostFunction {
 
  private:
   const Blocks* blocks_;
-  std::size_t stretch_;
+  std::size_t window_;
   std::function<bool(const Eigen::VectorXd&)> defined_;
   double share_;
 };
@@ -205,7 +205,7 @@ minimum minimise_by_blocks(const Blocks& blocks, const std::function<bool(const 
                            int max_iterations) {
   minimum found{start};
   ceres::Problem problem;
-  for (std::size_t n = 0; n < blocks.stretches(); ++n) {
+  for (std::size_t n = 0; n < blocks.windows(); ++n) {
     problem.AddResidualBlock(new sample_cost<Blocks>(blocks, n, defined), nullptr, found.theta.data());
   }
   nysalt::detail::descend(problem, free, max_iterations, found);

@@ -26,8 +26,8 @@ struct dynamic_potential {
   T potential(const vector<T, dimension>& q) const {
     T sum(0.0);
     for (Eigen::Index i = 0; i < masses; ++i) {
-      const T stretch = q[(i + 1) % masses] - q[i];
-      sum += stretch * stretch * 0.5 + q[i] * q[i] * q[i] * q[i] * 0.25;
+      const T elongation = q[(i + 1) % masses] - q[i];
+      sum += elongation * elongation * 0.5 + q[i] * q[i] * q[i] * q[i] * 0.25;
     }
     return sum;
   }
@@ -52,8 +52,8 @@ struct two_masses {
   double inverse_mass(Eigen::Index i) const { return i == 0 ? 1.0 : 0.25; }
   template <class T>
   T potential(const vector<T, 2>& q) const {
-    const T stretch = q[1] - q[0];
-    return stretch * stretch * 0.5 + (q[0] * q[0] * q[0] * q[0] + q[1] * q[1] * q[1] * q[1]) * 0.25;
+    const T elongation = q[1] - q[0];
+    return elongation * elongation * 0.5 + (q[0] * q[0] * q[0] * q[0] + q[1] * q[1] * q[1] * q[1]) * 0.25;
   }
 };
 

@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(a_system_knows_its_bath_and_itself_alone) {
   const in_bath system(fpu_chain<3>(50.0), bath::of_temperature(0.1, 2.0));
   BOOST_TEST(system.bath().temperature() == 2.0);
   BOOST_TEST(system.bath().friction() == 0.1);
-  BOOST_TEST(describe(system.alone()) == "fpu_chain(pairs=3, omega=50)");
+  BOOST_TEST(describe(system.base()) == "fpu_chain(pairs=3, omega=50)");
 }
 
 BOOST_AUTO_TEST_CASE(a_system_names_its_bath_if_that_acts) {

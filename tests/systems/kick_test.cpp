@@ -31,7 +31,7 @@ struct softer_for_double : fpu_chain<3> {
 struct renamed : fpu_chain<3> {
   using fpu_chain<3>::fpu_chain;
 };
-/// Forces of which nobody can tell where they are written, or that are written elsewhere.
+/// Forces of which it is unknown where they are written, or that are written elsewhere.
 struct softer_by_auto : fpu_chain<3> {
   using fpu_chain<3>::fpu_chain;
   void force(const auto& q, auto& f) const { f = -q; }

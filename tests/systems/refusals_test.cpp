@@ -22,17 +22,17 @@ BOOST_AUTO_TEST_CASE(frequencies_are_positive_and_finite) {
 }
 
 BOOST_AUTO_TEST_CASE(an_fpu_chain_has_the_pairs_that_its_type_says) {
-  BOOST_TEST(refuses<wrong>([] { fpu_chain<>(0, 1.0); }, {"0 pairs"}));
-  BOOST_TEST(refuses<wrong>([] { fpu_chain<3>(2, 1.0); }, {"2 pairs"}));
+  BOOST_TEST(refuses<wrong>([] { fpu_chain<>(0, 1.0); }, {"pairs must be", "got 0"}));
+  BOOST_TEST(refuses<wrong>([] { fpu_chain<3>(2, 1.0); }, {"pairs must be", "got 2"}));
   BOOST_TEST(fpu_chain<>(4, 1.0).size() == 8);
 }
 
 BOOST_AUTO_TEST_CASE(rings_and_clusters_have_the_size_that_their_type_says) {
-  BOOST_TEST(refuses<wrong>([] { phi4_chain<>(0); }, {"0 masses"}));
-  BOOST_TEST(refuses<wrong>([] { phi4_chain<3>(2); }, {"2 masses"}));
+  BOOST_TEST(refuses<wrong>([] { phi4_chain<>(0); }, {"masses must be", "got 0"}));
+  BOOST_TEST(refuses<wrong>([] { phi4_chain<3>(2); }, {"masses must be", "got 2"}));
   BOOST_TEST(phi4_chain<>(4).size() == 4);
-  BOOST_TEST(refuses<wrong>([] { lennard_jones<>(4, 7); }, {"2 or 3 dimensions", "not 4"}));
-  BOOST_TEST(refuses<wrong>([] { lennard_jones<2, 7>(3, 7); }, {"dimensions", "3"}));
+  BOOST_TEST(refuses<wrong>([] { lennard_jones<>(4, 7); }, {"dimension must be 2 or 3", "got 4"}));
+  BOOST_TEST(refuses<wrong>([] { lennard_jones<2, 7>(3, 7); }, {"dimension", "3"}));
   BOOST_TEST(refuses<wrong>([] { lennard_jones<>(2, 1); }, {"atoms must be >= 2", "got 1"}));
   BOOST_TEST(refuses<wrong>([] { lennard_jones<2, 7>(2, 8); }, {"got 8"}));
   BOOST_TEST(lennard_jones<>(3, 5).size() == 15);
@@ -45,9 +45,9 @@ BOOST_AUTO_TEST_CASE(the_stiffness_of_a_chain_is_square_symmetric_finite_and_not
   k << 1.0, 0.5, 0.4, 1.0;
   BOOST_TEST(refuses<wrong>([&] { linear_chain{k}; }, {"symmetric"}));
   k << 1.0, not_a_number, not_a_number, 1.0;
-  BOOST_TEST(refuses<wrong>([&] { linear_chain{k}; }, {"not finite"}));
+  BOOST_TEST(refuses<wrong>([&] { linear_chain{k}; }, {"must be finite"}));
   k << 1.0, 2.0, 2.0, 1.0;
-  BOOST_TEST(refuses<wrong>([&] { linear_chain{k}; }, {"negative eigenvalue -"}));
+  BOOST_TEST(refuses<wrong>([&] { linear_chain{k}; }, {"must be >= 0, got -"}));
   k << 1.0, 1.0, 1.0, 1.0;  // singular is allowed
   BOOST_TEST(linear_chain(k).modes().frequencies[0] == 0.0);
 }
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(the_masses_of_a_chain_fit_and_are_positive) {
        {Eigen::VectorXd(Eigen::Vector3d::Ones()), Eigen::VectorXd(Eigen::Vector2d(1.0, 0.0)),
         Eigen::VectorXd(Eigen::Vector2d(1.0, -1.0)), Eigen::VectorXd(Eigen::Vector2d(1.0, not_a_number)),
         Eigen::VectorXd(Eigen::Vector2d(1.0, infinite))}) {
-    BOOST_TEST(refuses<wrong>([&] { linear_chain(k, masses); }, {"2 positive, finite masses"}));
+    BOOST_TEST(refuses<wrong>([&] { linear_chain(k, masses); }, {"positive and finite, 2 of them"}));
   }
 }
 

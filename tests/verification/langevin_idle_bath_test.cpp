@@ -18,7 +18,7 @@ constexpr std::int64_t steps = 1000;
 
 bool same_bits(const state& x, const state& y) { return x.q == y.q && x.p == y.p; }
 
-/// Nobody may ask for a number.
+/// No random number may be drawn.
 struct unasked {
   static constexpr bool draws_freely = true;
   template <class T, int N>

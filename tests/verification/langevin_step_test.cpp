@@ -15,7 +15,7 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 double difference(const auto& a, const auto& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
-/// Error of the map over a time 2 in so many steps of the merged loop, without noise.
+/// Error of the map over a time 2 in that many steps of the merged loop, without noise.
 double error_in(std::int64_t steps, const Method auto& method) {
   const damped_oscillator x{2.0, 0.7, 0.0};
   const auto system = bathed_system(x);

@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(small_steps) {
   }
 }
 
-// Friction over z at hand: k = 3 g/z is kept while both become small; what is left out is O(z^2).
+// Friction over the given z: k = 3 g/z is kept while both become small; what is left out is O(z^2).
 BOOST_AUTO_TEST_CASE(friction_that_is_not_small_against_z) {
   const double z = 0.01;
   for (const double k : {0.0, 0.1, 0.5, 1.0, 3.0}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// A free particle in a bath is an Ornstein-Uhlenbeck process, which letters O solve exactly: whoever looks,
-// at steps or not, sees momenta of its law, and a word whose halves meet is no exception.
+// A free particle in a bath is an Ornstein-Uhlenbeck process, which letters O solve exactly: at any time,
+// at steps or not, the momenta have the stationary distribution, and a word whose halves meet is no
+// exception.
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>

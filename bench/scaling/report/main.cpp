@@ -28,7 +28,7 @@ std::string pages(const measured& all, const fitted& model, const cluster& where
   };
   add("Two ranks (? where the machine is too busy to say; then its bare kernel gains less than 1.9, too):",
       acceptance(all));
-  add("More ranks, for the same work (strong) and for as much a rank (weak); the model knows one rank alone:",
+  add("More ranks, for the same work (strong) and for as much a rank (weak); the model knows a single rank:",
       efficiencies(all, model));
   add("The model's costs, and their standard errors:", costs(model));
   add("The work of one rank that they were fitted to, beside the strong one above:", sizes(all, model));

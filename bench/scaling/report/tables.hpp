@@ -123,7 +123,7 @@ inline table costs(const fitted& m) {
   add("memory", "c_0", m.memory.none, "MB", 1e6);
   add("memory", "c_pair", m.memory.pair, "B a pair", 1.0);
   add("memory", "c_trajectory", m.memory.trajectory, "B a trajectory", 1.0);
-  result.add({"a rank", "slower", fmt::format("{:.3g}", m.slower), "all cores busy, against one alone"});
+  result.add({"a rank", "slower", fmt::format("{:.3g}", m.slower), "all cores busy, against one"});
   return result;
 }
 

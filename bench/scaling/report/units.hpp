@@ -28,7 +28,7 @@ inline std::string amount(double bytes) {
 }
 
 inline std::string with_error(const cost& fitted_cost, double unit) {
-  if (fitted_cost.value == 0.0) return "too small to tell";
+  if (fitted_cost.value == 0.0) return "too small to fit";
   const double error = fitted_cost.standard_error / unit;
   const auto digits = error >= 10.0 ? fmt::format("{:.0f}", error) : fmt::format("{:.2g}", error);
   return fmt::format("{:.4g} +- {}", fitted_cost.value / unit, digits);

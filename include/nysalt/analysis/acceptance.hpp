@@ -16,7 +16,7 @@ namespace nysalt {
 struct acceptance_result {
   estimate probability;                          ///< mean over all trajectories
   std::vector<double> of_each;                   ///< probability of each trajectory; 0 if it diverged
-  std::vector<diverged_trajectory> diverged_at;  ///< in their order
+  std::vector<diverged_trajectory> diverged_at;  ///< steps of divergence, in the order of the states
   double evaluations_per_time = 0.0;             ///< force evaluations per unit time, start-up included
 };
 

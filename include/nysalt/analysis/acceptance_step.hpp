@@ -7,28 +7,28 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
 
 namespace nysalt {
 
-/// Which proposals are asked about.
+/// Options of the acceptance of proposals.
 struct proposal_options {
-  double length;                       ///< mean duration: durations are uniform between 0 and twice that
-  double temperature = 1.0;            ///< kT, an energy
-  double times_larger = 1.0;           ///< how many times larger than this system is the one that will run
-  std::int64_t states = 100;           ///< at which proposals begin
-  std::uint64_t seed = 1;              ///< of the states
-  int threads = 1;                     ///< changes no bit
-  const communicator* ranks = &alone;  ///< who share the states; changes no bit
+  double length;                          ///< mean duration: durations are uniform between 0 and twice that
+  double temperature = 1.0;               ///< kT, an energy
+  double times_larger = 1.0;              ///< size of the system that will run, as a multiple of this system
+  std::int64_t states = 100;              ///< states at which proposals begin
+  std::uint64_t seed = 1;                 ///< seed of the states
+  int threads = 1;                        ///< changes no bit
+  const communicator* ranks = &one_rank;  ///< ranks that share the states; changes no bit
 };
 
 /// Acceptance of proposals at a step.
 struct proposal_acceptance {
-  estimate probability;         ///< over all states and durations
-  std::vector<double> of_each;  ///< what each state says of it: their mean is the probability
+  estimate probability;         ///< probability over all states and durations
+  std::vector<double> of_each;  ///< contribution of each state; the mean is the probability
 };
 
 /// The mean over states and durations of the probability that Metropolis' rule accepts, from one trajectory
@@ -45,11 +45,11 @@ struct proposal_acceptance {
 proposal_acceptance acceptance_of_proposals(const model& system, const tabulated& method, double step,
                                             const initial_states& states, const proposal_options& options);
 
-/// A step, and how well it is known.
+/// A step with a standard error.
 struct acceptance_step {
-  double step;                      ///< at which the acceptance is the one that was asked for
-  estimate log_step;                ///< its logarithm, with the standard error over states
-  std::vector<double> log_of_each;  ///< what each state says of the logarithm: their mean is log_step
+  double step;                      ///< step with the requested acceptance
+  estimate log_step;                ///< logarithm of the step, with the standard error over states
+  std::vector<double> log_of_each;  ///< contribution of each state to the logarithm; the mean is log_step
   bool is_longest = false;          ///< even trajectories of one step are accepted more often than asked
 };
 

@@ -6,11 +6,11 @@
 
 namespace nysalt {
 
-/// A distance of two autocovariances, and how well it is known.
+/// A distance of two autocovariances with a standard error.
 struct acf_distance {
   double rms;             ///< root mean square difference over the lags 1..L
-  double standard_error;  ///< of rms
-  double floor;           ///< what rms would be about if only sampling made a difference
+  double standard_error;  ///< standard error of rms
+  double floor;           ///< expected rms of sampling error only
 };
 
 /// rms = sqrt(1/L sum_{k=1..L} (rho_a(k) - rho_b(k))^2) of the normalised autocovariances, with the standard

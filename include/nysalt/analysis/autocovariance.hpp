@@ -18,9 +18,9 @@ namespace nysalt {
 /// one group after the other; from G groups a standard error is itself known to 1/sqrt(2 (G - 1)) of it.
 class autocovariance {
  public:
-  /// One term a group of independent trajectories, all with one centre; `interval` is the time between
-  /// samples. Groups without a trajectory do not count. Throws std::invalid_argument if there is no group or
-  /// their lags differ.
+  /// Autocovariance with one term a group of independent trajectories, all with one centre; `interval` is the
+  /// time between samples. Groups without a trajectory do not count. Throws std::invalid_argument if there is
+  /// no group or their lags differ.
   autocovariance(double interval, double centre, std::vector<autocovariance_sums> groups);
 
   std::size_t lags() const { return total_.size() - 1; }  ///< L, the largest lag
@@ -33,7 +33,7 @@ class autocovariance {
   double covariance(std::size_t k) const { return total_.at(k).covariance(); }
   /// rho(0..L). Throws std::runtime_error if the observable did not vary, or no trajectory counts.
   std::vector<double> normalised() const { return normalised(total_); }
-  /// Of rho(0..L); NaN if there are fewer than two groups. Throws like normalised().
+  /// Standard errors of rho(0..L); NaN if there are fewer than two groups. Throws like normalised().
   std::vector<double> standard_error() const;
 
   /// The variances of the numbers f(rho), by the jackknife: (G - 1)/G sum_g (f_g - mean f)^2, where f_g lacks

@@ -14,8 +14,8 @@
 
 namespace nysalt {
 
-/// Of some trajectories at one lag k, over all pairs of samples y_t, y_{t+k} of one trajectory: their number,
-/// and the sums of y_t y_{t+k}, of y_t and of y_{t+k}, where y is the observable less a centre.
+/// Sums of some trajectories at one lag k over all pairs of samples y_t, y_{t+k} of one trajectory: their
+/// number, and the sums of y_t y_{t+k}, of y_t and of y_{t+k}, where y is the observable less a centre.
 struct pair_sums {
   double pairs = 0.0;     ///< number of pairs
   double products = 0.0;  ///< sum of y_t y_{t+k}
@@ -25,17 +25,17 @@ struct pair_sums {
   /// C = mean y_t y_{t+k} - mean y_t mean y_{t+k}; NaN if there is no pair.
   double covariance() const { return products / pairs - (heads / pairs) * (tails / pairs); }
 
-  /// Over the pairs of both.
+  /// Sums over the pairs of both.
   friend pair_sums operator+(const pair_sums& a, const pair_sums& b) {
     return {a.pairs + b.pairs, a.products + b.products, a.heads + b.heads, a.tails + b.tails};
   }
-  /// Over the pairs of a that are not those of b.
+  /// Sums over the pairs of a that are not those of b.
   friend pair_sums operator-(const pair_sums& a, const pair_sums& b) {
     return {a.pairs - b.pairs, a.products - b.products, a.heads - b.heads, a.tails - b.tails};
   }
 };
 
-/// The same at the lags 0..L.
+/// Sums of pairs at the lags 0..L.
 using autocovariance_sums = std::vector<pair_sums>;
 
 /// The number of lags. Throws std::invalid_argument unless it is 1 to 10^5: a sample costs a product a lag.
@@ -53,7 +53,8 @@ class autocovariance_along {
     if (!std::isfinite(centre)) {
       throw std::invalid_argument(sentence("autocovariance: the centre must be finite, got {}", centre));
     }
-    window_.assign(lags_ + stretch, T(0.0));  // zeros before the first sample make no pairs and add nothing
+    window_.assign(lags_ + samples_at_a_time,
+                   T(0.0));  // zeros before the first sample make no pairs and add nothing
     first_.reserve(lags_);
     products_.assign(lags_ + 1, T(0.0));
   }
@@ -65,14 +66,17 @@ class autocovariance_along {
     total_ += y;
     window_[lags_ + waiting_] = y;
     samples_ += 1.0;
-    if (++waiting_ == stretch) add_waiting(std::integral_constant<std::size_t, stretch>());
+    if (++waiting_ == samples_at_a_time)
+      add_waiting(std::integral_constant<std::size_t, samples_at_a_time>());
   }
 
   /// The sums of lane k. Throws std::invalid_argument unless there are more samples than lags.
   autocovariance_sums in_lane(int k) {
     if (!(samples_ > static_cast<double>(lags_))) {
       throw std::invalid_argument(
-          sentence("autocovariance: {} lags need more than {} samples along a trajectory", lags_, samples_));
+          sentence("autocovariance: the number of samples along a trajectory must exceed the {} lags, "
+                   "got {}",
+                   lags_, samples_));
     }
     add_waiting(waiting_);
     autocovariance_sums result(lags_ + 1);
@@ -87,7 +91,8 @@ class autocovariance_along {
   }
 
  private:
-  static constexpr std::size_t stretch = 8;  // samples at a time, so that a lag's sum stays in its register
+  static constexpr std::size_t samples_at_a_time =
+      8;  // samples at a time, so that a lag's sum stays in its register
 
   template <class Count>
   void add_waiting(Count count) {

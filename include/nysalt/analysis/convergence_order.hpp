@@ -15,9 +15,9 @@
 
 namespace nysalt {
 
-/// Global error at the horizon for steps that are halved, and the order that they show.
+/// Global error at the horizon for steps that are halved, and the observed order.
 struct order_measurement {
-  std::vector<double> steps;   ///< from large to small
+  std::vector<double> steps;   ///< steps from large to small
   std::vector<double> errors;  ///< largest coordinate; infinite where the run diverged
   /// The slope of ln error by ln step; NaN where it does not show.
   double order = std::numeric_limits<double>::quiet_NaN();
@@ -34,8 +34,8 @@ order_measurement convergence_order(const S& system, const M& method, const R& r
                                     std::int64_t fewest_steps, int halvings) {
   if (fewest_steps < 1 || halvings < 0 || !std::isfinite(horizon) || horizon == 0.0) {
     throw std::invalid_argument(
-        sentence("convergence_order: {} steps at least, {} halvings and a horizon of {}: needs a step, no "
-                 "negative number of halvings and a finite horizon",
+        sentence("convergence_order: steps must be >= 1, halvings >= 0 and the horizon finite and not 0, got "
+                 "{}, {} and {}",
                  fewest_steps, halvings, horizon));
   }
   auto exact = start;

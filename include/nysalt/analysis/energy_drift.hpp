@@ -12,9 +12,9 @@ namespace nysalt {
 
 /// (H - H_0)/|H_0| along a trajectory: bounded for a symplectic method, and without a trend.
 struct energy_record {
-  double largest = 0.0;                     ///< of |H - H_0|/|H_0|
-  double drift = 0.0;                       ///< its trend per unit time, least squares
-  std::optional<std::int64_t> diverged_at;  ///< the step, if it did
+  double largest = 0.0;                     ///< maximum of |H - H_0|/|H_0|
+  double drift = 0.0;                       ///< slope of the energy error per unit time, least squares
+  std::optional<std::int64_t> diverged_at;  ///< step of divergence, if any
 };
 
 /// Runs `steps` steps and reads the energy every `every` of them. |H_0| below 1e-300 counts as 1.

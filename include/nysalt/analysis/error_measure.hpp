@@ -24,7 +24,7 @@ enum class averaging { mean, root_of_each, root_of_all };
 /// side, over packs: lambdas of `auto` do. They may be called from several threads at once, and with lanes
 /// that hold no sound trajectory.
 struct error_measure {
-  std::string name;   ///< as reports call it
+  std::string name;   ///< name in reports
   std::size_t width;  ///< numbers that are read of a state
   /// read(x, result) writes the `width` numbers of a state to a span.
   detail::over_scalars<detail::reads_numbers> read;
@@ -41,7 +41,7 @@ struct error_measure {
   /// reference: the mean error is divided by the mean of this over all trajectories and times, which is a
   /// property of their distribution, and positive unless all is 0 (`no_scale` then). Not given: absolute.
   detail::over_scalars<detail::of_sample> relative_to = {};
-  Eigen::Index dimension = 0;  ///< degrees of freedom of the systems that it can measure; 0: any
+  Eigen::Index dimension = 0;  ///< degrees of freedom of the measured systems; 0: any number
 
   /// The contribution of a trajectory whose errors, weighted by time, add up to `sum`.
   double score(double sum, double weights) const;

@@ -17,14 +17,14 @@ namespace nysalt {
 struct run_score {
   /// The contribution of the trajectory, see error_measure::score(); NaN if it diverged.
   double value = std::numeric_limits<double>::quiet_NaN();
-  std::optional<std::int64_t> diverged_at = {};  ///< the step, if it did
+  std::optional<std::int64_t> diverged_at = {};  ///< step of divergence, if any
 };
 
 /// The errors of one trajectory in each lane, added up in the order of time. None is kept.
 template <class T>
 class error_sum {
  public:
-  using numbers = std::span<const T>;  ///< those of one state
+  using numbers = std::span<const T>;  ///< residuals of one state
 
   /// Refers to the measure. The start, where all errors are 0, may have a weight too.
   explicit error_sum(const error_measure& measure, double weight_of_start = 0.0)

@@ -17,16 +17,16 @@
 
 namespace nysalt {
 
-/// What was not wanted is empty or NaN.
+/// Statistics of all trajectories. Those that were not requested are empty or NaN.
 struct gathered_statistics {
   std::int64_t counted = 0;                              ///< trajectories that reached their end
-  std::int64_t samples = 0;                              ///< of each of them
-  std::vector<diverged_trajectory> lost;                 ///< in the order of their numbers
-  std::optional<nysalt::histogram> histogram;            ///< of the observable, all trajectories
+  std::int64_t samples = 0;                              ///< samples of each trajectory
+  std::vector<diverged_trajectory> lost;                 ///< diverged trajectories, by rising number
+  std::optional<nysalt::histogram> histogram;            ///< histogram of the observable, all trajectories
   std::vector<nysalt::histogram> histogram_of_groups;    ///< 33 to 64 groups of trajectories, for a jackknife
-  std::optional<nysalt::autocovariance> autocovariance;  ///< of the observable, with its error
-  estimate mean;                                         ///< of the observable, over independent trajectories
-  double variance = std::numeric_limits<double>::quiet_NaN();  ///< of the observable
+  std::optional<nysalt::autocovariance> autocovariance;  ///< autocovariance of the observable, with its error
+  estimate mean;  ///< mean of the observable, over independent trajectories
+  double variance = std::numeric_limits<double>::quiet_NaN();  ///< variance of the observable
   /// Independent samples that would know the mean as well: variance/(error of the mean)^2.
   double effective_sample_size = std::numeric_limits<double>::quiet_NaN();
   estimate kinetic_temperature;            ///< kT of the momenta at the steps
@@ -46,11 +46,13 @@ class gathering {
   gathering(const statistics_wanted& wanted, std::int64_t trajectories, std::int64_t samples, double interval,
             double centre, const communicator& ranks);
 
-  /// Of how many consecutive trajectories one thread takes care.
+  /// Number of consecutive trajectories of one thread.
   int trajectories_of_thread() const { return static_cast<int>(std::max<std::int64_t>(group_size_, 16)); }
   /// Number of the first trajectory that this rank keeps, from 0.
   std::int64_t first() const { return first_of(ranks_->rank()); }
-  std::int64_t count() const { return first_of(ranks_->rank() + 1) - first(); }  ///< how many this rank keeps
+  std::int64_t count() const {
+    return first_of(ranks_->rank() + 1) - first();
+  }  ///< number of trajectories of this rank
 
   /// Keeps trajectory m, from 0 on, which is in lane k; of one that is lost, only where.
   template <class T>
@@ -75,9 +77,9 @@ class gathering {
   gathered_statistics result(std::int64_t first);
 
  private:
-  /// That of rank size() is the number of all.
+  /// First trajectory of a rank; of rank size() the number of all trajectories.
   std::int64_t first_of(int rank) const;
-  /// Of lists that hold that number of items for each trajectory, or for each group.
+  /// All-gather of lists that hold that number of items for each trajectory, or for each group.
   template <class Item>
   void gather(std::vector<Item>& all, std::size_t items, std::int64_t trajectories_of_item = 1) const;
   void gather_histograms();

@@ -15,11 +15,11 @@ namespace nysalt {
 /// `count` bins of equal width on [low, high]. A number on an edge belongs to the bin above it, to rounding;
 /// `high` itself to the last bin.
 struct equal_bins {
-  double low;   ///< where the first bin begins
-  double high;  ///< where the last bin ends
+  double low;   ///< lower edge of the first bin
+  double high;  ///< upper edge of the last bin
   int count;    ///< number of bins
 
-  double width() const { return (high - low) / count; }                    ///< of a bin
+  double width() const { return (high - low) / count; }                    ///< width of a bin
   friend bool operator==(const equal_bins&, const equal_bins&) = default;  ///< equal in all
 };
 
@@ -30,7 +30,7 @@ class histogram {
   /// Empty. Throws std::invalid_argument unless low < high are finite and there are 1 to 10^5 bins.
   explicit histogram(const equal_bins& bins);
 
-  /// That of which counts() are known. Throws std::invalid_argument also if they are of other bins.
+  /// A histogram with known counts(). Throws std::invalid_argument also if they are of other bins.
   histogram(const equal_bins& bins, std::span<const std::int64_t> counts);
 
   /// Counts x; infinities lie below and above. Throws std::invalid_argument if x is NaN.
@@ -40,7 +40,7 @@ class histogram {
   /// Takes away what was added. Throws std::invalid_argument if the bins differ.
   histogram& operator-=(const histogram& other);
 
-  const equal_bins& bins() const { return bins_; }  ///< where numbers are counted
+  const equal_bins& bins() const { return bins_; }  ///< bins of the counts
   /// Numbers of values below, in each of the bins from low to high, and above.
   std::span<const std::int64_t> counts() const { return counts_; }
   /// Number of values that were added.
@@ -57,7 +57,7 @@ class histogram {
   template <class T>
   friend class histogram_along;
 
-  /// In [k, k + 1) for bin k, -1 below, and `count` above; NaN is somewhere.
+  /// Position in units of bins: in [k, k + 1) for bin k, -1 below, and `count` above; NaN is somewhere.
   template <class T>
   T place(const T& x) const {
     const T last(bins_.count - 1.0);
@@ -72,14 +72,15 @@ class histogram {
   std::vector<std::int64_t> counts_;
 };
 
-/// One histogram for each of the trajectories in the lanes of T, so that one of them can be left out.
+/// Histograms, one for each of the trajectories in the lanes of T, so that single trajectories can be left
+/// out.
 template <class T>
 class histogram_along {
  public:
   /// Empty. Throws like histogram.
   explicit histogram_along(const equal_bins& bins) : in_lanes_(lanes_in<T>, histogram(bins)) {}
 
-  /// One number in each lane.
+  /// Counts one number in each lane.
   void add(const T& x) {
     const T places = in_lanes_.front().place(x);
     for (int k = 0; k < lanes_in<T>; ++k) in_lanes_[static_cast<std::size_t>(k)].count(lane(places, k));

@@ -17,9 +17,9 @@ T kinetic_temperature(const S& system, const phase_point<T, S::dimension>& x) {
   return sum / static_cast<double>(x.size());
 }
 
-/// The same of the momenta p + (h/2) force(q) between two steps. For words that begin and end with half a
-/// kick (Verlet, BAOAB) its mean is kT on a harmonic oscillator, where that of the momenta at the steps is
-/// low by z^2/4, z = omega h; of words that begin with a drift it knows nothing. Cost: one force.
+/// Kinetic temperature of the momenta p + (h/2) force(q) between two steps. For words that begin and end with
+/// half a kick (Verlet, BAOAB) its mean is kT on a harmonic oscillator, where that of the momenta at the
+/// steps is low by z^2/4, z = omega h; of words that begin with a drift it knows nothing. Cost: one force.
 template <class T, SystemOver<T> S>
 T half_step_kinetic_temperature(const S& system, double step, const phase_point<T, S::dimension>& x) {
   auto f = make_vector<T>(system);

@@ -13,7 +13,7 @@ struct cost_and_error {
   double error;  ///< less is better
 };
 
-/// Which of them are worth their cost: no other has less or as much of both. Of equals the first counts; what
+/// The Pareto front: points of which no other has less or as much of both. Of equals the first counts; what
 /// is not finite never does. Indices, by rising cost and falling error. Cost: a sort.
 std::vector<std::size_t> pareto_front(std::span<const cost_and_error> all);
 

@@ -29,9 +29,10 @@ phase_point<T, N> perturbed(phase_point<T, N> x, double relative, std::uint64_t 
   return x;
 }
 
-/// In each lane, since which sample the errors of perturbed starts so far exceed half of the null model's, to
-/// the end: a quarter of them where they are squares, so that roots are halved. A sum that falls behind again
-/// begins anew: what hardly moves at first leaves the null model without errors for a few samples.
+/// Number of the sample, in each lane, since which the errors of perturbed starts so far exceed half of the
+/// null model's, to the end: a quarter of them where they are squares, so that roots are halved. A sum that
+/// falls behind again begins anew: what hardly moves at first leaves the null model without errors for a few
+/// samples.
 template <class T>
 class predictable_samples {
  public:

@@ -12,13 +12,13 @@ namespace nysalt {
 /// grows like t^k the rule errs by about k (k + 1)/12 of n^-2: by 0.5 % for k = 2 and ten samples.
 class sample_weights {
  public:
-  /// All of `samples` alike.
+  /// Equal weights of `samples` samples.
   explicit sample_weights(std::int64_t samples) : samples_(samples) {}
 
-  /// Those of the mean over [0, horizon]. Throws std::invalid_argument unless it ends within the last step.
+  /// Weights of the mean over [0, horizon]. Throws std::invalid_argument unless it ends within the last step.
   sample_weights(double step, std::int64_t samples, double horizon);
 
-  /// That of sample i.
+  /// Weight of sample i.
   double operator()(std::int64_t i) const {
     if (is_alike_) return i == 0 ? 0.0 : 1.0;
     double weight = 0.0;
@@ -31,7 +31,7 @@ class sample_weights {
   double total() const { return static_cast<double>(samples_) - (is_alike_ ? 0.0 : 1.0 - last_); }
 
  private:
-  /// Which part of the step before sample i counts.
+  /// Share of the step before sample i that counts.
   double covered(std::int64_t i) const { return i == samples_ ? last_ : 1.0; }
 
   std::int64_t samples_;

@@ -11,11 +11,12 @@ namespace nysalt {
 
 /// A mean over independent trajectories and its standard error. NaN where there are too few.
 struct estimate {
-  double mean = std::numeric_limits<double>::quiet_NaN();            ///< over trajectories
-  double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< of the mean
+  double mean = std::numeric_limits<double>::quiet_NaN();            ///< mean over trajectories
+  double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< standard error of the mean
 };
 
-/// One sample a trajectory, added up by tree_sum; NaN marks a trajectory that does not count.
+/// Mean and standard error of one sample a trajectory, added up by tree_sum; NaN marks a trajectory that does
+/// not count.
 estimate mean_and_error(std::span<const double> samples);
 
 /// Mean of a_i - b_i, of the same trajectory i each: what both share of chance cancels. Pairs in which one is

@@ -17,17 +17,17 @@ namespace nysalt {
 /// The statistics of an ensemble that are wanted; others cost nothing.
 struct statistics_wanted {
   std::optional<equal_bins> histogram = {};    ///< bins for the observable
-  std::optional<int> lags = {};                ///< of the autocovariance
+  std::optional<int> lags = {};                ///< lags of the autocovariance
   bool moments = false;                        ///< mean and variance, with the effective sample size
-  bool kinetic_temperature = false;            ///< that of the momenta at the steps
-  bool half_step_kinetic_temperature = false;  ///< that between steps; costs a force a sample
+  bool kinetic_temperature = false;            ///< kinetic temperature of the momenta at the steps
+  bool half_step_kinetic_temperature = false;  ///< kinetic temperature between steps; costs a force a sample
   std::int64_t from = 0;                       ///< the first step that counts
 };
 
 /// Result of one trajectory: its means over time.
 struct time_means {
-  double first = 0.0;      ///< of the observable less the centre
-  double second = 0.0;     ///< of its square
+  double first = 0.0;      ///< first moment: mean of the observable less the centre
+  double second = 0.0;     ///< second moment: mean of the square of that difference
   double kinetic = 0.0;    ///< kinetic temperature at the steps
   double half_step = 0.0;  ///< kinetic temperature between steps
 };

@@ -10,7 +10,7 @@ namespace nysalt {
 
 /// The upper tail of a sample: of the scores of trajectories, whose mean is an error.
 struct tail {
-  double count = 0.0;     ///< of the numbers that are not NaN
+  double count = 0.0;     ///< count of the values that are not NaN
   double skewness = 0.0;  ///< third central moment over the power 3/2 of the second; 0 where all are equal
   double deciding = 0.0;  ///< (sum x)^2/sum x^2: how many equal numbers would scatter as much; at most count
 

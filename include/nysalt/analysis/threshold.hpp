@@ -10,8 +10,8 @@ namespace nysalt {
 /// An error at a step, or at a cost; NaN or infinite where all diverged.
 struct error_at {
   double x;               ///< a step, or a cost
-  double error;           ///< at that step or cost
-  double standard_error;  ///< of the error
+  double error;           ///< error at that step or cost
+  double standard_error;  ///< standard error of the error
 };
 
 /// found             at x, between two errors that are known
@@ -20,17 +20,19 @@ struct error_at {
 /// above_from_first  before the first row: before x
 enum class crossing_kind { found, bracketed, below_all, above_from_first };
 
-/// What is not known is NaN; if it is bracketed, x is the last that is below.
+/// Crossing of an error level. Unknown values are NaN; if it is bracketed, x is the last that is below.
 struct threshold_crossing {
-  crossing_kind kind;  ///< how well it is known
+  crossing_kind kind;  ///< kind of the crossing
   double x;            ///< the step or cost of the crossing, see crossing_kind
-  double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< of x, if it is found
+  double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< standard error of x, if it is found
   double last_below = std::numeric_limits<double>::quiet_NaN();      ///< x of the last row below the level
-  double first_above = std::numeric_limits<double>::quiet_NaN();     ///< x of the first row at or above it
+  double first_above =
+      std::numeric_limits<double>::quiet_NaN();  ///< x of the first row at or above the level
 };
 
-/// Where errors first reach a level, from the accurate end on: rows are sorted by rising steps, or by falling
-/// costs. Between the last row below and the first at or above it, errors are a power of the step or cost,
+/// The step or cost where errors first reach a level, from the accurate end on: rows are sorted by rising
+/// steps, or by falling costs. Between the last row below and the first at or above it, errors are a power of
+/// the step or cost,
 ///
 ///   ln x* = (1 - s) ln x_0 + s ln x_1,   s = (ln level - ln e_0)/(ln e_1 - ln e_0),
 ///

@@ -12,9 +12,9 @@ namespace nysalt {
 /// Seconds of a job over some rounds. What else the machine does only adds: the least is nearest to the job's
 /// own, and how far the median lies above it measures how quiet the machine was.
 struct timed_job {
-  double least = std::numeric_limits<double>::infinity();    ///< of all rounds, in seconds
-  double median = std::numeric_limits<double>::quiet_NaN();  ///< of all rounds, in seconds
-  int rounds = 0;                                            ///< that count
+  double least = std::numeric_limits<double>::infinity();    ///< minimum over all rounds, in seconds
+  double median = std::numeric_limits<double>::quiet_NaN();  ///< median over all rounds, in seconds
+  int rounds = 0;                                            ///< rounds that count
 };
 
 /// Times each job over `rounds` rounds in which all take turns: a machine that slows down slows all of them.

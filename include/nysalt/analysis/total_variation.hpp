@@ -19,9 +19,9 @@ double total_variation(const histogram& a, const histogram& b);
 /// Throws std::invalid_argument if there is no ensemble, and like total_variation.
 double mean_total_variation(const histogram& given, std::span<const histogram> ensembles);
 
-/// The same of ensembles in independent groups of trajectories (gathered_statistics::histogram_of_groups),
-/// with its standard error: by the jackknife over the groups of the given one, and over those of each of the
-/// others, whose variances add up.
+/// Total variation of ensembles in independent groups of trajectories
+/// (gathered_statistics::histogram_of_groups), with its standard error: by the jackknife over the groups of
+/// the given one, and over those of each of the others, whose variances add up.
 ///
 /// It estimates how far the number would scatter if all ensembles were drawn again: about its expectation at
 /// this many trajectories, which lies above the distance of the distributions. That bias is what

@@ -34,9 +34,9 @@ std::vector<trajectory_errors_result> trajectory_errors(const model& system, con
 
 }  // namespace detail
 
-/// By each of several measures, in their order: runs the reference once along each trajectory, and every
-/// method beside it, as many trajectories at a time as there are lanes; all measures read the same runs.
-/// In a bath all see the reference's noise, each in the parts of a step that its letters O cover. The
+/// Errors by each of several measures, in their order: runs the reference once along each trajectory, and
+/// every method beside it, as many trajectories at a time as there are lanes; all measures read the same
+/// runs. In a bath all see the reference's noise, each in the parts of a step that its letters O cover. The
 /// reference's own error is taken on the first 16 trajectories, along noisy paths with error_over_difference.
 /// If no measure needs a reference, none runs but for its noise. Neither lanes, threads nor ranks change a
 /// bit, nor does a measure those of another.
@@ -67,7 +67,7 @@ std::vector<trajectory_errors_result> trajectory_errors(const S& system, const R
                                    ensemble, tables, measures, options);
 }
 
-/// The same by one measure.
+/// Errors by one measure.
 template <SeparableSystem S, Reference<S> R, Ensemble<S> E, Methods Given>
 trajectory_errors_result trajectory_errors(const S& system, const R& reference, const E& ensemble,
                                            const Given& methods, const error_measure& measure,
@@ -76,7 +76,7 @@ trajectory_errors_result trajectory_errors(const S& system, const R& reference, 
       trajectory_errors(system, reference, ensemble, methods, std::span(&measure, 1), options).front());
 }
 
-/// The same of one method, by one measure or several.
+/// Errors of one method, by one measure or several.
 template <SeparableSystem S, Reference<S> R, Ensemble<S> E, Method M>
 auto trajectory_errors(const S& system, const R& reference, const E& ensemble, const M& method,
                        const auto& measures, const trajectory_options& options) {

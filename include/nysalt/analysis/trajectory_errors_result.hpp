@@ -10,14 +10,14 @@
 
 namespace nysalt {
 
-/// By one measure: the errors of all methods, and what they are to be judged by.
+/// Errors of all methods by one measure, with null model and reference error.
 struct trajectory_errors_result {
-  std::vector<method_error> methods;        ///< in the order in which they were given
+  std::vector<method_error> methods;        ///< methods in the order in which they were given
   std::optional<estimate> reference_error;  ///< against its finer self; nothing if no reference was needed
-  std::string reference;                    ///< its description, or empty
-  std::optional<estimate> null_model;       ///< of what stays as it was at the start, if asked for
+  std::string reference;                    ///< description of the reference, or empty
+  std::optional<estimate> null_model;       ///< error of the prediction that nothing moves, if requested
   std::optional<double> predictable_until;  ///< a time, perhaps infinite, if asked for
-  double unit = 1.0;                        ///< what errors are divided by: a mean over all trajectories
+  double unit = 1.0;                        ///< divisor of the errors: a mean over all trajectories
 };
 
 }  // namespace nysalt

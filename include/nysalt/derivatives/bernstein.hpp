@@ -18,8 +18,8 @@ class bernstein_polynomial {
   /// A constant on [low, high].
   bernstein_polynomial(double low, double high, double constant) : low_(low), high_(high), c_{constant} {}
 
-  double low() const { return low_; }           ///< where the interval begins
-  double high() const { return high_; }         ///< where the interval ends
+  double low() const { return low_; }           ///< lower end of the interval
+  double high() const { return high_; }         ///< upper end of the interval
   double at_low() const { return c_.front(); }  ///< the value at low()
   double at_high() const { return c_.back(); }  ///< the value at high()
   /// The least and the largest coefficient: no value on the interval lies outside them.

@@ -33,7 +33,7 @@ force_check check_force(const S& system, const std::vector<vector<double, S::dim
                         const phase_points& seen = {}) {
   return detail::check_force(system, {points.begin(), points.end()}, {momenta.begin(), momenta.end()}, seen);
 }
-/// The same numbers as points and as momenta.
+/// Checks with the same numbers as points and as momenta.
 template <SeparableSystem S>
 force_check check_force(const S& system, const std::vector<vector<double, S::dimension>>& points) {
   return check_force(system, points, points);

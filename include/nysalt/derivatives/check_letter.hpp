@@ -75,11 +75,11 @@ letter_trial try_letter(const S& system, const phase_point<double, S::dimension>
 
 }  // namespace detail
 
-/// Tries a letter, of one's own or of the library, over the step h at some points, and compares what it does
-/// with what it claims: that it is symplectic (by its exact Jacobian), that negated coefficients take it
-/// back, that coefficients add up, that it is reversible, that it leaves q alone; and the derivative by its
-/// coefficients, which learning needs, with a difference. The coefficients are 1 unless given. Points should
-/// be typical of the motion: two or more tell the unit of each coordinate.
+/// Test of the declared properties of a letter, of the user or the library, over the step h at some points:
+/// that it is symplectic (by its exact Jacobian), that negated coefficients take it back, that coefficients
+/// add up, that it is reversible, that it leaves q unchanged; and the derivative by its coefficients, which
+/// learning needs, with a difference. The coefficients are 1 unless given. Points should be typical of the
+/// motion: two or more show the unit of each coordinate.
 ///
 /// Throws std::invalid_argument if there are no points, if one has not the system's dimension, or unless
 /// there is a coefficient for each slot. Cost: 2 N + 8 letters a point, most over dual numbers.
@@ -90,7 +90,7 @@ letter_check check_letter(const S& system, const std::vector<phase_point<double,
   if (points.empty()) throw std::invalid_argument("check_letter: the points must not be empty");
   if (coefficients.empty()) coefficients.assign(L::slots, 1.0);
   if (coefficients.size() != L::slots) {
-    throw std::invalid_argument(sentence("check_letter: the letter {} has {} slots, got {} coefficients",
+    throw std::invalid_argument(sentence("check_letter: coefficients of the letter {} must be {}, got {}",
                                          L::letter, L::slots, coefficients.size()));
   }
   std::vector<detail::letter_trial> trials;
@@ -98,7 +98,7 @@ letter_check check_letter(const S& system, const std::vector<phase_point<double,
   return detail::judge_letter(detail::claims_of<L>(), trials);
 }
 
-/// Throws std::invalid_argument, with its report, if a letter of one's own in this word fails check_letter().
+/// Throws std::invalid_argument, with the report, if a user's letter in this word fails check_letter().
 template <TypeLevelWord W, System S>
 void require_sound_letters(const S& system, const std::vector<phase_point<double, S::dimension>>& points,
                            double h) {

@@ -22,7 +22,8 @@ energy_defect energy_defect_on_oscillator(const run_time_word& word, const std::
 
 }  // namespace detail
 
-/// rho of a symmetric word at z = h omega. With the matrix [[A, B], [C, A]] of a step in (omega q, p),
+/// Energy error rho of a symmetric word at z = h omega. With the matrix [[A, B], [C, A]] of a step in (omega
+/// q, p),
 ///   rho = (B + C)^2 / (2 (1 - A^2)):
 /// after n steps from the canonical distribution the energy has grown by sin^2(n t) rho kT on average, cos t
 /// = A [blanes_casas_sanz_serna_2014]. Infinite where |A| >= 1, as the word is not stable there. Cost: two

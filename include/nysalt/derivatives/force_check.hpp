@@ -8,29 +8,33 @@
 
 namespace nysalt {
 
-/// Defects are relative to the largest entry, over all points, of what they are a defect of: of the force, of
-/// its Jacobian, of the velocity, of its Jacobian. They are 0 where there is nothing to compare.
+/// Result of check_force(). Each defect is relative to the largest entry, over all points, of the function
+/// checked: of the force, of its Jacobian, of the velocity, of its Jacobian. They are 0 where there is
+/// nothing to compare.
 struct force_check {
-  double gradient_defect = 0.0;      ///< of force = -grad V
-  Eigen::Index coordinate = 0;       ///< where that is worst, from 0; -1: checked along directions at random
-  double derivative_defect = 0.0;    ///< of force_derivative, against differences of the force
-  double kick_defect = 0.0;          ///< of a kick of the system's own, p += c force(q)
-  Eigen::Index kick_coordinate = 0;  ///< where that is worst
-  double range_defect = 0.0;  ///< of forces and kicks in ranges of sites, of a LocalSystem; infinite if
-                              ///< one reads sites beyond its reach
-  Eigen::Index range_coordinate = 0;  ///< where that is worst
-  double soft_defect = 0.0;           ///< of soft_force = force + K q, K the quadratic part that modes() tell
-  Eigen::Index soft_coordinate = 0;   ///< where that is worst
-  double asymmetry = 0.0;             ///< of the Jacobian of the force: a gradient's is symmetric
-  double velocity_defect = 0.0;       ///< of velocity = grad K
-  Eigen::Index velocity_coordinate = 0;  ///< where that is worst
-  double velocity_asymmetry = 0.0;       ///< of the Jacobian of a velocity without a kinetic energy
-  double tolerance = 0.0;                ///< of the gradient: what the derivatives used can be off by
-  /// Of the asymmetry: 1.5e-8 with exact derivatives, 1.8e-4 with differences.
+  double gradient_defect = 0.0;  ///< gradient defect of force = -grad V
+  Eigen::Index coordinate =
+      0;  ///< coordinate with the largest gradient defect, from 0; -1: checked along directions at random
+  double derivative_defect =
+      0.0;                   ///< derivative defect of force_derivative, against differences of the force
+  double kick_defect = 0.0;  ///< defect of the system's own kick, p += c force(q)
+  Eigen::Index kick_coordinate = 0;  ///< coordinate with the largest kick defect
+  double range_defect = 0.0;  ///< range defect of forces and kicks in ranges of sites, of a LocalSystem;
+                              ///< infinite if one reads sites beyond its reach
+  Eigen::Index range_coordinate = 0;  ///< coordinate with the largest range defect
+  double soft_defect = 0.0;  ///< soft defect of soft_force = force + K q, K the quadratic part of modes()
+  Eigen::Index soft_coordinate = 0;  ///< coordinate with the largest soft defect
+  double asymmetry = 0.0;            ///< asymmetry of the Jacobian of the force: a gradient's is symmetric
+  double velocity_defect = 0.0;      ///< velocity defect of velocity = grad K
+  Eigen::Index velocity_coordinate = 0;  ///< coordinate with the largest velocity defect
+  double velocity_asymmetry =
+      0.0;                 ///< velocity asymmetry of the Jacobian of a velocity without a kinetic energy
+  double tolerance = 0.0;  ///< tolerance of the gradient: error bound of the derivatives used
+  /// Tolerance of the asymmetry: 1.5e-8 with exact derivatives, 1.8e-4 with differences.
   double asymmetry_tolerance = 0.0;
-  double kick_tolerance = 0.0;        ///< of the kick, of ranges and of the soft force
-  double derivative_tolerance = 0.0;  ///< of force_derivative, which is compared with differences
-  double velocity_tolerance = 0.0;    ///< of the velocity and of its Jacobian's asymmetry
+  double kick_tolerance = 0.0;        ///< tolerance of the kick, of ranges and of the soft force
+  double derivative_tolerance = 0.0;  ///< tolerance of force_derivative, which is compared with differences
+  double velocity_tolerance = 0.0;    ///< tolerance of the velocity and of its Jacobian's asymmetry
   bool has_potential = false;  ///< whether there was a V to compare with; else only the symmetry is checked
   bool finite = true;          ///< whether all functions and their derivatives are, at all points
   bool passes_beside = false;  ///< whether it fails at the points, but not a little beside them

@@ -16,7 +16,8 @@ template <field F, System S>
   requires ForceDerivativeOver<S, double, F>
 class force_jacobian {
  public:
-  /// Of the motion that passes through these states (a range of phase_point<double, N>).
+  /// The Jacobian of the force on the motion that passes through these states (a range of phase_point<double,
+  /// N>).
   force_jacobian(const S& system, const std::ranges::range auto& states)
       : system_(&system),
         room_(size(system)),
@@ -31,7 +32,7 @@ class force_jacobian {
     }
   }
 
-  /// To the state where the next products are taken. Cost: a force, of a black box.
+  /// Moves to the state where the next products are taken. Cost: a force, of a black box.
   void move_to(const vector<double, S::dimension>& q) {
     q_ = q;
     if constexpr (may_differ) {

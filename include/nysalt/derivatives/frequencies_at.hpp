@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "nysalt/derivatives/force_jacobian.hpp"
-#include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/force.hpp"
 
@@ -100,12 +100,13 @@ std::vector<double> frequencies_at(const S& system, force_jacobian<field::whole,
   const Eigen::MatrixXd stiffness =
       factor.transpose() * detail::potential_hessian(jacobian, state.q) * factor;
   if (!stiffness.allFinite()) {
-    throw std::invalid_argument("frequencies_at: the force has no finite derivative at the state");
+    throw std::invalid_argument(
+        "frequencies_at: the force must have a finite derivative at the state, got none");
   }
   return detail::frequencies_of(stiffness);
 }
 
-/// The same at a single state.
+/// Frequencies at a single state.
 template <SeparableSystem S>
   requires detail::HasDifferentiableVelocity<S>
 std::vector<double> frequencies_at(const S& system, const phase_point<double, S::dimension>& state) {
@@ -115,15 +116,15 @@ std::vector<double> frequencies_at(const S& system, const phase_point<double, S:
 
 /// Frequencies along some states.
 struct frequencies_along {
-  std::vector<std::vector<double>> of_state;  ///< of each state, from low to high
+  std::vector<std::vector<double>> of_state;  ///< frequencies of each state, from low to high
   bool are_complete = false;                  ///< false: of each state only the highest, or none at all
 
-  /// A frequency and where it is met.
+  /// A frequency and the state where it occurs.
   struct maximum {
-    double frequency = 0.0;  ///< of the linearised motion
+    double frequency = 0.0;  ///< frequency of the linearised motion
     std::size_t state = 0;   ///< number of the state
   };
-  /// The highest of all, and where it is met; 0 and 0 if none is known.
+  /// The highest frequency and the state where it occurs; 0 and 0 if none is known.
   maximum highest() const {
     maximum result;
     for (std::size_t k = 0; k < of_state.size(); ++k) {
@@ -139,7 +140,7 @@ inline constexpr Eigen::Index most_for_all_frequencies = 64;
 
 /// All frequencies of each state (a range of phase_point<double, N>) of a system of at most
 /// most_for_all_frequencies degrees of freedom; of a larger one with a quadratic kinetic energy the highest,
-/// known to 1 %; else none. Throws what frequencies_at() and stiffness_along() do. Cost: of each state that
+/// known to 1 %; else none. Throws what frequencies_at() and hessian_spectrum() do. Cost: of each state that
 /// of frequencies_at(), or 8 to 40 directional derivatives.
 template <SeparableSystem S>
 frequencies_along frequencies_of_states(const S& system, const std::ranges::range auto& states) {
@@ -154,7 +155,7 @@ frequencies_along frequencies_of_states(const S& system, const std::ranges::rang
   }
   if constexpr (NystromSystem<S>) {
     if (std::ranges::empty(states) || !has_quadratic_kinetic(system)) return result;
-    for (const double square : stiffness_along(system, states).highest_of_state) {
+    for (const double square : hessian_spectrum(system, states).highest_of_state) {
       result.of_state.push_back({std::sqrt(std::max(0.0, square))});
     }
   }

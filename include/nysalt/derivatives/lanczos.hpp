@@ -8,13 +8,13 @@
 
 namespace nysalt {
 
-/// Where a spectrum ends, and the directions in which that was found.
+/// Both ends of a spectrum, with approximate eigenvectors.
 struct spectrum_ends {
   double lowest;                      ///< a bound from below of the lowest eigenvalue found
   double highest;                     ///< a bound from above of the highest eigenvalue found
   Eigen::VectorXd lowest_direction;   ///< the Ritz vector of the lowest, of length 1
   Eigen::VectorXd highest_direction;  ///< the Ritz vector of the highest, of length 1
-  int products;                       ///< how often the map was applied
+  int products;                       ///< applications of the map
 };
 
 /// A symmetric map v -> A v.

@@ -15,16 +15,20 @@ struct letter_check {
   /// Half of all digits: a formula that is wrong loses more, and rounding less.
   static constexpr double tolerance = 1.5e-8;
 
-  char letter = '?';                  ///< its name
-  bool finite = true;                 ///< states and derivatives, at all points
-  bool keeps_q = true;                ///< false: q changes, though moves_q is false
-  double slope_defect = 0.0;          ///< of the derivative by the coefficients, against differences
-  double symplecticity_defect = 0.0;  ///< of J^T Omega J = Omega, if it claims `symplectic`
-  double inverse_defect = 0.0;        ///< of x(-c) after x(c), if it claims `invertible`
-  double additivity_defect = 0.0;     ///< of x(d) after x(c) against x(c + d), if it claims `additive`
-  double reversibility_defect = 0.0;  ///< of R x(c) R x(c), if it claims `reversible`
+  char letter = '?';          ///< name of the letter
+  bool finite = true;         ///< states and derivatives, at all points
+  bool keeps_q = true;        ///< false: q changes, though moves_q is false
+  double slope_defect = 0.0;  ///< slope defect of the derivative by the coefficients, against differences
+  double symplecticity_defect =
+      0.0;  ///< symplecticity defect of J^T Omega J = Omega, if the letter claims `symplectic`
+  double inverse_defect = 0.0;  ///< inverse defect of x(-c) after x(c), if the letter claims `invertible`
+  double additivity_defect =
+      0.0;  ///< additivity defect of x(d) after x(c) against x(c + d), if the letter claims `additive`
+  double reversibility_defect =
+      0.0;  ///< reversibility defect of R x(c) R x(c), if the letter claims `reversible`
 
-  /// Of central differences, which keep two thirds of the digits, with a factor for their third derivative.
+  /// Tolerance of central differences, which keep two thirds of the digits, with a factor for their third
+  /// derivative.
   static constexpr double slope_tolerance = 1e-6;
 
   /// Whether everything is finite and each claim holds to the tolerance.

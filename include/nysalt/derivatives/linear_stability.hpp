@@ -17,7 +17,7 @@ namespace nysalt {
 /// the word has more than 64 evaluations a step, where it rotates, or unless there is a coefficient for each
 /// slot.
 stability_chart chart_stability(const run_time_word& word, const std::vector<double>& coefficients);
-/// The same of a word whose letters are known_letters.
+/// Stability chart of a word whose letters are known_letters.
 template <TypeLevelWord W>
 stability_chart chart_stability(const W& word,
                                 const typename W::template coefficients<double>& coefficients) {

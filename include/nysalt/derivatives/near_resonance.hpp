@@ -15,12 +15,12 @@ namespace nysalt {
 /// A step of a word turns a stiff oscillation by nearly k half turns, and small nonlinear errors add up from
 /// step to step.
 struct resonance {
-  frequency_band band;  ///< in which there is such a frequency
+  frequency_band band;  ///< frequency band that holds the resonant frequency
   int half_turns;       ///< k
 };
 
-/// From how many steps on a run is long: in shorter ones nothing was seen of a resonance that is as far as
-/// resonance_distance or a few times nearer.
+/// Number of steps from which a run is long: in shorter ones nothing was seen of a resonance that is as far
+/// as resonance_distance or a few times nearer.
 inline constexpr std::int64_t long_run = 10'000;
 /// The share of k pi that the phase of a step should keep from k pi in long runs. On the FPU chain (omega =
 /// 50) the largest energy error of 20 000 steps was, over that of the first tenth of them, 1.0 to 1.5 for

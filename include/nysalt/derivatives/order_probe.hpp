@@ -17,10 +17,10 @@ inline constexpr int highest_taylor_order = 10;
 /// A power series in the step h.
 using taylor = series<highest_taylor_order>;
 
-/// Numbers with nothing special about them, always the same, between 1/4 and 1.
+/// Fixed numbers in general position between 1/4 and 1.
 class generic_numbers {
  public:
-  /// The next of them.
+  /// The next number.
   double next() {  // the standard's distributions differ between libraries, its bits do not
     return 0.25 + 0.75 * (static_cast<double>(bits_() >> 11U) * 0x1p-53);
   }
@@ -71,7 +71,7 @@ class generic_gradient {
 class order_probe {
  public:
   static constexpr int dimension = 3;  ///< degrees of freedom
-  /// Decided while running, see HasQuadraticKinetic.
+  /// Decided at run time, see HasQuadraticKinetic.
   static constexpr bool may_have_quadratic_kinetic = true;
 
   /// K = p.p/2 if quadratic_kinetic, else a generic polynomial. Always the same V and start.
@@ -96,7 +96,7 @@ class order_probe {
 
   phase_point<taylor, 3> start() const { return start_.cast<taylor>(); }  ///< generic q and p, constant in h
 
-  /// Where the flow leads in the time h, by Picard's iteration x <- start + integral of x': each sweep gains
+  /// The flow over the time h, by Picard's iteration x <- start + integral of x': each sweep gains
   /// an order. As the series holds h x', integration divides the k-th coefficient by k.
   phase_point<taylor, 3> flow() const {
     auto x = start();

@@ -19,7 +19,7 @@ double reversibility_defect(const auto& map, const phase_point<double, N>& x) {
   return std::max((y.q - x.q).cwiseAbs().maxCoeff(), (y.p - x.p).cwiseAbs().maxCoeff());
 }
 
-/// The same for one step of a method.
+/// Reversibility defect of one step of a method.
 template <System S, Method M>
 double reversibility_defect(const S& system, const M& method, double step,
                             const phase_point<double, S::dimension>& x) {

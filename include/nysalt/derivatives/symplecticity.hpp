@@ -17,7 +17,7 @@ double symplecticity_defect(const auto& map, const phase_point<double, N>& x) {
   return (j.transpose() * omega * j - omega).cwiseAbs().maxCoeff();
 }
 
-/// The same for one step of a method.
+/// Symplecticity defect of one step of a method.
 template <System S, Method M>
 double symplecticity_defect(const S& system, const M& method, double step,
                             const phase_point<double, S::dimension>& x) {

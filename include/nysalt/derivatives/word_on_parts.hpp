@@ -18,20 +18,21 @@ namespace nysalt {
 /// Whether all letters of a word are known on an oscillator of one frequency: A, B, D, G, R, S, H and O.
 bool is_of_oscillators(const run_time_word& word);
 
-/// How much the linearised motion of a word magnifies, as energies.
+/// Transient growth of the linearised motion of a word, as energies.
 struct growth_of_energy {
   /// Largest (|M^n|^2 - 1) of up to early_steps steps: the energy error of oscillations, relative to their
   /// energy.
   double early = 0.0;
-  double late = 0.0;      ///< the same of all steps
+  double late = 0.0;      ///< largest |M^n|^2 - 1 over all steps
   std::size_t state = 0;  ///< number of the state where late is largest
 
   static constexpr std::int64_t early_steps = 64;  ///< some periods of fast motion, one of slow
-  /// Of the energy: what is less is not seen in what runs measure.
+  /// Smallest relevant growth of the energy: less does not show in results of runs.
   static constexpr double smallest = 0.05;
   /// Threefold is much: a stable motion whose energy swings by nine.
   static constexpr double too_much = 8.0;
-  /// What grows by less than this is not distinguished from a motion that has not yet shown all of its error.
+  /// Smallest relevant factor: growth by less than this is not distinguished from a motion that has not yet
+  /// shown all of its error.
   static constexpr double factor = 3.0;
 
   /// Whether late is too much, or has grown since early.
@@ -54,14 +55,14 @@ class word_on_parts {
   /// Modes that turn by less in a step, in radian, are too slow to meet a fast one, and are left out of M.
   static constexpr double least_turn = 0.01;
 
-  /// Of at most most_for_all_frequencies degrees of freedom. The mean is that of up to 8 of the states,
-  /// evenly spread; M is examined at as many of them as take some milliseconds together, and at half as many
-  /// if has_mean(). Cost: a Jacobian of each letter at each of these states.
+  /// A word on the parts of a system of at most most_for_all_frequencies degrees of freedom. The mean is that
+  /// of up to 8 of the states, evenly spread; M is examined at as many of them as take some milliseconds
+  /// together, and at half as many if has_mean(). Cost: a Jacobian of each letter at each of these states.
   word_on_parts(const model& system, const phase_points& states, const run_time_word& word);
 
   bool is_known() const { return why_not_.empty(); }       ///< M can be computed
   const std::string& why_not() const { return why_not_; }  ///< M cannot be computed; else empty
-  const std::string& word() const { return word_; }        ///< its letters
+  const std::string& word() const { return word_; }        ///< letters of the word
   std::size_t states() const { return at_.size(); }        ///< number of states that are examined
   /// Whether Hessians are near enough to their mean for that to be one of a motion: they differ from it by
   /// less than half of its largest eigenvalue.
@@ -75,7 +76,7 @@ class word_on_parts {
   /// at each, of the two the worse. Cost: some log2(steps) products of matrices for each state.
   growth_of_energy growth(const std::vector<double>& coefficients, double step, std::int64_t steps) const;
 
-  /// How far a step moves the equilibrium, in the norm of the energy, relative to the motion along the
+  /// Displacement of the equilibrium by a step, in the norm of the energy, relative to the motion along the
   /// states: kicks that are one period of a mode apart push it always in one phase. 0 without a mean.
   double displacement(const std::vector<double>& coefficients, double step) const;
 
@@ -87,7 +88,7 @@ class word_on_parts {
     std::size_t slots = 1;
     std::size_t first_kick = 0;  // number of the first Hessian
   };
-  /// In the coordinates in which the whole Hessian is diagonal.
+  /// The linearised step in the coordinates in which the whole Hessian is diagonal.
   struct linearised {
     Eigen::VectorXd squares;                 // of frequencies, from low to high
     std::vector<Eigen::MatrixXd> stiffness;  // of each slot of a kick

@@ -43,7 +43,7 @@ class any_reference {
                                                         std::type_identity<lanes>) const = 0;
   virtual std::shared_ptr<const any_reference> finer() const = 0;
   virtual std::string description() const = 0;
-  virtual bool tells_noise() const = 0;  ///< it follows paths of a system in a bath
+  virtual bool gives_noise() const = 0;  ///< it follows paths of a system in a bath
 };
 
 /// Small steps of a method, and the same along paths.
@@ -76,7 +76,7 @@ class typed_reference final : public any_reference {
     return std::make_shared<typed_reference>(system_, reference_.finer());
   }
   std::string description() const override { return reference_.description(); }
-  bool tells_noise() const override { return PathReference<R, S>; }
+  bool gives_noise() const override { return PathReference<R, S>; }
 
  private:
   template <class T>
@@ -131,7 +131,7 @@ class reference_value {
   }
   reference_value finer() const { return reference_value(held_->finer()); }
   std::string description() const { return held_->description(); }
-  bool tells_noise() const { return held_->tells_noise(); }  ///< it follows paths of a system in a bath
+  bool gives_noise() const { return held_->gives_noise(); }  ///< it follows paths of a system in a bath
   const std::shared_ptr<const any_reference>& held() const { return held_; }
 
  private:

@@ -102,11 +102,11 @@ class any_system {
       kernels_;
 };
 
-/// What is known of a system while running; concepts say the same of the type.
+/// What is known of a system at run time; concepts say the same of the type.
 struct model_facts {
   Eigen::Index size = 0;
   std::string description{};
-  std::string description_alone{};  ///< without its bath
+  std::string base_description{};  ///< without its bath
   bath in = bath::of_sigma(0.0, 0.0);
   std::vector<double> inverse_masses{};       ///< empty: all are 1
   std::vector<double> inverse_root_masses{};  ///< 1/sqrt(inverse mass); empty: all are 1

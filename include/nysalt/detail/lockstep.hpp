@@ -86,7 +86,7 @@ class lockstep {
   std::int64_t step() const { return run_.step; }              ///< at which all are
   const open_run<T, dimension>& open() const { return run_; }  ///< all that is needed to go on
   /// The run at the last check.
-  const open_run<T, dimension>& begin_of_stretch() const { return good_; }
+  const open_run<T, dimension>& begin_of_window() const { return good_; }
   /// The states at that step. Of lanes that diverged nothing is known but when; of a single one it is the
   /// first bad state.
   state synchronous() const { return stepper_->synchronous(run_); }
@@ -152,7 +152,7 @@ namespace detail {
 
 /// Reads the starts of trajectories side by side, and hands what was read over: step 0.
 template <class T, int N>
-void look_at_starts(const phase_point<T, N>& starts, int count, std::size_t width, const auto& read,
+void observe_starts(const phase_point<T, N>& starts, int count, std::size_t width, const auto& read,
                     auto&& take) {
   std::vector<T> numbers(width);
   read(starts, std::span<T>(numbers));

@@ -43,8 +43,8 @@ inline noise_intervals intervals_of_noise(std::string_view letters, const std::v
   std::vector<double> ends{0.0};
   for (const double c : coefficients) {
     if (c < 0.0) {
-      throw std::invalid_argument(
-          sentence("a letter O of {} has the coefficient {}: noise cannot go back in time", letters, c));
+      throw std::invalid_argument(sentence(
+          "coefficients of letters O must be >= 0, as noise goes forward in time; {} has {}", letters, c));
     }
     ends.push_back(ends.back() + c);
   }
@@ -52,7 +52,7 @@ inline noise_intervals intervals_of_noise(std::string_view letters, const std::v
   constexpr double rounding = 1e-9;  // coefficients are typed with ten digits or more
   if (!(std::abs(ends.back() - 1.0) <= rounding)) {
     throw std::invalid_argument(
-        sentence("the letters O of {} cover {} of a step, and not one: its noise is not that of a path",
+        sentence("the letters O of {} must cover one step, so that the noise is that of a path, got {}",
                  letters, ends.back()));
   }
   for (int parts = 1; parts <= most_parts; ++parts) {
@@ -65,7 +65,7 @@ inline noise_intervals intervals_of_noise(std::string_view letters, const std::v
     if (result.of_letters.size() + 1 == ends.size()) return result;
   }
   throw std::invalid_argument(
-      sentence("the letters O of {} do not divide a step into equal parts, {} at most", letters, most_parts));
+      sentence("the letters O of {} must divide a step into equal parts, {} at most", letters, most_parts));
 }
 
 }  // namespace nysalt

@@ -12,7 +12,7 @@
 
 namespace nysalt::detail {
 
-/// A state whose dimension is known while running, as one of N coordinates.
+/// A state whose dimension is known at run time, as one of N coordinates.
 template <int N, class T>
 decltype(auto) of_dimension(const phase_point<T, Eigen::Dynamic>& x) {
   if constexpr (N == Eigen::Dynamic) {

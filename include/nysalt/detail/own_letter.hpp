@@ -47,7 +47,7 @@ constexpr letter_facts facts_of_letter() {
 }
 
 /// A letter with its coefficients c and the step h folded in; the bath and the modes are for letters of the
-/// library alone.
+/// library only.
 template <class L, Scalar C>
 auto prepare_coefficients(const C* c, double h) {
   if constexpr (requires { L::prepare(c, h); }) {

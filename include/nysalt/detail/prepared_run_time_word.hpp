@@ -28,7 +28,9 @@ class prepared_word<run_time_word, C, N> {
   /// Folds step and surroundings into the coefficients. Throws std::invalid_argument unless there is a
   /// coefficient for each slot.
   prepared_word(const run_time_word& w, const std::vector<C>& c, double h, const surroundings_of_word& around)
-      : merges_(w.merges), halves_meet_(w.halves_meet), evaluates_to_open_(w.plan().is_known_when_open) {
+      : merges_(w.merges),
+        merges_half_steps_(w.merges_half_steps),
+        evaluates_to_open_(w.plan().is_known_when_open) {
     w.require_one_for_each_slot(c);
     if (w.is_processed()) {
       before_ = plain(detail::pre_processor(w), detail::pre_processor_coefficients(w, c), h, around);
@@ -37,11 +39,11 @@ class prepared_word<run_time_word, C, N> {
     run_.reads = plain_.reads = w.reads == field::soft ? field::soft : field::whole;
     run_.calls = plain_.calls = w.stochastic_letters > 0;
     run_.threads = around.threads;
-    if (halves_meet_) run_.loop.push_back({.number = seam_of_steps});
-    if (halves_meet_) run_.last.push_back({.number = seam_of_steps});
+    if (merges_half_steps_) run_.loop.push_back({.number = seam_of_steps});
+    if (merges_half_steps_) run_.last.push_back({.number = seam_of_steps});
     for (std::size_t i = 0; i < w.length; ++i) {
       const letter one = prepare(w, i, &c[w.first_slot(i)], h, around);
-      const bool is_at_seam = halves_meet_ && (i == 0 || i + 1 == w.length);
+      const bool is_at_seam = merges_half_steps_ && (i == 0 || i + 1 == w.length);
       if (!is_at_seam) plain_.loop.push_back(evaluating(one, w.plan().in_step[i]));
       if (i < w.first_in_loop() || is_at_seam) continue;
       letter in_run = one;
@@ -59,9 +61,9 @@ class prepared_word<run_time_word, C, N> {
       first_ = prepare(w, 0, c.data(), h, around);
       run_.undo = {prepare(w, 0, back.data(), h, around)};
     }
-    if (halves_meet_) {
+    if (merges_half_steps_) {
       const bool is_warm = around.heat_bath->sigma() > 0.0;
-      seam_ = noise_seam<C>(noise_.back(), noise_.front(), is_warm);
+      merged_ = merged_half_steps<C>(noise_.back(), noise_.front(), is_warm);
     }
     for (auto* letters : {&run_.loop, &run_.last, &plain_.loop}) end_step(*letters);
     plain_.last = plain_.loop;
@@ -87,26 +89,26 @@ class prepared_word<run_time_word, C, N> {
                                  auto& cursor) const {
     take(system, run_, x, steps, cursor, {});
   }
-  /// The same of an erased system, watched: look() is called with the synchronous state in y after `first`
+  /// The same of an erased system, watched: observe() is called with the synchronous state in y after `first`
   /// steps, and every `every` steps from there on.
   template <class T, ErasedSystem S>
   void advance(const S& system, flow_state<T, S::dimension>& x, flow_state<T, S::dimension>& y,
                std::int64_t steps, std::int64_t first, std::int64_t every, auto& cursor,
-               const auto& look) const {
+               const auto& observe) const {
     const auto see = [&] {
       if (merges_ && is_own(run_.undo.front())) apply_own(run_.undo.front().number, y, cursor.room);
       end(system, y, cursor);
-      look();
+      observe();
     };
     take(system, run_, x, steps, cursor,
          detail::watch<T>{.q = &y.q,
                           .p = &y.p,
                           .first = first,
                           .every = every,
-                          .look = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
+                          .observe = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
                           .context = const_cast<void*>(static_cast<const void*>(&see))});
   }
-  /// What an open state is at its step. Cost: the word's evaluations_to_look.
+  /// What an open state is at its step. Cost: the word's evaluations_to_observe.
   template <class T, System S>
   [[gnu::noinline]] void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     close_kernel(system, x, cursor);
@@ -121,7 +123,7 @@ class prepared_word<run_time_word, C, N> {
   template <class T, System S>
   [[gnu::noinline]] void step(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if constexpr (is_noisy<decltype(cursor)>) {
-      if (halves_meet_) seam_.begin(system, cursor, x);
+      if (merges_half_steps_) merged_.begin(system, cursor, x);
     }
     take(system, before_, x, 1, cursor, {});
     take(system, plain_, x, 1, cursor, {});
@@ -213,7 +215,7 @@ class prepared_word<run_time_word, C, N> {
     const auto act = [&](int number) {
       if (number >= first_own) return apply_own(number, x, cursor.room);
       if constexpr (is_noisy<decltype(cursor)>) {
-        if (number == seam_of_steps) return seam_.cross(system, cursor, x);
+        if (number == seam_of_steps) return merged_.cross(system, cursor, x);
         if (number != next_step) {
           const int k = number & ~ends_step;
           apply_noise(system, noise_[static_cast<std::size_t>(k)], k, cursor, x);
@@ -267,13 +269,13 @@ class prepared_word<run_time_word, C, N> {
   template <class T, System S>
   void end(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if constexpr (is_noisy<decltype(cursor)>) {
-      if (halves_meet_) seam_.end(system, cursor, x);
+      if (merges_half_steps_) merged_.end(system, cursor, x);
     }
     take(system, after_, x, 1, cursor, {});
   }
 
   bool merges_;
-  bool halves_meet_;
+  bool merges_half_steps_;
   bool evaluates_to_open_;
   detail::step_program<C> run_;
   detail::step_program<C> plain_;
@@ -283,7 +285,7 @@ class prepared_word<run_time_word, C, N> {
   std::vector<ornstein_uhlenbeck::prepared<C>> noise_;  // of the letters O, in their order
   std::vector<std::shared_ptr<const turn>> turns_;      // that the programs refer to
   std::vector<detail::prepared_own_letter<C>> own_;     // letters of one's own, in their order
-  noise_seam<C> seam_;
+  merged_half_steps<C> merged_;
 };
 
 }  // namespace nysalt

@@ -11,8 +11,8 @@
 #include <tuple>
 #include <utility>
 
+#include "nysalt/detail/merged_half_steps.hpp"
 #include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/noise_seam.hpp"
 #include "nysalt/detail/own_letter.hpp"
 #include "nysalt/detail/pairs_in_loop.hpp"
 #include "nysalt/word.hpp"
@@ -78,11 +78,11 @@ class prepared_word<word<L...>, C, N> {
         both[k] = c[W::slots - first::slots + k] + c[k];
         back[k] = -c[k];
       }
-      seam_ = detail::prepare_letter<first, N>(both.data(), h, around);
+      merged_ = detail::prepare_letter<first, N>(both.data(), h, around);
       undo_ = detail::prepare_letter<first, N>(back.data(), h, around);
-    } else if constexpr (W::halves_meet) {
-      seam_ = noise_seam<C>(std::get<W::length - 1>(letters_), std::get<0>(letters_),
-                            around.heat_bath->sigma() > 0.0);
+    } else if constexpr (W::merges_half_steps) {
+      merged_ = merged_half_steps<C>(std::get<W::length - 1>(letters_), std::get<0>(letters_),
+                                     around.heat_bath->sigma() > 0.0);
     }
   }
 
@@ -124,20 +124,21 @@ class prepared_word<word<L...>, C, N> {
   template <class T, System S>
   void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     if constexpr (W::merges) first::apply(system, undo_, x, cursor.room);
-    if constexpr (W::halves_meet) seam_.end(system, cursor, x);
+    if constexpr (W::merges_half_steps) merged_.end(system, cursor, x);
   }
   /// One step from only q and p. Cost: W::evaluations_of_plain_step.
   template <class T, System S>
   void step(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
-    if constexpr (W::halves_meet) seam_.begin(system, cursor, x);
-    plain<W::halves_meet ? 1 : 0>(system, x, cursor);
+    if constexpr (W::merges_half_steps) merged_.begin(system, cursor, x);
+    plain<W::merges_half_steps ? 1 : 0>(system, x, cursor);
     cursor.next();
-    if constexpr (W::halves_meet) seam_.end(system, cursor, x);
+    if constexpr (W::merges_half_steps) merged_.end(system, cursor, x);
   }
 
  private:
   using first = typename W::template letter<0>;
-  static constexpr std::size_t end = W::halves_meet ? W::length - 1 : W::length;  // of loop and plain step
+  static constexpr std::size_t end =
+      W::merges_half_steps ? W::length - 1 : W::length;  // of loop and plain step
 
   /// Whether a step of an open run is drifts and kicks in turn, several of each, whose forces nothing else
   /// needs.
@@ -149,7 +150,7 @@ class prepared_word<word<L...>, C, N> {
     for (std::size_t i = first; i < end; ++i) {
       if (!is_kick[i] && !is_drift[i]) return false;
       if (i > first && is_kick[i] == is_kick[i - 1]) return false;
-      if (is_kick[i] && W::plan.in_loop[i] != evaluation::alone) return false;
+      if (is_kick[i] && W::plan.in_loop[i] != evaluation::unshared) return false;
     }
     return true;
   }();
@@ -157,7 +158,7 @@ class prepared_word<word<L...>, C, N> {
   template <std::size_t I>
   double folded() const {
     if constexpr (W::merges && I + 1 == W::length) {
-      return seam_;
+      return merged_;
     } else {
       return std::get<I>(letters_);
     }
@@ -181,7 +182,7 @@ class prepared_word<word<L...>, C, N> {
     using letter = typename W::template letter<I>;
     if constexpr (StochasticFlow<letter>) {
       apply_noise(system, prepared, W::stochastic_number(I), cursor, x);
-    } else if constexpr (E == evaluation::alone &&
+    } else if constexpr (E == evaluation::unshared &&
                          requires { letter::evaluate_and_apply(system, prepared, x, cursor.room); }) {
       letter::evaluate_and_apply(system, prepared, x, cursor.room);
     } else {
@@ -201,10 +202,10 @@ class prepared_word<word<L...>, C, N> {
   template <class Plan, std::size_t I, class T, System S>
   [[gnu::always_inline]] void loop(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
     constexpr evaluation evaluates = Plan::evaluations[I];
-    if constexpr (W::halves_meet && I == 0) {
-      seam_.cross(system, cursor, x);
+    if constexpr (W::merges_half_steps && I == 0) {
+      merged_.cross(system, cursor, x);
     } else if constexpr (W::merges && I + 1 == W::length) {
-      apply<I, evaluates>(system, seam_, x, cursor);
+      apply<I, evaluates>(system, merged_, x, cursor);
     } else {
       apply<I, evaluates>(system, std::get<I>(letters_), x, cursor);
     }
@@ -222,8 +223,9 @@ class prepared_word<word<L...>, C, N> {
   using first_type = std::tuple_element_t<0, letters_type>;
 
   letters_type letters_;
-  std::conditional_t<W::halves_meet, noise_seam<C>, first_type> seam_{};  // last and first letter in one
-  first_type undo_{};                                                     // the first letter taken back
+  std::conditional_t<W::merges_half_steps, merged_half_steps<C>, first_type>
+      merged_{};       // last and first letter in one
+  first_type undo_{};  // the first letter taken back
 };
 
 }  // namespace nysalt

@@ -43,20 +43,21 @@ void require_served(const W& word, const S& system) {
   } else {
     for (const char letter : word.letters()) {
       if (const auto* own = word.own_letter(letter)) {
-        std::string alone;
+        std::string base;
         if constexpr (ErasedSystem<S>) {
-          alone = system.facts().description_alone;
+          base = system.facts().base_description;
         } else {
-          alone = describe(system);
+          base = describe(system);
         }
-        if (own->system != alone) {
+        if (own->system != base) {
           throw std::invalid_argument(
-              sentence("the word {} cannot step {}: the letter {} is of {}; make the word with this system",
-                       word.letters(), alone, letter, own->system));
+              sentence("the word {} must be made with the system {}, got the letter {} of {}; make the word "
+                       "with this system",
+                       word.letters(), base, letter, own->system));
         }
         if (!own->template serves<T>()) {
           throw std::invalid_argument(
-              sentence("the word {} cannot step {} side by side: the letter {} asks for one lane",
+              sentence("the word {} must step {} one trajectory at a time, as the letter {} has one lane",
                        word.letters(), describe(system), letter));
         }
       }

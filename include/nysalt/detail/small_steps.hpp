@@ -49,10 +49,10 @@ std::int64_t advance_on_path(const S& system, const M& method, double step, int 
   const std::int64_t parts = std::max<std::int64_t>(std::ssize(xi), 1);
   const auto of_a_part = whole_steps(t, step, parts);
   if (!of_a_part) {
-    throw std::invalid_argument(sentence(
-        "fine_paths: the time {} in {} equal parts, as the noise is wanted, is not a multiple of the fine "
-        "step {}",
-        t, parts, step));
+    throw std::invalid_argument(
+        sentence("fine_paths: the time {} in the {} equal parts of the noise must be a multiple of "
+                 "the fine step {}",
+                 t, parts, step));
   }
   const std::int64_t steps = *of_a_part * parts;
   const double h = t / (static_cast<double>(*of_a_part) * static_cast<double>(parts));

@@ -29,7 +29,7 @@ void step_on_oscillator(const run_time_word& word, const std::vector<double>& co
     if (!is_known) {
       throw std::invalid_argument(sentence(
           "the word {} has the letter {}, whose action on an oscillator is not known: its stability is "
-          "looked at by trial runs",
+          "examined by trial runs",
           word.letters(), word.letters()[i]));
     }
   }

@@ -52,9 +52,9 @@ struct step_program {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const bool is_kick = begins_with_kick == (i % 2 == 0);
       if (loop[i].what != (is_kick ? action::kick : action::drift)) return;
-      if (is_kick && loop[i].evaluates != evaluation::alone) return;
+      if (is_kick && loop[i].evaluates != evaluation::unshared) return;
       const bool may_be_kept = !begins_with_kick && i + 1 == loop.size();
-      if (is_kick && !may_be_kept && last[i].evaluates != evaluation::alone) return;
+      if (is_kick && !may_be_kept && last[i].evaluates != evaluation::unshared) return;
     }
     keeps_last_force = !begins_with_kick && last.back().evaluates == evaluation::shared;
     for (std::size_t i = 0; i < loop.size(); i += 2)
@@ -69,14 +69,14 @@ struct callback {
 };
 
 /// An observer of a run: after `first` steps, and every `every` steps from there on, the synchronous state is
-/// copied to q and p, and `look` is called. A null `look` means an unobserved run.
+/// copied to q and p, and `observe` is called. A null `observe` means an unobserved run.
 template <class T>
 struct watch {
   vector<T, Eigen::Dynamic>* q = nullptr;
   vector<T, Eigen::Dynamic>* p = nullptr;
   std::int64_t first = 0;
   std::int64_t every = 1;
-  void (*look)(void* context) = nullptr;
+  void (*observe)(void* context) = nullptr;
   void* context = nullptr;
 };
 

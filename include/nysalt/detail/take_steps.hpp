@@ -90,7 +90,7 @@ template <field F, class S, class State, class C>
     case action::kick: {
       const C c = letter.coefficient;
       if constexpr (F == field::whole && HasKick<S, T, C>) {
-        if (letter.evaluates == evaluation::alone) return system.kick(x.q, x.p, c);
+        if (letter.evaluates == evaluation::unshared) return system.kick(x.q, x.p, c);
       }
       if (letter.evaluates != evaluation::none) force_of<F, T>(system, x.q, x.f);
       kick_of<F>::apply(system, c, x, room);
@@ -142,21 +142,21 @@ void show(const S& system, State& x, auto& room, const step_program<C>& letters,
     seen.p[i] = x.p[i];
   }
   for (const auto& letter : letters.undo) apply_known<F>(system, letter, seen, room);
-  watched.look(watched.context);
+  watched.observe(watched.context);
 }
 
-/// Splits `steps` steps at the observation times: go_on(n) takes n steps, look() observes.
+/// Splits `steps` steps at the observation times: go_on(n) takes n steps, observe() observes.
 template <class T>
 [[gnu::always_inline]] inline void watch_steps(std::int64_t steps, const watch<T>& watched, const auto& go_on,
-                                               const auto& look) {
+                                               const auto& observe) {
   std::int64_t step = 0;
-  std::int64_t next = watched.look == nullptr ? steps + 1 : watched.first;
+  std::int64_t next = watched.observe == nullptr ? steps + 1 : watched.first;
   while (step < steps) {
     const std::int64_t end = std::min(next, steps);
     go_on(end - step);
     step = end;
     if (step != next) return;
-    look();
+    observe();
     next += watched.every;
   }
 }

@@ -50,7 +50,7 @@ void add_neighbours(std::vector<T>& level) {
 /// Throws std::invalid_argument if there is no term. Memory: a sixteenth of the terms.
 template <class T>
 T tree_sum(std::span<const T> terms) {
-  if (terms.empty()) throw std::invalid_argument("tree_sum: there is nothing to add");
+  if (terms.empty()) throw std::invalid_argument("tree_sum: terms must be one or more, got none");
   std::vector<T> level = detail::sums_of_leaves(terms);
   while (level.size() > 1) detail::add_neighbours(level);
   return level.front();

@@ -114,7 +114,7 @@ class typed_kernels final : public kernels<T> {
                const watch<T>& watched) const final {
     if constexpr (std::same_as<T, double> && N == Eigen::Dynamic && LocalSystem<S>) {
       const typed_site_kernels<S> sites(*system_);
-      const std::int64_t steps_at_once = watched.look == nullptr ? steps : std::min(steps, watched.every);
+      const std::int64_t steps_at_once = watched.observe == nullptr ? steps : std::min(steps, watched.every);
       const std::int64_t kicks = steps_at_once * std::ssize(letters.pairs);
       const int threads = threads_in_tiles(sites.layout(), letters.threads, kicks);
       if (!letters.pairs.empty() && threads > 0) {
@@ -269,9 +269,9 @@ class typed_system final : public any_system {
   std::vector<frequency_band> frequency_bands(const bath* in) const override {
     if constexpr (HasBath<S>) {
       if constexpr (requires {
-                      { system_.alone() } -> HasFrequencyBands;
+                      { system_.base() } -> HasFrequencyBands;
                     }) {
-        if (!in) return system_.alone().frequency_bands();
+        if (!in) return system_.base().frequency_bands();
       }
       if constexpr (HasFrequencyBands<S>) return system_.frequency_bands();
     } else if constexpr (HasFrequencyBands<S>) {
@@ -317,7 +317,7 @@ std::shared_ptr<const any_system> erased(const S& system) {
 }
 template <class S>
 std::shared_ptr<const any_system> erased(const in_bath<S>& system) {
-  return erased<S>(system.alone());
+  return erased<S>(system.base());
 }
 
 template <class S, class T>
@@ -334,7 +334,7 @@ std::string letters_served() {
 /// The kind of the system without its bath.
 template <class S>
 std::string kind_without_bath(const S& system) {
-  if constexpr (HasBath<S> && requires { kind_of(system.alone()); }) return kind_of(system.alone());
+  if constexpr (HasBath<S> && requires { kind_of(system.base()); }) return kind_of(system.base());
   return kind_of(system);
 }
 
@@ -343,8 +343,8 @@ template <class S>
 model_facts facts_of(const S& system) {
   model_facts facts;
   facts.size = nysalt::size(system);
-  facts.description = facts.description_alone = describe(system);
-  if constexpr (requires { describe(system.alone()); }) facts.description_alone = describe(system.alone());
+  facts.description = facts.base_description = describe(system);
+  if constexpr (requires { describe(system.base()); }) facts.base_description = describe(system.base());
   if constexpr (HasBath<S>) facts.in = static_cast<const bath&>(system.bath());
   if constexpr (HasInverseMass<S>) {
     for (Eigen::Index i = 0; i < facts.size; ++i) {

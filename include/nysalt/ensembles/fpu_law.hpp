@@ -36,8 +36,8 @@ class fpu_law {
                  spread, soft.displacement, soft.velocity));
   }
 
-  /// Of the soft energy omega^2, half in motion (m y_0^2/2) and half in the two springs at the ends (x_0^4/2
-  /// together; those between start at rest).
+  /// An initial distribution with the soft energy omega^2, half in motion (m y_0^2/2) and half in the two
+  /// springs at the ends (x_0^4/2 together; those between start at rest).
   static fpu_law soft_dominated(const fpu_chain<Pairs>& chain) {
     const auto m = static_cast<double>(chain.pairs());
     return fpu_law(chain, 1.0, {std::sqrt(chain.omega()), chain.omega() / std::sqrt(m)});

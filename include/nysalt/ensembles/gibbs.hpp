@@ -26,7 +26,7 @@ class gibbs_chains {
   std::string description() const;
 
  private:
-  model alone_;
+  model base_;
   initial_states from_;
   double temperature_;
   burn_in_report report_;
@@ -57,9 +57,9 @@ extern template phase_point<lanes, Eigen::Dynamic> gibbs_chains::block<lanes>(st
 template <int N>
 class gibbs {
  public:
-  /// Of a system in its bath. Throws std::invalid_argument if the bath has no temperature or that is zero, if
-  /// an option is out of range, or if there is neither a step nor frequency_bands(); std::runtime_error if
-  /// chains diverge, do not become stationary, or a check fails.
+  /// The Gibbs distribution of a system in a bath. Throws std::invalid_argument if the bath has no
+  /// temperature or that is zero, if an option is out of range, or if there is neither a step nor
+  /// frequency_bands(); std::runtime_error if chains diverge, do not become stationary, or a check fails.
   template <HasBath S, Ensemble<S> E>
     requires(NystromSystem<S> && S::dimension == N)
   gibbs(const S& system, const E& from, const burn_in_options& options = {})
@@ -73,8 +73,8 @@ class gibbs {
     return block<double>(seed, static_cast<std::int64_t>(n), 1);
   }
 
-  /// Those of `count` trajectories from the first on, one in each lane of T, with the bits that each has
-  /// without the others. Throws std::runtime_error if one diverges.
+  /// Initial states of `count` trajectories from the first on, one in each lane of T, with the bits that each
+  /// has without the others. Throws std::runtime_error if one diverges.
   template <class T>
   phase_point<T, N> block(std::uint64_t seed, std::int64_t first, int count) const {
     if constexpr (std::same_as<T, double> || std::same_as<T, detail::lanes>) {

@@ -22,12 +22,12 @@ class listed {
   /// Throws std::out_of_range beyond the last state.
   phase_point<double, N> operator()(std::uint64_t, std::uint64_t n) const {
     if (n >= states_.size()) {
-      throw std::out_of_range(
-          sentence("listed: start {} was asked for, {} are given", n + 1, states_.size()));
+      throw std::out_of_range(sentence("listed: an initial state must be in the list, got number {} of {}",
+                                       n + 1, states_.size()));
     }
     return states_[n];
   }
-  std::size_t size() const { return states_.size(); }  ///< how many are given
+  std::size_t size() const { return states_.size(); }  ///< number of states
   std::string description() const { return sentence("listed({} states)", states_.size()); }
 
  private:

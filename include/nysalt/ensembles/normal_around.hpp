@@ -22,7 +22,8 @@ class normal_around {
     if (!is_finite(centre_) || centre_.q.size() != centre_.p.size() || !(deviation_q >= 0.0) ||
         !(deviation_p >= 0.0) || !std::isfinite(deviation_q) || !std::isfinite(deviation_p)) {
       throw std::invalid_argument(
-          "normal_around: needs a finite centre, as many q as p, and finite deviations >= 0");
+          "normal_around: centre must be finite, with as many q as p, and deviations must be "
+          "finite and >= 0");
     }
   }
 

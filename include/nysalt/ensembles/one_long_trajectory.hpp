@@ -12,13 +12,13 @@
 
 namespace nysalt {
 
-/// Length of the trajectory, and what is kept of it.
+/// Length of the trajectory, and the number of states kept.
 struct long_trajectory_options {
   double length = 25'000.0;            ///< a time, burn-in included
   double burn_in = 0.0;                ///< a time at its beginning, of which no state is kept
   double step = 0.0;                   ///< h of BAOAB; 0: omega h = 0.1 at the highest frequency
-  std::int64_t most_states = 100'000;  ///< that are kept, evenly thinned; at most 100000
-  std::uint64_t seed = 1;              ///< of the start and the noise
+  std::int64_t most_states = 100'000;  ///< largest number of states kept, evenly thinned; at most 100000
+  std::uint64_t seed = 1;              ///< seed of the start and the noise
 };
 
 namespace detail {
@@ -56,7 +56,7 @@ class one_long_trajectory {
   one_long_trajectory(const S& system, const E& from, const long_trajectory_options& options = {})
       : held_(std::make_shared<detail::long_trajectory>(system, from, options)) {}
 
-  std::size_t states() const { return held_->states(); }  ///< how many are kept
+  std::size_t states() const { return held_->states(); }  ///< number of states kept
 
   /// The start of trajectory n: one of the states.
   phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {

@@ -21,8 +21,8 @@ namespace nysalt {
 template <int N>
 class thermal_positions {
  public:
-  /// Of a system, for its masses. Throws std::invalid_argument if there is no position, one does not fit the
-  /// system or is not finite, or kT is not positive and finite.
+  /// Positions for a system, whose masses scale the momenta. Throws std::invalid_argument if there is no
+  /// position, one does not fit the system or is not finite, or kT is not positive and finite.
   template <SeparableSystem S>
     requires(S::dimension == N)
   thermal_positions(const S& system, std::vector<vector<double, N>> positions, double temperature)

@@ -16,12 +16,12 @@ inline constexpr std::size_t plain_starts = 128;
 
 /// Starts of an ensemble from number `first` on: 128 in its order and the 64 most energetic of 896 that come
 /// next, as energetic starts, which are rare, meet the highest frequencies; fewer where states are large, or
-/// the ensemble has no more. Of an ensemble whose states are expensive to make, `most_of_dear` and 64 at
+/// the ensemble has no more. Of an ensemble whose states are expensive to make, `most_if_expensive` and 64 at
 /// most.
 std::vector<phase_point<double, Eigen::Dynamic>> typical_and_energetic_starts(const model& system,
                                                                               const initial_states& ensemble,
                                                                               std::uint64_t seed,
                                                                               std::int64_t first,
-                                                                              std::int64_t most_of_dear);
+                                                                              std::int64_t most_if_expensive);
 
 }  // namespace nysalt

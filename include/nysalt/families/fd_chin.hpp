@@ -25,7 +25,7 @@ struct fd_chin : composition<2> {
   static std::array<double, 2> start() { return {1.0 / 6.0, 1.0 / 24.0}; }
 
   /// Two equal steps of kick-drift-kick.
-  static std::array<double, 2> refuge() { return {0.25, 0.0}; }
+  static std::array<double, 2> most_stable_member() { return {0.25, 0.0}; }
 
   template <Scalar C>
   static std::array<C, 6> coefficients(const std::array<C, 2>& theta) {

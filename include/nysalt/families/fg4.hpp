@@ -54,7 +54,7 @@ struct gradient_composition : composition<3> {
   }
 
   /// Three equal steps of drift-kick-drift.
-  static std::array<double, 3> refuge() { return {1.0 / 6.0, 1.0 / 3.0, 0.0}; }
+  static std::array<double, 3> most_stable_member() { return {1.0 / 6.0, 1.0 / 3.0, 0.0}; }
 
   template <Scalar C>
   static std::array<C, 8> coefficients(const std::array<C, 3>& theta) {

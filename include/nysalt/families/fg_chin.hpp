@@ -25,9 +25,9 @@ struct fg_chin : composition<2> {
   static std::array<double, 2> start() { return {1.0 / 6.0, 1.0 / 72.0}; }
 
   /// Two equal steps of kick-drift-kick.
-  static std::array<double, 2> refuge() { return {0.25, 0.0}; }
+  static std::array<double, 2> most_stable_member() { return {0.25, 0.0}; }
 
-  /// The parameters that a method of this word has.
+  /// Parameters of a method of this word.
   template <class M>
   static std::array<double, 2> of(const M& method) {
     static_assert(std::is_same_v<typename M::word, word>);

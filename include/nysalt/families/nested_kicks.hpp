@@ -43,7 +43,7 @@ inline constexpr std::array<char, 10> name_of_nested{
 }  // namespace detail
 
 /// `Outer` kicks of the parts Fast and Slow together and one more, which merges, with Inner drifts and
-/// Inner - 1 kicks of Fast alone between any two of them. With Inner = n and Outer = 1 it is the word of
+/// Inner - 1 kicks of Fast only between any two of them. With Inner = n and Outer = 1 it is the word of
 /// r-RESPA: k A (F A)^(n - 1) k.
 template <std::size_t Fast, std::size_t Slow, std::size_t Inner, std::size_t Outer = 1>
 using nested_word =
@@ -56,10 +56,12 @@ using nested_word =
 template <std::size_t Fast, std::size_t Slow, int Inner, int Outer = 1>
   requires(Inner >= 1 && Outer >= 1 && Inner < 10 && Outer < 10 && Inner * Outer >= 2)
 struct nested_kicks : composition<(Inner * Outer - 1) / 2 + Inner * Outer / 2 + Outer / 2> {
-  static constexpr std::size_t drifts = static_cast<std::size_t>(Inner * Outer);  ///< of a step
+  static constexpr std::size_t drifts =
+      static_cast<std::size_t>(Inner * Outer);                  ///< number of drifts in a step
   static constexpr std::size_t free_drifts = (drifts - 1) / 2;  ///< parameters that are drifts
-  static constexpr std::size_t free_fast = drifts / 2;          ///< that are kicks of Fast
-  static constexpr std::size_t free_slow = static_cast<std::size_t>(Outer) / 2;  ///< that are kicks of Slow
+  static constexpr std::size_t free_fast = drifts / 2;  ///< number of free parameters that are kicks of Fast
+  static constexpr std::size_t free_slow =
+      static_cast<std::size_t>(Outer) / 2;  ///< number of free parameters that are kicks of Slow
   static constexpr std::size_t free = free_drifts + free_fast + free_slow;
 
   using word = nested_word<Fast, Slow, static_cast<std::size_t>(Inner), static_cast<std::size_t>(Outer)>;
@@ -76,8 +78,8 @@ struct nested_kicks : composition<(Inner * Outer - 1) / 2 + Inner * Outer / 2 + 
     for (std::size_t k = 1; k < free_slow; ++k) all[free_drifts + free_fast + k] = 1.0 / Outer;
     return all;
   }
-  /// What the learner falls back on: r-RESPA.
-  static std::array<double, free> refuge() { return start(); }
+  /// Member with the longest stability interval: r-RESPA.
+  static std::array<double, free> most_stable_member() { return start(); }
 
   template <Scalar C>
   static typename word::template coefficients<C> coefficients(const std::array<C, free>& theta) {

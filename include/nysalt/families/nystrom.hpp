@@ -32,7 +32,7 @@ struct nystrom {
   static std::array<double, 2> start() { return {0.5, 0.5 * (1.0 - 0.19318332750378357396)}; }
 
   /// Two equal steps of drift-kick-drift.
-  static std::array<double, 2> refuge() { return {0.5, 0.375}; }
+  static std::array<double, 2> most_stable_member() { return {0.5, 0.375}; }
 
   template <Scalar C>
   static std::array<C, 5> coefficients(const std::array<C, 2>& theta) {

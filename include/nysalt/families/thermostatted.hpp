@@ -14,7 +14,7 @@ namespace nysalt {
 /// without noise (sigma = 0): 1 at the end, and in the middle of what is not symmetric; else 2 at most.
 template <Family F, placement P>
 struct thermostatted_family {
-  using plain = F;  ///< the same without letters O
+  using plain = F;  ///< family without letters O
   using word = thermostatted_word<typename F::word, P>;
   static constexpr int parameters = F::parameters;
   static constexpr auto parameter_names = F::parameter_names;

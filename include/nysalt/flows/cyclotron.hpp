@@ -18,7 +18,7 @@ concept HasMagneticField = System<S> && S::dimension == 3 && requires(const S& s
 /// m: the exact flow of |v|^2/2 with v = p - A(q): v turns around the field, and q goes along the helix.
 /// Symplectic in q and p. With -p it would turn the other way, so that R(q, p) = (q, -p) does not reverse it.
 struct cyclotron_flow : exact_flow<'m'> {
-  static constexpr bool reversible = false;  ///< as the field would have to turn round with p
+  static constexpr bool reversible = false;  ///< false: the field would have to be reversed with p
 
   template <System S, Scalar T>
   static constexpr bool serves = HasMagneticField<S>;
@@ -48,8 +48,8 @@ struct cyclotron_flow : exact_flow<'m'> {
 /// q.
 struct velocity_drift : exact_flow<'v'> {
   static constexpr bool symplectic = false;
-  static constexpr bool reversible = false;  ///< as the field would have to turn round with p  ///< R(q, p) =
-                                             ///< (q, -p) does not reverse it, as v is not p
+  static constexpr bool reversible = false;  ///< false: R(q, p) = (q, -p) is no reversal,
+                                             ///< as v is not p
 
   template <System S, Scalar T>
   static constexpr bool serves = HasMagneticField<S>;
@@ -68,7 +68,7 @@ struct boris_turn : exact_flow<'w'> {
   static constexpr bool moves_q = false;
   static constexpr bool additive = false;
   static constexpr bool symplectic = false;
-  static constexpr bool reversible = false;  ///< as the field would have to turn round with p
+  static constexpr bool reversible = false;  ///< false: the field would have to be reversed with p
 
   template <System S, Scalar T>
   static constexpr bool serves = HasMagneticField<S>;

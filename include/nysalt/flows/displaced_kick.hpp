@@ -13,12 +13,12 @@ struct displaced_kick_coefficients {
   C displacement{0.0};  ///< c h^2
 };
 
-/// D: a kick with the force at a displaced point, its second coefficient beside it:
+/// D: a kick with the force at a displaced point, with two coefficients:
 ///   p += b h f(q + c h^2 M^-1 f(q)),   f = -grad V.
 /// The gradient kick G(b, b c/2) up to terms of h^5, without a derivative of the force: two evaluations, of a
-/// black box too. It keeps volume and runs back with the step -h, but is not symplectic unless f is linear:
-/// it is for Metropolis' rule, which asks no more. Where a quadratic K is meant. Source: [yin_mawhinney_2011;
-/// schaefers_finkenrath_guenther_knechtli_2024].
+/// black box too. Volume-preserving and reversible, but not symplectic unless f is linear:
+/// it suits Metropolis' rule, which requires volume and reversibility only. For quadratic K. Source:
+/// [yin_mawhinney_2011; schaefers_finkenrath_guenther_knechtli_2024].
 struct displaced_kick {
   static constexpr char letter = 'D';
   static constexpr std::size_t slots = 2;

@@ -5,7 +5,7 @@
 
 namespace nysalt {
 
-/// What the exact flow of a part of H over the time c h is, unless it says otherwise: one coefficient, no
+/// Default properties of an exact flow of a part of H over the time c h: one coefficient, no
 /// force, additive, symplectic, its own inverse with -c, reversible, of every system. A letter of one's own
 /// derives from it and adds the map
 ///   template <System S, class State, class C>
@@ -23,7 +23,8 @@ struct exact_flow {
   static constexpr bool additive = true;
   static constexpr bool symplectic = true;
   static constexpr bool invertible = true;
-  static constexpr bool reversible = true;  ///< with R(q, p) = (q, -p): R flow R flow is the identity
+  static constexpr bool reversible =
+      true;  ///< reversibility with R(q, p) = (q, -p): R flow R flow is the identity
 
   template <System S, Scalar T>
   static constexpr bool serves = true;

@@ -11,7 +11,7 @@ template <Scalar C>
 struct gradient_kick_coefficients {
   C of_f{0.0};             ///< b h
   C of_g{0.0};             ///< 2 c h^3
-  double reach_of_v{0.0};  ///< by how much of M^-1 f a black box goes to either side: a part of h^2
+  double reach_of_v{0.0};  ///< difference step of a black box along M^-1 f: a fraction of h^2
 };
 
 /// A kick with the force of b V - c h^2 |grad V|^2 in the metric of M^-1, its second coefficient beside it:

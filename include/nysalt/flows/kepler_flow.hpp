@@ -121,10 +121,10 @@ void move_on_orbit(double mu, const C& time, std::array<T, 3>& q, std::array<T, 
 
 }  // namespace detail
 
-/// K: each planet goes along its ellipse, parabola or hyperbola around the centre of mass of what is inside,
-/// exactly: the flow of K and kepler_motions, part 0 of a solar_system. Of one lane, as Kepler's equation
-/// takes as many iterations as each state needs. Cost: no force; some ten evaluations of four Stumpff
-/// functions a planet. Source: [wisdom_holman_1991; danby_1988].
+/// K: the exact motion of each planet along an ellipse, parabola or hyperbola around the centre of mass of
+/// the bodies inside: the flow of K and kepler_motions, part 0 of a solar_system. One trajectory at a time,
+/// as the number of iterations of Kepler's equation depends on the state. Cost: no force; some ten
+/// evaluations of four Stumpff functions a planet. Source: [wisdom_holman_1991; danby_1988].
 struct kepler_flow : exact_flow<'K'> {
   template <System S, Scalar T>
   static constexpr bool serves = requires(const S& s) { s.template part<0>().masses().attraction(0); };

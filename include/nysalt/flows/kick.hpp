@@ -39,8 +39,8 @@ struct kick_of {
     for (Eigen::Index i = 0; i < n; ++i) x.p[i] += x.f[i] * c;
   }
 
-  /// The same where nothing else needs the force: by the system's own kick, or with a force that is at home
-  /// in registers if its dimension is fixed.
+  /// Evaluates and applies a force that no other letter needs: by the system's own kick, or with a force that
+  /// is at home in registers if its dimension is fixed.
   template <System S, class State, CoefficientOf<typename State::scalar_type> C>
   static void evaluate_and_apply(const S& system, const C& c, State& x, auto& room) {
     using T = typename State::scalar_type;

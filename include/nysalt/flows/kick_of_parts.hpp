@@ -37,7 +37,7 @@ struct kick_of_parts : exact_flow<sizeof...(Part) == 1 ? static_cast<char>('0' +
   /// The part whose time each coefficient is, a digit for each.
   static constexpr std::string_view times{digits.data(), digits.size()};
 
-  /// How often it evaluates the force of a part: 0 or 1.
+  /// Number of evaluations of the force of a part: 0 or 1.
   static constexpr int evaluations_of_part(std::size_t part) { return (0 + ... + (part == Part ? 1 : 0)); }
 
   template <System S, Scalar T>
@@ -68,11 +68,11 @@ struct kick_of_parts : exact_flow<sizeof...(Part) == 1 ? static_cast<char>('0' +
   }
 };
 
-/// The flow of V_I alone, named by the digit I.
+/// The flow of the part V_I, named by the digit I.
 template <std::size_t Part>
 using kick_of_part = kick_of_parts<Part>;
 
-/// How often a step of an open run evaluates the force of a part: what a declared price multiplies. Letters
+/// Evaluations of the force of a part in a step of an open run, which a declared price multiplies. Letters
 /// that do not say, such as drifts, evaluate none.
 template <TypeLevelWord W>
 constexpr int evaluations_of_part(std::size_t part) {

@@ -17,19 +17,19 @@ namespace nysalt {
 /// Result of a trial at another size.
 struct size_trial {
   trial_result run;       ///< the trial run, if the guard had no objection
-  std::string objection;  ///< one sentence on why the method is refused; empty if it passed
+  std::string objection;  ///< reason of the refusal, one sentence; empty if the method passed
 
   /// Whether the guard had no objection and the trial run was made and passed.
   bool passed() const { return objection.empty(); }
 };
 
-/// A stability_guard along starts of the larger system, with the bands that it declares, and then a trial
-/// run: from 8 to 64 of the starts, the fewer the larger the system, half of them energetic ones, and of 500
-/// to `options.steps` steps. Where these are too few to tell, the
-/// guard has the last word on frequencies that are met rarely. A trial that could not be run is an objection.
-/// Throws what stability_guard and trial_run do. Cost: that of the guard, and some 4 10^8 coordinates moved
-/// once each, or what 8 trajectories of 500 steps take if that is more; of a black box 2 10^5 force
-/// evaluations, or as many as these trajectories take.
+/// Test of a method at another size: a stability_guard along initial states of the larger system, with the
+/// bands that this system declares, and then a trial run: from 8 to 64 of the starts, the fewer the larger
+/// the system, half of them energetic ones, and of 500 to `options.steps` steps. Where these are too few for
+/// a verdict, the guard has the last word on frequencies that are met rarely. A trial that could not be run
+/// is an objection. Throws what stability_guard and trial_run do. Cost: that of the guard, and some 4 10^8
+/// coordinates moved once each, or what 8 trajectories of 500 steps take if that is more; of a black box 2
+/// 10^5 force evaluations, or as many as these trajectories take.
 size_trial try_at_size(const model& system, const tabulated& method, double step,
                        const initial_states& starts, const trial_options& options = {});
 

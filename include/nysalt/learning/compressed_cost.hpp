@@ -10,11 +10,12 @@
 
 namespace nysalt {
 
-/// With J^T J = V D V^T the residuals r' = (D^{-1/2} V^T J^T r, the root of what r^T r has more) and their
-/// Jacobian J' = (D^{1/2} V^T, 0) have the loss, gradient and normal matrix of r and J, hence the same steps.
-/// Directions with an eigenvalue below 1e-13 of the largest, where it is rounding, are left out: no residual
-/// changes along them. Where residuals are small, twice J^T J is the Hessian, so that such a direction is one
-/// of the flat ones that `curvature` finds, with a coarser sieve.
+/// A least-squares cost of as many residuals as parameters, and one more: with J^T J = V D V^T the residuals
+/// r' = (D^{-1/2} V^T J^T r, the root of what r^T r has more) and their Jacobian J' = (D^{1/2} V^T, 0) have
+/// the loss, gradient and normal matrix of r and J, hence the same steps. Directions with an eigenvalue below
+/// 1e-13 of the largest, where it is rounding, are left out: no residual changes along them. Where residuals
+/// are small, twice J^T J is the Hessian, so that such a direction is one of the flat ones that `curvature`
+/// finds, with a coarser sieve.
 ///
 /// Normal equations square the condition number, which decides how well a step is known and not where the
 /// search ends: that is where J^T r, summed from the residuals themselves, vanishes. Ceres' own damping,
@@ -28,7 +29,7 @@ class compressed_cost {
   /// Whether the point would not be rejected. Cost: that of Evaluate(), which then knows it.
   bool is_usable_at(const Eigen::VectorXd& theta) const;
 
-  /// As ceres::CostFunction has it: false where the point is rejected. Cost: a pass with derivatives at a new
+  /// Overrides ceres::CostFunction: false where the point is rejected. Cost: a pass with derivatives at a new
   /// point.
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const;
 

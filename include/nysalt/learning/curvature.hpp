@@ -15,12 +15,12 @@ namespace nysalt {
 
 /// Contributions of trajectories, or other blocks of data, to the gradient of a loss: those of this rank.
 struct trajectory_scores {
-  std::vector<Eigen::VectorXd> of_each;  ///< one gradient for each block of this rank
-  shard share;                           ///< which blocks this rank has
+  std::vector<Eigen::VectorXd> of_each;  ///< gradients, one for each block of this rank
+  shard share;                           ///< distribution of the blocks over ranks
 
   /// All blocks are here.
   trajectory_scores(std::vector<Eigen::VectorXd> all) : of_each(std::move(all)), share(std::ssize(of_each)) {}
-  /// This rank's blocks of those that ranks share.
+  /// Scores of the blocks of this rank.
   trajectory_scores(std::vector<Eigen::VectorXd> ours, const shard& whose)
       : of_each(std::move(ours)), share(whose) {}
 
@@ -35,7 +35,7 @@ struct trajectory_scores {
 /// box has not; two more for each step that is too long.
 Eigen::MatrixXd hessian(const objective& loss, const Eigen::VectorXd& theta);
 
-/// The same of a loss over data.
+/// Hessian of a loss over data.
 template <class Loss>
   requires requires(const Loss& loss) { loss.residuals(); }
 Eigen::MatrixXd hessian(const Loss& loss, const Eigen::VectorXd& theta) {
@@ -65,8 +65,9 @@ class curvature {
   /// flat direction C has no bound, and H nothing to add: it is left out. NaN with a single block.
   double expected_excess(const trajectory_scores& scores) const;
 
-  /// On how many blocks that, and with it the standard errors, rest: (sum_b e_b)^2/sum_b e_b^2, with
-  /// e_b = g_b^T H^+ g_b. Of B blocks with normal gradients it is B P/(P + 2), P the number of parameters.
+  /// Effective number of blocks on which the curvature and the standard errors rest: (sum_b e_b)^2/sum_b
+  /// e_b^2, with e_b = g_b^T H^+ g_b. Of B blocks with normal gradients it is B P/(P + 2), P the number of
+  /// parameters.
   double deciding_blocks(const trajectory_scores& scores) const;
 
   /// Sandwich covariance of the minimum [white_1982, theorem 3.2], clustered by block:

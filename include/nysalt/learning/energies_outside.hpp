@@ -11,7 +11,7 @@
 
 namespace nysalt {
 
-/// Of n starts the number with energies outside the range of M trajectories, the farthest by `farthest`.
+/// Number of n initial states with energies outside the range of M trajectories, the farthest by `farthest`.
 ///
 /// A few always have. If all are of one distribution, their n + M energies are in any order equally likely,
 /// and the number outside is beta-binomial [n; 2, M - 1], 2 n/(M + 1) in the mean. How far the largest of n
@@ -23,8 +23,8 @@ struct energies_outside {
 
   energy_range seen;             ///< the energies of the data
   std::size_t trajectories = 0;  ///< M, of the data
-  std::size_t looked_at = 0;     ///< n, starts
-  std::size_t outside = 0;       ///< how many of n are
+  std::size_t examined = 0;      ///< n, starts
+  std::size_t outside = 0;       ///< number of energies outside the range
   double farthest = 0.0;         ///< distance of the farthest energy from the range, an energy
   energy_range energies{};       ///< the energies of these starts
 
@@ -42,14 +42,14 @@ struct energies_outside {
   std::string report() const;
 };
 
-/// Of starts by their energies; one that is not finite is outside. Gentle motion is followed well: what is
-/// below the range by less than a twentieth of its width counts as inside.
-inline energies_outside look_outside(const energy_range& seen, std::size_t trajectories,
-                                     const std::ranges::range auto& energies) {
+/// Counts initial states by energy; one that is not finite is outside. Gentle motion is followed well: what
+/// is below the range by less than a twentieth of its width counts as inside.
+inline energies_outside count_outside(const energy_range& seen, std::size_t trajectories,
+                                      const std::ranges::range auto& energies) {
   energies_outside result{.seen = seen, .trajectories = trajectories};
   const double gentle = seen.low - 0.05 * (seen.high - seen.low);
   for (const double energy : energies) {
-    ++result.looked_at;
+    ++result.examined;
     result.energies.include(energy);
     if (seen.contains(energy) || (gentle <= energy && energy < seen.low)) continue;
     ++result.outside;

@@ -8,7 +8,7 @@ namespace nysalt {
 /// Result of learning a run_time_family.
 struct fit {
   Eigen::VectorXd theta;  ///< the learned parameters
-  fit_summary summary;    ///< its `usable` says whether to use them
+  fit_summary summary;    ///< errors and verdict of the fit; `usable` says whether to use the parameters
 };
 
 /// The fit of a learning problem, judged: see learn().

@@ -17,7 +17,7 @@ namespace nysalt {
 /// good.
 enum class verdict { usable, nothing_gained, not_usable };
 
-/// usable, nothing gained or not usable, as programs and files write it.
+/// Name of a verdict in programs and files: usable, nothing gained or not usable.
 constexpr std::string_view to_string(verdict v) {
   constexpr std::array<std::string_view, 3> names{"usable", "nothing gained", "not usable"};
   return names[static_cast<std::size_t>(v)];
@@ -25,7 +25,7 @@ constexpr std::string_view to_string(verdict v) {
 
 /// One entry of theta.
 struct fitted_parameter {
-  std::string name;       ///< as the family calls it
+  std::string name;       ///< name of the parameter in the family
   double value;           ///< learned, or fixed
   double standard_error;  ///< NaN from a single trajectory, infinite where the loss is flat, 0 if not free
   bool free;              ///< false: fixed by the user, or held at its bound or by the guard
@@ -38,14 +38,14 @@ struct fit_summary {
   std::string reference;            ///< description of the reference that made the data
   std::string ensemble;             ///< description of the ensemble that the data start from
   std::string coordinates;          ///< qp, modes or energy: those of the metric
-  std::string derivatives;          ///< where the force's derivatives come from
-  double step = 0.0;                ///< h that it was learned for
-  std::uint64_t seed = 0;           ///< of the data
-  std::uint64_t held_out_seed = 0;  ///< of the held-out data
+  std::string derivatives;          ///< origin of the derivatives of the force
+  double step = 0.0;                ///< step h of the data
+  std::uint64_t seed = 0;           ///< seed of the data
+  std::uint64_t held_out_seed = 0;  ///< seed of the held-out data
   bool held_out_is_new = true;      ///< false: the held-out data are those that were learned from
-  std::string loss_name;            ///< see loss_choice
-  int loss_steps = 1;               ///< of the longest window of the loss
-  int trajectory_steps = 1;         ///< of the shortest trajectory of the data
+  std::string loss_name;            ///< name of the loss, see loss_choice
+  int loss_steps = 1;               ///< steps of the longest window of the loss
+  int trajectory_steps = 1;         ///< steps of the shortest trajectory of the data
   bool follows = true;     ///< false: of a loss of trajectories, the error exceeds a twentieth of the motion
   bool is_of_data = true;  ///< false: the loss asks no data, and these only judge
 
@@ -53,7 +53,7 @@ struct fit_summary {
   /// The loss that was minimised, at theta; one-step: mean over pairs of the sum over coordinates of
   /// r^2/Sigma.
   double loss = 0.0;
-  double held_out_loss = 0.0;        ///< the same on data that was not learned from
+  double held_out_loss = 0.0;        ///< loss on held-out data
   double held_out_start_loss = 0.0;  ///< held-out loss of the parameters that the search began with
   double held_out_noise = 0.0;       ///< standard error of the difference of these two; 0 from one trajectory
   std::size_t samples = 0;           ///< number of pairs of the data
@@ -63,47 +63,50 @@ struct fit_summary {
   /// The mean contribution of the parameters' uncertainty to the loss on new data. NaN from a single
   /// trajectory, and where the guard holds them.
   double expected_excess = 0.0;
-  double deciding_trajectories = 0.0;  ///< on how many that and the standard errors rest
+  double deciding_trajectories = 0.0;  ///< number of trajectories on which that and the standard errors rest
 
-  double condition = 1.0;  ///< of the Hessian: largest over smallest curvature, flat directions apart
-  std::vector<std::vector<double>> flat_directions;  ///< of theta, along which the data say nothing
-  std::int64_t coordinates_used = 0;                 ///< number of coordinates that the loss sums over
-  std::vector<std::string> dropped;                  ///< coordinates that never move
-  int starts_tried = 1;                              ///< number of searches
-  std::string from;                                  ///< name of the start that led here
-  int iterations = 0;                                ///< of the search that led here
-  std::string guard;                                 ///< on which frequencies stability was asked for
-  std::string unguarded;          ///< what the guard had against the optimum; empty: nothing
+  double condition =
+      1.0;  ///< condition number of the Hessian: largest over smallest curvature, flat directions apart
+  std::vector<std::vector<double>>
+      flat_directions;                ///< flat directions of theta, which the data do not determine
+  std::int64_t coordinates_used = 0;  ///< number of coordinates that the loss sums over
+  std::vector<std::string> dropped;   ///< coordinates that never move
+  int starts_tried = 1;               ///< number of searches
+  std::string from;                   ///< name of the start that led here
+  int iterations = 0;                 ///< iterations of the search that led here
+  std::string guard;                  ///< frequencies on which the guard required stability
+  std::string unguarded;              ///< objection of the guard to the optimum; empty: none
   bool is_in_valley = false;      ///< further iterations hardly lower the loss: other parameters do as well
   bool is_at_no_bound = true;     ///< false: a search ended at farthest_parameter
   bool is_held_by_guard = false;  ///< no minimum was admitted: this is as far as the guard lets go
   /// A range of z = h omega.
   struct gap {
-    double low;   ///< where it begins
-    double high;  ///< where it ends
+    double low;   ///< lower end of the stability interval
+    double high;  ///< upper end of the stability interval
   };
-  std::vector<gap> gaps;           ///< of z, between the bands, where it is unstable
-  std::string resonance;           ///< of planned runs that are long: which one is near; empty: none
+  std::vector<gap> gaps;           ///< unstable intervals of z between the bands
+  std::string resonance;           ///< resonance near the step, where planned runs are long; empty: none
   double one_step_error = 0.0;     ///< root of the one-step loss on held-out data
-  double trajectory_error = 0.0;   ///< the same at the end of the held-out trajectories
-  double reference_error = 0.0;    ///< of the reference itself, in the measure of one_step_error
+  double trajectory_error = 0.0;   ///< error at the end of the held-out trajectories
+  double reference_error = 0.0;    ///< error of the reference, in the measure of one_step_error
   bool reference_checked = false;  ///< false: the data hold no finishes by a finer reference
 
-  trial_result trial{};  ///< of the parameters that are handed out, from held-out and further starts
-  double highest_frequency = 0.0;  ///< along the states that the guard examined; 0: not known
+  trial_result trial{};  ///< trial run of the returned parameters, from held-out and further starts
+  double highest_frequency =
+      0.0;  ///< highest frequency along the states that the guard examined; 0: not known
   /// The classical method of the same cost with the least held-out loss, of those that the system serves; if
   /// nothing is gained over it, it withstands a trial run. Empty if there is none.
   std::string rival;
-  double rival_loss = 0.0;     ///< its held-out loss
+  double rival_loss = 0.0;     ///< held-out loss of the rival
   double rival_noise = 0.0;    ///< standard error of the difference to held_out_loss
   bool gains_nothing = false;  ///< the rival's loss is not larger by two of these
 
-  double data_seconds = 0.0;              ///< wall time that the data took
+  double data_seconds = 0.0;              ///< wall time of making the data
   double fit_seconds = 0.0;               ///< wall time that the fit took
   std::int64_t learning_evaluations = 0;  ///< force evaluations of data and fit
 
   bool usable = false;  ///< whether the method may be used: false if not_usable
-  std::string reason;   ///< why it is not usable; else empty
+  std::string reason;   ///< reason why the fit is not usable; else empty
 
   /// The verdict of three.
   nysalt::verdict verdict() const {
@@ -115,13 +118,14 @@ struct fit_summary {
   std::string verdict_in_words() const;
   /// The method to take where nothing is gained, in words: a method with its step, or what the rival is.
   std::string what_to_take() const;
-  /// Of the held-out losses of the rival and of this: how many times smaller this is.
+  /// Ratio of the held-out losses of the rival and of the fit.
   double gain() const { return rival_loss / held_out_loss; }
 
   /// expected_excess over the loss; 0 where that is rounding, errors of 1e-12 of an increment.
   double excess_share() const { return loss <= 1e-24 ? 0.0 : expected_excess / loss; }
 
-  /// From fewer it is too small more often than not: one trajectory in hundreds may outweigh the rest.
+  /// Smallest sound number of deciding trajectories. From fewer the uncertainty is too small more often than
+  /// not, as one trajectory in hundreds may outweigh the rest.
   static constexpr double too_few_decide = 10.0;
   /// Whether the uncertainty rests on too few trajectories to rely on.
   bool is_decided_by_few() const { return loss > 1e-24 && deciding_trajectories < too_few_decide; }
@@ -129,16 +133,17 @@ struct fit_summary {
   /// A sentence about expected_excess.
   std::string uncertainty() const;
 
-  /// Whether the method follows the data to the end, as far as the loss measures it.
+  /// Whether the method follows the data to the end, as measured by the loss.
   bool follows_to_the_end() const { return follows && loss_steps >= trajectory_steps; }
 
-  /// For how many steps the method follows the data, in words; empty where it follows them to the end.
+  /// Number of steps over which the method follows the data, in words; empty where it follows them to the
+  /// end.
   std::string following() const;
 
-  /// One line: parameters, losses, and whether it is usable.
+  /// Summary of one line: parameters, losses and verdict.
   std::string brief() const;
 
-  /// All of it, a line each.
+  /// Full summary, a line for each item.
   std::string full() const;
 };
 

@@ -9,15 +9,15 @@
 
 namespace nysalt {
 
-/// A learned method, and how many trajectories it took.
+/// A learned method, and the number of trajectories of the fit.
 template <Family F>
 struct learned_enough {
   tuned_method<F> method;  ///< carries its step and system, and refuses others
-  fit_summary summary;     ///< of the last fit
-  enough_course course;    ///< of all fits
+  fit_summary summary;     ///< summary of the last fit
+  enough_course course;    ///< history of all fits
 };
 
-/// learn() with as many trajectories as it takes, see until_enough(): from first.trajectories on, at most as
+/// learn() with as many trajectories as necessary, see until_enough(): from first.trajectories on, at most as
 /// many as fit into memory. Each time data are made for as many more, and the held-out data, of another seed,
 /// have as many too. What comes out is what learn() gives for that number. Throws what these do.
 template <Family F, SeparableSystem S, Ensemble<S> E, Reference<S> R, class... Own>

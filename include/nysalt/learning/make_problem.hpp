@@ -19,8 +19,8 @@ struct other_loss {
   std::string name;
   std::string description;
   int steps;
-  std::optional<stretch_error<lanes>> in_lanes = {};
-  std::optional<stretch_error<double>> one_by_one = {};
+  std::optional<window_error<lanes>> in_lanes = {};
+  std::optional<window_error<double>> one_by_one = {};
 };
 
 template <SeparableSystem S, class Error>

@@ -16,15 +16,16 @@ class Problem;
 
 namespace nysalt {
 
-/// Where a search ended.
+/// End point of a search.
 struct minimum {
   Eigen::VectorXd theta;      ///< all parameters, those that are not free too
   double loss = 0.0;          ///< the loss at theta
-  Eigen::MatrixXd hessian{};  ///< of the loss at theta, by all parameters
-  int iterations = 0;         ///< of Ceres and of Newton's method together
+  Eigen::MatrixXd hessian{};  ///< hessian of the loss at theta, by all parameters
+  int iterations = 0;         ///< iterations of Ceres and of Newton's method together
   bool converged = false;     ///< another Newton step would lower the loss by less than 1e-6 of itself
   bool has_ended = false;     ///< whether Ceres ended by itself, and was not cut short
-  bool in_valley = false;     ///< it did not converge, but further iterations hardly lower the loss
+  bool in_valley = false;     ///< whether the search ended in a flat valley: not converged, but further
+                              ///< iterations hardly lower the loss
 };
 
 namespace detail {

@@ -27,27 +27,30 @@ enum class effort { quick, normal, thorough };
 
 /// Options of a search. Empty ones are those of the family.
 struct fit_options {
-  std::optional<nysalt::coordinates> coordinates{};  ///< in which the error counts; empty: as suits the loss
-  std::optional<loss_choice> loss{};       ///< what is minimised, if not an own_loss; empty: usual_loss()
+  std::optional<nysalt::coordinates>
+      coordinates{};                  ///< coordinates in which the error counts; empty: as suits the loss
+  std::optional<loss_choice> loss{};  ///< loss to minimise, if not an own_loss; empty: usual_loss()
   std::optional<Eigen::VectorXd> start{};  ///< instead of the family's own starts
-  std::vector<named_parameters> further_starts{};  ///< beside them, such as the optimum at a smaller step
-  std::optional<int> random_starts{};  ///< beside all these, normal around the first; empty: by the effort
-  nysalt::effort effort = nysalt::effort::normal;  ///< of a search in stages
+  std::vector<named_parameters>
+      further_starts{};  ///< additional starts, such as the optimum at a smaller step
+  std::optional<int>
+      random_starts{};  ///< number of random starts, normal around the first; empty: by the effort
+  nysalt::effort effort = nysalt::effort::normal;  ///< effort of a search in stages
   std::vector<std::optional<double>> fixed{};      ///< a value for each parameter that is not to be learned
   bool guarded = true;  ///< false: an unstable optimum is found, and said not to be usable
   /// The largest number of steps of a run with the method: the length of a trial run, and the steps, up to
   /// 10,000, over which the guard examines growth. A proposal of Hybrid Monte Carlo takes few.
   std::int64_t planned_steps = 20'000;
-  bool check_force = true;   ///< before learn() begins, as what is learned from a wrong force is wrong
-  std::uint64_t seed = 1;    ///< of the random starts
-  int max_iterations = 200;  ///< of the search from each start
+  bool check_force = true;   ///< whether learn() checks the force first
+  std::uint64_t seed = 1;    ///< seed of the random starts
+  int max_iterations = 200;  ///< largest number of iterations of the search from each start
   int threads = 1;           ///< changes no bit of what is learned
 };
 
 /// Another method at the step of the data.
 struct rival_method {
-  std::string name;                     ///< what it is called
-  std::vector<double> held_out_losses;  ///< what each held-out trajectory of this rank adds to the loss
+  std::string name;                     ///< name of the rival
+  std::vector<double> held_out_losses;  ///< contribution of each held-out trajectory of this rank to the loss
   std::function<trial_result(std::int64_t trajectories, std::int64_t steps)> trial;  ///< runs it
 };
 
@@ -55,31 +58,34 @@ struct rival_method {
 /// share the data each has its own part, and the functions are collective: all ranks search together, and
 /// find the same.
 struct learning_problem {
-  run_time_family family;              ///< what is fitted
-  fit_options options;                 ///< as they were given
+  run_time_family family;              ///< family to fit
+  fit_options options;                 ///< options as given
   double step;                         ///< h of the data
-  objective loss;                      ///< what is minimised
-  std::vector<search_stage> stages{};  ///< what is minimised roughly before, to find where minima lie
-  objective one_step_before{};         ///< gives a search in stages one more start; empty: none
+  objective loss;                      ///< loss to minimise
+  std::vector<search_stage> stages{};  ///< losses that are minimised roughly before, to locate minima
+  objective one_step_before{};  ///< one-step loss, whose minimum is one more start of a search in stages;
+                                ///< empty: none
   /// The contribution of each trajectory to the gradient of `loss`, its part in the weights included.
   std::function<trajectory_scores(const Eigen::VectorXd&)> scores;
-  shard held_out;  ///< which held-out trajectories this rank has
+  shard held_out;  ///< distribution of the held-out trajectories over ranks
   /// The contribution of each held-out trajectory of this rank to the loss.
   std::function<std::vector<double>(const Eigen::VectorXd&)> held_out_losses;
   std::function<double(const Eigen::VectorXd&)> one_step_loss;  ///< mean over held-out pairs
-  std::function<double(const Eigen::VectorXd&)> loss_at_end;    ///< at the ends of held-out trajectories
+  std::function<double(const Eigen::VectorXd&)> loss_at_end;  ///< error at the ends of held-out trajectories
   /// The function that is least for the best of several minima, see judge_of_minima; of a loss that asks no
   /// data, the loss.
   std::function<double(const Eigen::VectorXd&)> judge;
-  std::function<std::int64_t()> evaluations;  ///< of the force by all ranks so far, data included
+  std::function<std::int64_t()> evaluations;  ///< force evaluations of all ranks so far, data included
   /// Whether the method stays near the data over all steps of the loss: with an error below a
   /// twentieth of the motion. Where it does not, phases are lost, and the loss means little. Empty: the loss
   /// is not one of trajectories.
   std::function<bool(const Eigen::VectorXd&)> follows{};
-  std::shared_ptr<learning_problem> shorter{};  ///< the same over a quarter of the steps; null: there is none
-  std::int64_t trial_evaluations = 0;  ///< of the force, that a trial run may take however cheap the fit was
-  std::int64_t trial_starts = 0;       ///< how many there are
-  std::int64_t trial_trajectories = 64;  ///< that are enough; in a bath more, as nothing watches their energy
+  std::shared_ptr<learning_problem> shorter{};  ///< problem over a quarter of the steps; null: none
+  std::int64_t trial_evaluations =
+      0;  ///< smallest budget of force evaluations of a trial run, for any cost of the fit
+  std::int64_t trial_starts = 0;  ///< number of starts of a trial run
+  std::int64_t trial_trajectories =
+      64;  ///< sufficient number of trajectories; more in a bath, where energy is not conserved
   /// Runs the word with these coefficients from the first of these starts.
   std::function<trial_result(const std::vector<double>& coefficients, std::int64_t trajectories,
                              std::int64_t steps)>
@@ -88,10 +94,10 @@ struct learning_problem {
   /// letters O of the family's word; nothing if the system does not serve its letters.
   std::function<std::optional<rival_method>(const tabulated&)> rival;
   stability_guard guard;          ///< knows the frequencies of the system
-  bool is_of_black_box = false;   ///< of a force that only double can be given to
-  bool is_in_bath = false;        ///< that acts
+  bool is_of_black_box = false;   ///< whether the force is a black box, over double only
+  bool is_in_bath = false;        ///< whether the system is in a bath that acts
   double frequency_to_fit = 0.0;  ///< the highest of the modes; 0: none are declared
-  fit_summary facts;              ///< what is known before a search
+  fit_summary facts;              ///< facts that are known before a search
 };
 
 }  // namespace nysalt

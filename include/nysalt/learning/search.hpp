@@ -16,24 +16,24 @@
 
 namespace nysalt {
 
-/// Where a search ended, and what the judge thinks of it.
+/// End point of a search with the score of the judge.
 struct candidate {
   std::string from;                ///< name of the start
-  Eigen::VectorXd theta;           ///< where it ended
-  Eigen::MatrixXd hessian;         ///< of the loss at theta; empty where the guard holds it
+  Eigen::VectorXd theta;           ///< end point of the search
+  Eigen::MatrixXd hessian;         ///< hessian of the loss at theta; empty where the guard holds it
   std::vector<Eigen::Index> free;  ///< neither fixed nor held at a bound
   double loss = std::numeric_limits<double>::infinity();    ///< the loss at theta
-  double judged = std::numeric_limits<double>::infinity();  ///< what the judge says of theta; less is better
-  int iterations = 0;                                       ///< of all descents from this start
-  bool converged = false;                                   ///< see `minimum`
-  bool in_valley = false;  ///< of almost equal losses, where the search was given up
-  bool admitted = true;    ///< whether the guard lets it, and it withstands a trial run
-  bool is_held = false;    ///< whether the guard held it, at the edge of what it admits
+  double judged = std::numeric_limits<double>::infinity();  ///< score of theta by the judge; less is better
+  int iterations = 0;                                       ///< iterations of all descents from this start
+  bool converged = false;                                   ///< whether the search converged, see `minimum`
+  bool in_valley = false;  ///< whether the search was given up in a valley of almost equal losses
+  bool admitted = true;    ///< whether theta passes the guard and the trial run
+  bool is_held = false;    ///< whether theta is at the boundary of the points that the guard admits
 };
 
 /// A loss that a search minimises roughly before the loss proper, to find where minima lie.
 struct search_stage {
-  objective loss;  ///< over few steps first, then over more
+  objective loss;  ///< loss over few steps first, then over more
   int steps = 0;   ///< the last after which errors count
   /// Upper bound on the least loss found at which the search goes on: above it no member of the family
   /// follows the data for `steps` steps. Not applied where there are kept starts.
@@ -42,19 +42,19 @@ struct search_stage {
 
 /// Inputs of a search.
 struct search_task {
-  const run_time_family* family;                        ///< its ranges and where it is defined
-  objective loss;                                       ///< what is minimised
-  std::vector<search_stage> stages{};                   ///< what is minimised roughly before
-  objective one_step_loss{};                            ///< its least minimum is a start, too; empty: none is
-  std::vector<named_parameters> kept{};                 ///< further starts of the last stage only
-  std::function<double(const Eigen::VectorXd&)> judge;  ///< what is least for the best
-  std::function<bool(const Eigen::VectorXd&)> admits;   ///< the guard
+  const run_time_family* family;         ///< family, with ranges and domain of the parameters
+  objective loss;                        ///< loss to minimise
+  std::vector<search_stage> stages{};    ///< losses that are minimised roughly before
+  objective one_step_loss{};             ///< one-step loss, whose least minimum is a start, too; empty: none
+  std::vector<named_parameters> kept{};  ///< further starts of the last stage only
+  std::function<double(const Eigen::VectorXd&)> judge;       ///< score, which is least for the best theta
+  std::function<bool(const Eigen::VectorXd&)> admits;        ///< the guard
   std::function<bool(const Eigen::VectorXd&)> withstands{};  ///< a trial run; empty: none is asked for
   /// The guard where the search goes on among admitted points only; empty: the same.
   std::function<bool(const Eigen::VectorXd&)> admits_at_edge{};
-  std::vector<Eigen::Index> free;            ///< numbers of the parameters that may change
-  int max_iterations;                        ///< of each descent
-  std::optional<named_parameters> refuge{};  ///< the member that is stable farthest, for where the guard acts
+  std::vector<Eigen::Index> free;                        ///< numbers of the parameters that may change
+  int max_iterations;                                    ///< largest number of iterations of each descent
+  std::optional<named_parameters> most_stable_member{};  ///< a start where the guard acts
 };
 
 /// Theta normal around a start, with a deviation of .6, .3, .15 or .075 in turn, as coefficients are of order
@@ -67,23 +67,23 @@ Eigen::VectorXd inside(const run_time_family& family, Eigen::VectorXd theta);
 
 /// Result of all starts. `unguarded` is the best of all where the guard did not admit it.
 struct search_result {
-  candidate best;                      ///< what is to be used
-  std::optional<candidate> unguarded;  ///< the best of all, if guard or trial run refused it
+  candidate best;                      ///< best candidate
+  std::optional<candidate> unguarded;  ///< best candidate of all, if refused by guard or trial run
   int tried = 0;                       ///< number of searches
   int lost_after = 0;                  ///< steps of the stage at which the search was given up; 0: it was not
 };
 
-/// Where there are stages, the loss of each of them in turn is minimised, roughly, from the starts first and
-/// then from the best of its minima that differ, twelve and then three, those first that the guard admits. A
-/// search whose minima of a stage are all above what that stage bears ends there. With what is left the
-/// search proper begins, and with two of the minima of the one-step loss that twelve of the first stage lead
-/// to, the least and that of the least loss: valleys of trajectories at small steps are narrow. From each
-/// start to its minimum; the judge takes the best that the guard admits and that withstands a trial run, of
-/// those that converged or ended in a valley. Where there is none, or where it errs by more than twice what
-/// one does that is not admitted, or by more than a kept start, the search goes on among admitted points
-/// only, from the starts that are and from the refuge: what it finds lies at the edge mostly, and the judge
-/// decides. A single start is what it was, for any judge. Cost: a search for each start, twice
-/// where the guard acts, and a trial run for each of a few candidates.
+/// Searches from all starts. Where there are stages, the loss of each of them in turn is minimised, roughly,
+/// from the starts first and then from the best of its minima that differ, twelve and then three, those first
+/// that the guard admits. A search whose minima of a stage are all above what that stage bears ends there.
+/// With what is left the search proper begins, and with two of the minima of the one-step loss that twelve of
+/// the first stage lead to, the least and that of the least loss: valleys of trajectories at small steps are
+/// narrow. From each start to its minimum; the judge takes the best that the guard admits and that withstands
+/// a trial run, of those that converged or ended in a valley. Where there is none, or where it errs by more
+/// than twice what one does that is not admitted, or by more than a kept start, the search goes on among
+/// admitted points only, from the starts that are and from the most stable member: what it finds lies at the
+/// edge mostly, and the judge decides. A single start is what it was, for any judge. Cost: a search for each
+/// start, twice where the guard acts, and a trial run for each of a few candidates.
 search_result search(const search_task& task, const std::vector<named_parameters>& starts);
 
 }  // namespace nysalt

@@ -9,10 +9,10 @@
 
 namespace nysalt {
 
-/// Where some pairs of all start, by their numbers, which rise: at all ranks, for what is asked along them.
+/// First states of some pairs of all ranks, by rising numbers; the same list on each rank.
 phase_points starts_of(const flow_map_data& data, Eigen::Index dimension,
                        const std::vector<std::size_t>& pairs);
-/// Where they finish.
+/// Last states of these pairs.
 phase_points finishes_of(const flow_map_data& data, Eigen::Index dimension,
                          const std::vector<std::size_t>& pairs);
 
@@ -26,8 +26,9 @@ struct states_of_data {
 /// further starts. Cost: two evaluations a pair.
 states_of_data some_states(const model& system, const flow_map_data& data);
 
-/// Where trial runs begin: up to 64 states of held-out data and the further starts of both sets; energetic
-/// ones, which are the last of the further starts, in turn with the others as long as there are some.
+/// Initial states of trial runs: up to 64 states of held-out data and the further starts of both sets;
+/// energetic ones, which are the last of the further starts, in turn with the others as long as there are
+/// some.
 phase_points starts_of_trial(const model& system, const flow_map_data& data, const flow_map_data& held_out);
 
 }  // namespace nysalt

@@ -6,7 +6,7 @@
 
 namespace nysalt {
 
-/// check_force() at four states of the data, from the middle of each quarter of them. A system that is a
+/// check_force() at four states, from the middle of each quarter of the data. A system that is a
 /// potential only has nothing to check. How far these and their finishes lie apart gives the lengths of
 /// coordinates. Throws std::invalid_argument with its report. The data must be valid.
 void require_sound_force(const model& system, const flow_map_data& data);

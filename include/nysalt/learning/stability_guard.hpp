@@ -20,7 +20,7 @@
 
 namespace nysalt {
 
-/// Which frequencies a criterion uses: all that were met, or those that are declared or met in a tenth of
+/// Frequencies of a stability criterion: all that were met, or those that are declared or met in a tenth of
 /// the states. A rare one lasts for a part of its period, as that of a close pair of atoms; what it does to a
 /// run only a trial run shows.
 enum class met { ever, often };
@@ -50,7 +50,7 @@ class stability_guard {
   stability_guard(const model& system, const phase_points& states, bool rotations = true,
                   std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max());
 
-  /// The same for one word, whose letters it examines where they are kicks of parts. Cost: beside, of such a
+  /// A guard for one word, whose letters are examined where they are kicks of parts. Cost: beside, of such a
   /// word, that of word_on_parts.
   stability_guard(const model& system, const phase_points& states, const run_time_word& word,
                   std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max());
@@ -59,29 +59,29 @@ class stability_guard {
   bool admits(const run_time_word& word, const std::vector<double>& coefficients, double step,
               met which = met::ever) const;
 
-  /// One sentence, or nothing if the word may be used. Cost: some 5 us for 9 evaluations; with rotations some
-  /// 20 us a mode, and 1 us a pair of modes and state.
-  /// Throws std::invalid_argument unless there is a coefficient for each slot, and of a word with kicks of
-  /// parts if the guard was made for another such word.
+  /// Objection to a word, one sentence; empty if the word is stable. Cost: some 5 us for 9 evaluations; with
+  /// rotations some 20 us a mode, and 1 us a pair of modes and state. Throws std::invalid_argument unless
+  /// there is a coefficient for each slot, and of a word with kicks of parts if the guard was made for
+  /// another such word.
   std::string objection(const run_time_word& word, const std::vector<double>& coefficients, double step,
                         met which = met::ever) const;
 
-  /// Where z = step omega is unstable between 0 and the system's highest frequency: outside its bands, if the
-  /// word is admitted. None for words with rotations. Cost: that of stability_windows().
+  /// Unstable intervals of z = step omega between 0 and the system's highest frequency: outside its bands, if
+  /// the word is admitted. None for words with rotations. Cost: that of stability_windows().
   std::vector<stability_window> gaps(const run_time_word& word, const std::vector<double>& coefficients,
                                      double step) const;
 
-  /// A mode, and how much it grows.
+  /// A mode and the transient growth of this mode.
   struct magnified_mode {
     double frequency;  ///< omega
-    double factor;     ///< largest |M^n|, see magnification()
+    double factor;     ///< largest |M^n|, see transient_growth()
   };
-  /// The mode that a word with rotations magnifies most, or the first that it magnifies by more than is
+  /// The mode with the largest transient growth in a word with rotations, or the first with a growth above
   /// `enough`. Factor 1 where no modes are known. Cost: some 20 us a mode.
   magnified_mode most_magnified(const run_time_word& word, const std::vector<double>& coefficients,
                                 double step, double enough = std::numeric_limits<double>::infinity()) const;
 
-  /// Two modes that soft forces couple, and how much they grow.
+  /// Two modes that soft forces couple, and the transient growth of the pair.
   struct resonant_pair {
     double first;   ///< frequency of the one
     double second;  ///< frequency of the other
@@ -97,23 +97,25 @@ class stability_guard {
   const std::vector<frequency_band>& frequencies(met which = met::ever) const {
     return which == met::ever ? bands_ : often_;
   }
-  double highest_along() const { return highest_along_; }  ///< along the states; 0 if not known
+  double highest_along() const {
+    return highest_along_;
+  }  ///< highest frequency along the states; 0 if not known
   /// Number of the state with that frequency.
   std::size_t state_of_highest() const { return state_of_highest_; }
   /// Frequencies on which words with rotations are watched: none, or those of the quadratic part.
   const std::vector<double>& modes() const { return modes_; }
-  /// The linearised motion of a word with kicks of parts; null of others, and if the guard was not made for
-  /// one.
+  /// The linearised motion of a word with kicks of parts; null for other words, and for a guard without a
+  /// word.
   const word_on_parts* parts() const { return parts_.get(); }
   /// Number of steps over which growth is bounded.
   std::int64_t steps() const { return steps_; }
-  const std::string& description() const { return description_; }  ///< what it knows, and where from
+  const std::string& description() const { return description_; }  ///< known frequencies, and their origin
 
  private:
   void declare(const std::vector<frequency_band>& bands);
 
-  /// Takes in the frequencies along a number of states, where they are known.
-  void look_along(const frequencies_along& along, std::size_t count, std::size_t typical,
+  /// Adds the frequencies along a number of states, where these are known.
+  void scan_along(const frequencies_along& along, std::size_t count, std::size_t typical,
                   bool has_quadratic_kinetic);
 
   /// Bands where none are declared, from the frequencies of all states and of typical ones.

@@ -16,8 +16,8 @@ class theta_curve {
   /// as long and finite, and the steps are positive and rise.
   theta_curve(std::vector<double> steps, std::vector<Eigen::VectorXd> thetas);
 
-  const std::vector<double>& steps() const { return steps_; }             ///< of the points, rising
-  const std::vector<Eigen::VectorXd>& thetas() const { return thetas_; }  ///< what was learned at each
+  const std::vector<double>& steps() const { return steps_; }             ///< step of each point, rising
+  const std::vector<Eigen::VectorXd>& thetas() const { return thetas_; }  ///< learned theta at each step
 
   /// Whether a step lies between the first and the last, to 1e-9 relative, as steps are typed in decimals.
   bool covers(double step) const;

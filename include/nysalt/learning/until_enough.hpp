@@ -13,16 +13,16 @@ namespace nysalt {
 
 /// When to stop.
 struct enough_options {
-  double share = 0.01;          ///< of the loss, that the uncertainty of the parameters may add to it
-  std::int64_t most = 100'000;  ///< number of trajectories beyond which it does not go
+  double share = 0.01;  ///< largest share of the loss that is due to the uncertainty of the parameters
+  std::int64_t most = 100'000;  ///< largest number of trajectories
 };
 
 /// The steps by which a fit came to its number of trajectories.
 struct enough_course {
   /// One fit on the way.
   struct stop {
-    std::int64_t trajectories;  ///< how many it had
-    double share;               ///< its fit_summary::excess_share()
+    std::int64_t trajectories;  ///< number of trajectories of the fit
+    double share;               ///< fit_summary::excess_share() of the fit
     double deciding;            ///< trajectories that the share rests on
   };
   bool is_reached = false;  ///< whether the last fit is good enough

@@ -11,17 +11,17 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/together.hpp"
-#include "nysalt/losses/stretch_error.hpp"
-#include "nysalt/losses/stretches_in_lanes.hpp"
+#include "nysalt/losses/window_error.hpp"
+#include "nysalt/losses/windows_in_lanes.hpp"
 #include "nysalt/run_time_family.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
 
-/// After how many steps an error counts.
+/// Numbers of steps after which an error counts.
 struct after_steps_options {
   std::vector<int> steps{1};  ///< rising numbers; the last is the length K of a window
   int apart = 1;              ///< steps from the beginning of one window to that of the next
@@ -31,10 +31,10 @@ struct after_steps_options {
 
 /// The residuals of one window, and their derivatives by theta.
 template <Scalar R>
-struct residuals_of_stretch {
-  std::size_t parameters;  ///< how many there are
+struct residuals_of_window {
+  std::size_t parameters;  ///< number of parameters
   std::vector<R> values;   ///< r_k, in the lanes of R; those of an earlier time first
-  std::vector<R> slopes;   ///< of residual k by parameter i at [k parameters + i]
+  std::vector<R> slopes;   ///< derivatives of residual k by parameter i at [k parameters + i]
 
   /// The derivative of residual k by parameter i.
   const R& slope(std::size_t k, std::size_t i) const { return slopes[k * parameters + i]; }
@@ -43,15 +43,15 @@ struct residuals_of_stretch {
 /// The terms that are made of the residuals: as many as were asked for. Called from several threads at a
 /// time.
 template <Scalar R>
-using terms_of_stretch = std::function<void(const residuals_of_stretch<R>& r, std::vector<R>& terms)>;
+using terms_of_window = std::function<void(const residuals_of_window<R>& r, std::vector<R>& terms)>;
 
-/// The mean over all windows and over some times of each of the sum over residuals of r^2; a stretch_error
+/// The mean over all windows and over some times of each of the sum over residuals of r^2; a window_error
 /// says what they are.
 ///
 /// Windows of a trajectory depend on each other, trajectories do not. R, double or a pack, carries the
 /// windows; neither its lanes nor the threads change a bit of a sum.
 /// The interface of a loss over data to the learner: scalar, parameters(), share(), residuals(), and
-/// sums(theta, with_slopes, terms, of_stretch). Of trajectories that ranks share, each has its own.
+/// sums(theta, with_slopes, terms, of_window). Of trajectories that ranks share, each has its own.
 template <Scalar R = detail::lanes>
 class after_steps {
   using C = dual<R, directions_at_a_time>;
@@ -64,7 +64,7 @@ class after_steps {
   /// if no trajectory is as long, if R is a pack and the system is stepped over double only, or if the
   /// system is in a noisy bath and the data do not hold the noise that the letters O of the word need.
   after_steps(const run_time_family& family, const model& system, const flow_map_data& data,
-              stretch_error<R> error, const after_steps_options& options = {})
+              window_error<R> error, const after_steps_options& options = {})
       : family_(family),
         system_(system),
         error_(std::move(error)),
@@ -74,21 +74,21 @@ class after_steps {
         starts_(data, last_of(options), static_cast<std::size_t>(std::max(options.apart, 1)),
                 std::max(options.every, 1)) {
     if (1 < lanes_in<R> && !system.facts().in_lanes_with_slopes) {
-      throw std::invalid_argument(sentence(
-          "a loss over packs cannot step {} side by side: take after_steps<double>, and an error over "
-          "double",
-          describe(system)));
-    }
-    const std::int64_t stretches = data.share().ranks().total(std::ssize(starts_.pairs));
-    if (stretches == 0) {
       throw std::invalid_argument(
-          sentence("a loss over {} steps needs trajectories of at least as many: take a longer horizon, "
-                   "or fewer steps",
+          sentence("after_steps: a system must allow several lanes for a loss over packs, got {}; take "
+                   "after_steps<double>, and an error over double",
+                   describe(system)));
+    }
+    const std::int64_t windows = data.share().ranks().total(std::ssize(starts_.pairs));
+    if (windows == 0) {
+      throw std::invalid_argument(
+          sentence("after_steps: trajectories must have at least the {} steps of the loss; take a "
+                   "longer horizon, or fewer steps",
                    options.steps.back()));
     }
-    weight_ = 1.0 / static_cast<double>(stretches * std::ssize(options.steps));
+    weight_ = 1.0 / static_cast<double>(windows * std::ssize(options.steps));
     parts_ =
-        std::make_shared<const parts>(gather_stretches<R>(data, starts_, options.steps, noise_wanted(data)));
+        std::make_shared<const parts>(gather_windows<R>(data, starts_, options.steps, noise_wanted(data)));
   }
 
   /// The loss of another family over the same windows, which both share. The other word must have its
@@ -106,30 +106,30 @@ class after_steps {
 
   Eigen::Index parameters() const { return family_.parameters(); }          ///< length of theta
   std::size_t trajectories() const { return starts_.first_of.size() - 1; }  ///< number of trajectories here
-  const shard& share() const { return share_; }  ///< which trajectories this rank has
+  const shard& share() const { return share_; }  ///< distribution of the trajectories over ranks
   /// Number of those of a window, at all of its times.
   std::size_t residuals() const { return error_.residuals * options_.steps.size(); }
-  const stretch_error<R>& error() const { return error_; }  ///< what they are
+  const window_error<R>& error() const { return error_; }  ///< the residuals
   /// Force evaluations of all passes so far at this rank, as `counted` counts them for one window after the
   /// other.
   std::int64_t evaluations() const { return evaluations_; }
 
-  /// A pass over the data: each trajectory's mean over all windows of the `terms` terms that of_stretch(r,
+  /// A pass over the data: each trajectory's mean over all windows of the `terms` terms that of_window(r,
   /// terms) makes of the residuals, added in the order of time. Rethrows exceptions of the user's loss on
   /// every rank. Never throws otherwise; inadmissible theta yield non-finite values. Cost: a plain step, or a
   /// run of K steps, over dual<R, 2> for each window and two parameters.
   std::vector<Eigen::VectorXd> sums(const Eigen::VectorXd& theta, bool with_slopes, Eigen::Index terms,
-                                    const terms_of_stretch<R>& of_stretch) const {
+                                    const terms_of_window<R>& of_window) const {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(terms);
     std::vector<Eigen::VectorXd> result(trajectories(), zero);
     const auto coefficients = in_directions(theta, with_slopes);
     const run_time_word& word = family_.letters;
     const std::int64_t steps = options_.steps.back();
-    const std::int64_t of_stretch_of_one =
+    const std::int64_t evaluations_of_window =
         detail::evaluations_of(system_,
                                steps == 1 ? word.evaluations_of_plain_step
                                           : word.evaluations_to_open + steps * word.evaluations_per_step +
-                                                std::ssize(options_.steps) * word.evaluations_to_look,
+                                                std::ssize(options_.steps) * word.evaluations_to_observe,
                                steps * word.force_derivatives);
     const auto visit = [&](std::int64_t index) {
       const auto& part = (*parts_)[static_cast<std::size_t>(index)];
@@ -142,40 +142,40 @@ class after_steps {
       }
       auto x = make_state(watched);
       auto y = make_state(watched);
-      residuals_of_stretch<R> r{static_cast<std::size_t>(parameters()), std::vector<R>(residuals(), R(0.0)),
-                                std::vector<R>(residuals() * static_cast<std::size_t>(parameters()), R(0.0))};
+      residuals_of_window<R> r{static_cast<std::size_t>(parameters()), std::vector<R>(residuals(), R(0.0)),
+                               std::vector<R>(residuals() * static_cast<std::size_t>(parameters()), R(0.0))};
       std::vector<C> of_directions(residuals());
       std::vector<R> added(static_cast<std::size_t>(terms));
       std::size_t trajectory = part.first_trajectory;
-      std::size_t stretch = starts_.first_of[trajectory];
+      std::size_t window = starts_.first_of[trajectory];
       Eigen::VectorXd sum = zero;  // of one trajectory
       for (std::size_t entry = 0; entry < part.entries.size(); ++entry) {
         for (std::size_t d = 0; d < steppers.size(); ++d) {
           residuals_after(steppers[d], part.entries[entry], entry, x, y, of_directions);
           take(of_directions, d, with_slopes, r);
         }
-        of_stretch(r, added);
-        for (int k = 0; k < lanes_in<R> && stretch < part.end;) {
-          for (; stretch == starts_.first_of[trajectory + 1]; ++trajectory) {
+        of_window(r, added);
+        for (int k = 0; k < lanes_in<R> && window < part.end;) {
+          for (; window == starts_.first_of[trajectory + 1]; ++trajectory) {
             result[trajectory] = sum * weight_;
             sum = zero;
           }
-          const std::size_t left = starts_.first_of[trajectory + 1] - stretch;
+          const std::size_t left = starts_.first_of[trajectory + 1] - window;
           const int end =
               static_cast<int>(std::min<std::size_t>(lanes_in<R>, static_cast<std::size_t>(k) + left));
           add_lanes(added, k, end, sum);
-          stretch += static_cast<std::size_t>(end - k);
+          window += static_cast<std::size_t>(end - k);
           k = end;
         }
       }
       result[trajectory] = sum * weight_;
       const std::int64_t of_each = is_black_box(watched) ? watched.calls() / std::ssize(part.entries)
-                                                         : std::ssize(steppers) * of_stretch_of_one;
+                                                         : std::ssize(steppers) * evaluations_of_window;
       evaluations_ += of_each * static_cast<std::int64_t>(part.end - part.begin);
     };
     const auto pass = [&] { for_each_trajectory(std::ssize(*parts_), options_.threads, visit); };
     if (error_.may_throw) {
-      together(share_.ranks(), pass);
+      collectively(share_.ranks(), pass);
     } else {
       pass();
     }
@@ -184,7 +184,7 @@ class after_steps {
 
  private:
   using stepper_type = stepper<model, run_time_word, C, noise_of_entries<R>>;
-  using parts = std::vector<stretches_in_lanes<R>>;
+  using parts = std::vector<windows_in_lanes<R>>;
 
   static std::size_t last_of(const after_steps_options& options) {
     const auto& steps = options.steps;
@@ -193,7 +193,7 @@ class after_steps {
       std::string given;
       for (const int k : steps) given += (given.empty() ? "" : ", ") + std::to_string(k);
       throw std::invalid_argument(
-          sentence("a loss counts errors after rising numbers of steps from 1 on, got {}", given));
+          sentence("after_steps: steps must be rising numbers from 1 on, got {}", given));
     }
     return static_cast<std::size_t>(steps.back());
   }
@@ -252,7 +252,7 @@ class after_steps {
   }
 
   static void take(const std::vector<C>& of_directions, std::size_t d, bool with_slopes,
-                   residuals_of_stretch<R>& r) {
+                   residuals_of_window<R>& r) {
     for (std::size_t k = 0; k < r.values.size(); ++k) {
       r.values[k] = of_directions[k].value;
       if (!with_slopes) continue;
@@ -279,12 +279,12 @@ class after_steps {
 
   run_time_family family_;
   model system_;
-  stretch_error<R> error_;
+  window_error<R> error_;
   double step_;
   double weight_ = 1.0;  // of a window
   after_steps_options options_;
   shard share_;
-  stretch_starts starts_;
+  window_starts starts_;
   std::shared_ptr<const parts> parts_;
   mutable std::atomic<std::int64_t> evaluations_ = 0;
 };

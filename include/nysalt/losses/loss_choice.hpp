@@ -13,7 +13,7 @@ namespace nysalt {
 
 /// A loss and its number of steps; by default that of trajectories.
 struct loss_choice {
-  const loss_kind* kind = losses().front();  ///< what the loss is
+  const loss_kind* kind = losses().front();  ///< kind of the loss
   int steps = 1;                             ///< K; of no account where the kind counts no steps
 
   friend bool operator==(const loss_choice&, const loss_choice&) = default;  ///< equal in both
@@ -31,7 +31,7 @@ loss_choice usual_loss(const bath& around);
 /// anything else.
 loss_choice loss_named(std::string_view text);
 
-/// The same; nothing for anything else.
+/// Parses the name of a loss; empty for other text.
 std::optional<loss_choice> find_loss(std::string_view text);
 
 /// The names that loss_named() reads, such as "state:K, energy:K": of the losses that count steps, or of the

@@ -29,18 +29,18 @@ std::vector<after_steps_options> after_each_step(int K, int shortest);
 /// A loss that text can name: what it needs, how it is made, and how it is judged. Each is declared in one
 /// file, src/nysalt/losses/NAME.cpp, and listed in losses.cpp there.
 struct loss_kind {
-  std::string_view name;                                   ///< as in "state:K"
-  bool counts_steps = true;                                ///< the number K of steps follows the name
-  bool needs_modes = false;                                ///< of the system
-  bool needs_bath = false;                                 ///< with friction and temperature
-  judge_of_minima judge = judge_of_minima::held_out_loss;  ///< who chooses among several minima
+  std::string_view name;     ///< name, as in "state:K"
+  bool counts_steps = true;  ///< the number K of steps follows the name
+  bool needs_modes = false;  ///< whether the loss needs the modes of the system
+  bool needs_bath = false;   ///< whether the loss needs a bath with friction and temperature
+  judge_of_minima judge = judge_of_minima::held_out_loss;  ///< criterion that chooses among several minima
   bool is_of_energy_norm = false;  ///< errors count in the energy coordinates where these exist, else in qp
   bool is_of_proposals =
       false;  ///< trajectories are proposals: no run takes more steps than those of the data
-  bool is_for_sampling = false;  ///< words that only keep volume may be learned by it
+  bool is_for_sampling = false;  ///< whether words that are only volume-preserving may be learned by the loss
   bool is_shortened = false;     ///< over a quarter of the steps, and again, where no method follows the data
-  /// After how many steps errors count, in trajectories of `shortest` steps or more: what a search minimises
-  /// first, ..., and last the loss itself. K follows the name.
+  /// Numbers of steps after which errors count, in trajectories of `shortest` steps or more: what a search
+  /// minimises first, ..., and last the loss itself. K follows the name.
   std::vector<after_steps_options> (*stages)(int K, int shortest) = after_each_step;
   /// The loss over data; where the loss itself asks none, the estimate of what was learned from held-out
   /// data.
@@ -48,7 +48,9 @@ struct loss_kind {
   /// The loss of a step, if it asks no data; else nullptr.
   objective (*without_data)(const model& system, const run_time_family& family, double step) = nullptr;
 
-  constexpr bool asks_data() const { return without_data == nullptr; }  ///< it is minimised over data
+  constexpr bool asks_data() const {
+    return without_data == nullptr;
+  }  ///< whether the loss is minimised over data
 };
 
 /// All losses; the first is the default.

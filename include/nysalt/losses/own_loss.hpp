@@ -10,7 +10,7 @@
 #include <string>
 #include <type_traits>
 
-#include "nysalt/losses/stretch_error.hpp"
+#include "nysalt/losses/window_error.hpp"
 
 namespace nysalt {
 
@@ -29,11 +29,11 @@ namespace nysalt {
 /// own, given and not estimated. It is called from several threads at a time.
 template <class Error>
 struct own_loss {
-  std::string name;  ///< what a fit_summary calls it, with K behind: one line, not that of another loss
+  std::string name;  ///< name in a fit_summary, followed by K: one line, unlike that of any other loss
   int steps;         ///< K, steps of a window
   Error error;       ///< error(start, finish, wanted): the residuals
 
-  /// As of the library's losses, such as "place:5".
+  /// Description, in the form of the library's losses, such as "place:5".
   std::string description() const { return name + ":" + std::to_string(steps); }
 };
 /// Deduced from its three parts.
@@ -78,7 +78,7 @@ using scalar_of_passes =
 template <class R = void, SeparableSystem S, class Error>
 auto own_error(const S& system, const Error& error) {
   using scalar = std::conditional_t<std::is_void_v<R>, scalar_of_passes<S>, R>;
-  using C = typename stretch_error<scalar>::scalar;
+  using C = typename window_error<scalar>::scalar;
   using point = phase_point<C, S::dimension>;
   constexpr bool is_asked_so = std::invocable<const Error&, const point&, const point&, const point&>;
   static_assert(is_asked_so,
@@ -98,10 +98,10 @@ auto own_error(const S& system, const Error& error) {
       zero.q.fill(C(0.0));
       zero.p.fill(C(0.0));
       count = static_cast<std::size_t>(error(zero, zero, zero).size());
-      if (count == 0) throw std::invalid_argument("an own loss returns no residuals: return at least one");
+      if (count == 0) throw std::invalid_argument("own_loss: residuals must be one or more, got none");
     }
     const auto own = [](const auto& x) { return point{x.q, x.p}; };
-    return stretch_error<scalar>{
+    return window_error<scalar>{
         .residuals = count,
         .of =
             [error, count, own](const auto& start, const auto& finish, const auto& wanted, C* r) {

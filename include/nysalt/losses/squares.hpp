@@ -14,26 +14,26 @@
 
 namespace nysalt {
 
-/// Of residuals r with the Jacobian J by theta: the loss r^T r, half its gradient J^T r, and J^T J, which is
-/// half of Gauss-Newton's Hessian.
+/// Sums of residuals r with the Jacobian J by theta: the loss r^T r, half its gradient J^T r, and J^T J,
+/// which is half of Gauss-Newton's Hessian.
 struct squares {
   double value = 0.0;             ///< r^T r
   Eigen::VectorXd half_gradient;  ///< J^T r
   Eigen::MatrixXd normal_matrix;  ///< J^T J
 
-  Eigen::VectorXd gradient() const;  ///< of the loss: 2 J^T r
+  Eigen::VectorXd gradient() const;  ///< gradient of the loss: 2 J^T r
   /// Whether all numbers are.
   bool is_finite() const;
 };
 
-/// theta as families hold it.
+/// theta as an array, the form of families.
 template <std::size_t N>
 std::array<double, N> array_of(const Eigen::VectorXd& theta) {
   std::array<double, N> result;
   for (std::size_t k = 0; k < N; ++k) result[k] = theta[static_cast<Eigen::Index>(k)];
   return result;
 }
-/// theta as linear algebra holds it.
+/// theta as a column vector.
 template <std::size_t N>
 Eigen::VectorXd column_of(const std::array<double, N>& theta) {
   return Eigen::Map<const Eigen::VectorXd>(theta.data(), static_cast<Eigen::Index>(N));
@@ -96,8 +96,8 @@ void products_of_residuals(const Residuals& r, std::vector<R>& terms) {
 template <class Loss>
 std::vector<Eigen::VectorXd> squares_by_trajectory(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;
-  const auto of_stretch = [](const auto& r, std::vector<R>& terms) { products_of_residuals(r, terms); };
-  return loss.sums(theta, true, terms_of_column(loss.parameters()), of_stretch);
+  const auto of_window = [](const auto& r, std::vector<R>& terms) { products_of_residuals(r, terms); };
+  return loss.sums(theta, true, terms_of_column(loss.parameters()), of_window);
 }
 
 }  // namespace detail
@@ -106,13 +106,13 @@ std::vector<Eigen::VectorXd> squares_by_trajectory(const Loss& loss, const Eigen
 template <class Loss>
 std::vector<double> trajectory_losses(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;
-  const auto of_stretch = [](const auto& r, std::vector<R>& terms) {
+  const auto of_window = [](const auto& r, std::vector<R>& terms) {
     R sum(0.0);
     for (const R& x : r.values) sum += x * x;
     terms[0] = sum;
   };
   std::vector<double> result;
-  for (const auto& sum : loss.sums(theta, false, 1, of_stretch)) result.push_back(sum[0]);
+  for (const auto& sum : loss.sums(theta, false, 1, of_window)) result.push_back(sum[0]);
   return result;
 }
 /// The loss, of all ranks. Cost: one pass over the data.
@@ -150,11 +150,11 @@ objective objective_of(const Loss& loss) {
 template <class Loss>
 Eigen::VectorXd residual_squares(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;
-  const auto of_stretch = [](const auto& r, std::vector<R>& terms) {
+  const auto of_window = [](const auto& r, std::vector<R>& terms) {
     for (std::size_t k = 0; k < r.values.size(); ++k) terms[k] = r.values[k] * r.values[k];
   };
   const auto residuals = static_cast<Eigen::Index>(loss.residuals());
-  const auto by_trajectory = loss.sums(theta, false, residuals, of_stretch);
+  const auto by_trajectory = loss.sums(theta, false, residuals, of_window);
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(residuals);
   return loss.share().sum(by_trajectory, zero);
 }
@@ -163,7 +163,7 @@ Eigen::VectorXd residual_squares(const Loss& loss, const Eigen::VectorXd& theta)
 template <class Loss>
 std::vector<Eigen::MatrixXd> residual_gradients(const Loss& loss, const Eigen::VectorXd& theta) {
   using R = typename Loss::scalar;
-  const auto of_stretch = [](const auto& r, std::vector<R>& terms) {
+  const auto of_window = [](const auto& r, std::vector<R>& terms) {
     std::size_t term = 0;
     for (std::size_t k = 0; k < r.values.size(); ++k) {
       for (std::size_t i = 0; i < r.parameters; ++i) terms[term++] = r.values[k] * r.slope(k, i) * 2.0;
@@ -171,7 +171,7 @@ std::vector<Eigen::MatrixXd> residual_gradients(const Loss& loss, const Eigen::V
   };
   const auto residuals = static_cast<Eigen::Index>(loss.residuals());
   std::vector<Eigen::MatrixXd> result;
-  for (const auto& sum : loss.sums(theta, true, loss.parameters() * residuals, of_stretch)) {
+  for (const auto& sum : loss.sums(theta, true, loss.parameters() * residuals, of_window)) {
     result.push_back(sum.reshaped(loss.parameters(), residuals));
   }
   return result;

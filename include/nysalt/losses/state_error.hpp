@@ -2,14 +2,14 @@
 #pragma once
 
 #include "nysalt/losses/metric.hpp"
-#include "nysalt/losses/stretch_error.hpp"
+#include "nysalt/losses/window_error.hpp"
 
 namespace nysalt {
 
 /// r = Sigma^{-1/2} (K steps from the start - the data there); for K = 1 the paper's loss
 /// [li_lu_tao_ye_2023, equation (3.5)]. Refers to the metric, whose weights are estimates.
 template <Scalar R = detail::lanes>
-stretch_error<R> state_error(const metric& measure) {
+window_error<R> state_error(const metric& measure) {
   return {.residuals = static_cast<std::size_t>(measure.residuals()),
           .of = [error_metric = &measure](const auto&, const auto& finish, const auto& wanted,
                                           auto* r) { error_metric->residual(finish.q, finish.p, wanted, r); },
@@ -18,6 +18,6 @@ stretch_error<R> state_error(const metric& measure) {
 
 /// A metric that is gone by then cannot be referred to.
 template <Scalar R = detail::lanes>
-stretch_error<R> state_error(metric&& measure) = delete;
+window_error<R> state_error(metric&& measure) = delete;
 
 }  // namespace nysalt

@@ -26,7 +26,7 @@ namespace nysalt {
 
 namespace detail {
 /// A mode of unit mass by itself, all of which is quadratic.
-struct mode_alone {
+struct single_mode {
   static constexpr int dimension = 1;
   double omega;
   template <class T>
@@ -60,7 +60,7 @@ struct mode_alone {
 /// that is not quadratic.
 class stationary_covariance {
  public:
-  /// Of the word with its letters O. Throws std::invalid_argument if it has none, or a letter that the system
+  /// Loss of a word with letters O. Throws std::invalid_argument if it has none, or a letter that the system
   /// does not serve; if the bath has no friction or no temperature; if no frequency is above zero; or if the
   /// step is not positive and finite.
   template <System S>
@@ -103,7 +103,7 @@ class stationary_covariance {
   squares at(const std::vector<double>& coefficients, const Eigen::MatrixXd& jacobian) const;
 
  private:
-  /// A letter O, or all letters between two of them.
+  /// A letter O, or all letters between two letters O.
   struct piece {
     std::size_t first;  // of its slots
     std::optional<run_time_word> turn;
@@ -112,7 +112,7 @@ class stationary_covariance {
   void require_law() const;
   void split_at_bath();
 
-  /// The map M of the word and the excess R that it makes of none: then D = M D M^T + R.
+  /// The map M of the word and the excess R of the covariance 1: then D = M D M^T + R.
   template <Scalar T>
   plane_covariance<T> excess(double omega, const std::vector<T>& c) const {
     plane_map<T> M;
@@ -120,24 +120,24 @@ class stationary_covariance {
     for (const auto& [first, turn] : pieces_) {
       if (turn) {
         const auto S = map_of(*turn, &c[first], omega);
-        R = carried(S, R) + excess_of_turn(S);
-        M = then(M, S);
+        R = congruence(S, R) + excess_of_turn(S);
+        M = compose(M, S);
       } else {  // O keeps the covariance 1: it makes no excess of its own
         if (c[first] < T(0.0)) return no_covariance<T>();
         plane_map<T> damping;
         damping.yy = bath_.decay(c[first] * step_);
-        R = carried(damping, R);
-        M = then(M, damping);
+        R = congruence(damping, R);
+        M = compose(M, damping);
       }
     }
     return discrete_lyapunov(M, R);
   }
 
-  /// The map of (x, y) by letters without O, as the stepper does it.
+  /// The map of (x, y) by letters without O, as the stepper computes the map.
   template <Scalar T>
   plane_map<T> map_of(const run_time_word& turn, const T* c, double omega) const {
-    const detail::mode_alone mode{omega};
-    const stepper<detail::mode_alone, run_time_word, T> one(mode, turn, {c, c + turn.slots}, step_);
+    const detail::single_mode mode{omega};
+    const stepper<detail::single_mode, run_time_word, T> one(mode, turn, {c, c + turn.slots}, step_);
     phase_point<T, 1> from_x{vector<T, 1>(T(1.0 / omega)), vector<T, 1>(T(0.0))};
     phase_point<T, 1> from_y{vector<T, 1>(T(0.0)), vector<T, 1>(T(1.0))};
     one.step(from_x);

@@ -76,16 +76,17 @@ using verlet_2x = classical<"verlet_2x">;
 
 /// A(a) B(1/2) A(1 - 2a) B(1/2) A(a) with the least error constant of its kind: order 2, two evaluations.
 using mclachlan2 = classical<"mclachlan2">;
-/// B(b) A(1/2) B(1 - 2b) A(1/2) B(b) with the coefficient of mclachlan2, as samplers and lattice field theory
-/// step it: the velocity form of the same minimum.
+/// B(b) A(1/2) B(1 - 2b) A(1/2) B(b) with the coefficient of mclachlan2, the velocity form of the same
+/// minimum.
 using mclachlan2v = classical<"mclachlan2v">;
-/// The same word with the least energy error on oscillators up to z = 2: order 2, two evaluations.
+/// B A B A B with the least energy error on oscillators up to z = 2: order 2, two evaluations.
 using bcss2 = classical<"bcss2">;
 /// The velocity form of bcss2, which begins with a kick: on oscillators it errs as much.
 using bcss2v = classical<"bcss2v">;
-/// B(b) A(a) B(1/2 - b) A(1 - 2a) B(1/2 - b) A(a) B(b), the same up to z = 3: order 2, three evaluations.
+/// B(b) A(a) B(1/2 - b) A(1 - 2a) B(1/2 - b) A(a) B(b) with the least energy error on oscillators up to z =
+/// 3: order 2, three evaluations.
 using bcss3 = classical<"bcss3">;
-/// B A B A B A B A B, the same up to z = 4: order 2, four evaluations.
+/// B A B A B A B A B with the least energy error on oscillators up to z = 4: order 2, four evaluations.
 using bcss4 = classical<"bcss4">;
 /// The word of bcss3 with the least error on oscillators as z -> 0, where that of energy is of fourth order:
 /// order 2, three evaluations.

@@ -14,7 +14,7 @@ namespace nysalt {
 /// Coefficients as a constant, one for each slot of the letters.
 class coefficient_list {
  public:
-  /// Those of an array, 29 at most.
+  /// Coefficients of an array, 29 at most.
   template <std::size_t Count>
   constexpr coefficient_list(const std::array<double, Count>& all) : count_(Count) {
     std::copy(all.begin(), all.end(), values_.begin());
@@ -22,7 +22,7 @@ class coefficient_list {
 
   constexpr const double* begin() const { return values_.data(); }         ///< the first
   constexpr const double* end() const { return values_.data() + count_; }  ///< behind the last
-  constexpr std::size_t size() const { return count_; }                    ///< how many there are
+  constexpr std::size_t size() const { return count_; }                    ///< number of coefficients
 
  private:
   std::array<double, 29> values_{};
@@ -31,18 +31,18 @@ class coefficient_list {
 
 /// A classical method: its letters, coefficients and source, and what it promises.
 struct classical_row {
-  std::string_view name;                    ///< by which the program and classical<"name"> know it
-  std::string_view letters;                 ///< as in docs/notation.md, from left to right
-  coefficient_list coefficients;            ///< one for each slot of the letters
-  int order;                                ///< as declared; measured in the tests
+  std::string_view name;                    ///< name in the program and in classical<"name">
+  std::string_view letters;                 ///< letters of docs/notation.md, from left to right
+  coefficient_list coefficients;            ///< coefficients, one for each slot of the letters
+  int order;                                ///< order as declared; measured in the tests
   std::string_view source;                  ///< key in docs/bibliography.bib
   bool symmetric = true;                    ///< whether a step back undoes a step
   bool requires_quadratic_kinetic = false;  ///< whether the order is for quadratic K(p) only
-  bool repeats = false;  ///< it is several steps of a shorter one, which classical_methods() has
+  bool repeats = false;  ///< whether the method is several steps of a shorter one in classical_methods()
 };
 
 // clang-format off
-/// All of them, in the order in which the program lists them. Orders in a bath, of words with letters O, are
+/// Classical methods, in the order of the program's list. Orders in a bath, of words with letters O, are
 /// weak ones; the error of the invariant distribution is of that order too, or better.
 inline constexpr classical_row classical_table[] = {
     {"verlet", "BAB", palindrome<3>({}), 2, "verlet_1967"},

@@ -76,9 +76,9 @@ class phase_fitted {
     for (std::size_t k = 0; k < theta_.size(); ++k) theta_[k] = (*fit.theta)[static_cast<Eigen::Index>(k)];
   }
 
-  const parameters_of<F>& parameters() const { return theta_; }  ///< in the family
+  const parameters_of<F>& parameters() const { return theta_; }  ///< parameters in the family
   typename word::template coefficients<double> coefficients() const { return F{}.coefficients(theta_); }
-  double z() const { return z_; }  ///< as it was given
+  double z() const { return z_; }  ///< z as given
 
  private:
   double z_;

@@ -46,7 +46,7 @@ class s_aia2 : public palindromic<drift, kick, 5> {
   explicit s_aia2(double highest_z);
 
   std::array<double, 5> coefficients() const { return palindrome<5>({coefficient_}); }
-  double highest_z() const { return highest_z_; }  ///< as it was given
+  double highest_z() const { return highest_z_; }  ///< largest z, as given
 
  private:
   double highest_z_;
@@ -75,7 +75,7 @@ class s_aia3 : public palindromic<kick, drift, 7> {
     const double b = coefficient_;
     return palindrome<7>({b, (1.0 - 2.0 * b) / (4.0 - 12.0 * b)});
   }
-  double highest_z() const { return highest_z_; }  ///< as it was given
+  double highest_z() const { return highest_z_; }  ///< largest z, as given
 
  private:
   double highest_z_;

@@ -15,7 +15,7 @@ namespace nysalt {
 
 /// Declared properties of a method beside its coefficients.
 struct method_properties {
-  int order;                        ///< in h, as declared
+  int order;                        ///< order in h, as declared
   bool symmetric;                   ///< whether a step back undoes a step
   bool requires_quadratic_kinetic;  ///< whether the order is for quadratic K(p) only
 };
@@ -27,8 +27,8 @@ class tabulated : public method_properties {
  public:
   using word = run_time_word;
 
-  /// From letters, one coefficient for each of their slots, and promises. Throws std::invalid_argument unless
-  /// there is a finite coefficient for each slot.
+  /// A method from letters, one coefficient for each of their slots, and promises. Throws
+  /// std::invalid_argument unless there is a finite coefficient for each slot.
   tabulated(std::string name, run_time_word letters, std::vector<double> coefficients,
             const method_properties& properties)
       : method_properties(properties),
@@ -36,9 +36,10 @@ class tabulated : public method_properties {
         letters_(std::move(letters)),
         coefficients_(std::move(coefficients)) {
     if (coefficients_.size() != letters_.slots) {
-      throw std::invalid_argument(sentence("{}: {} coefficients for the {} letters {}{}", name_,
-                                           coefficients_.size(), letters_.length, letters_.letters(),
-                                           letters_.slots > letters_.length ? " (G and H take two)" : ""));
+      throw std::invalid_argument(
+          sentence("{}: coefficients must fit the letters, got {} coefficients for the {} letters {}{}",
+                   name_, coefficients_.size(), letters_.length, letters_.letters(),
+                   letters_.slots > letters_.length ? " (G and H take two)" : ""));
     }
     for (std::size_t i = 0; i < coefficients_.size(); ++i) {
       if (std::isfinite(coefficients_[i])) continue;

@@ -17,16 +17,17 @@ template <placement P, Method M>
   requires TypeLevelWord<typename M::word>
 class thermostatted_method {
  public:
-  using word = thermostatted_word<typename M::word, P>;  ///< with letters O
-  /// Where the bath has no noise: 2 at most.
+  using word = thermostatted_word<typename M::word, P>;  ///< word with letters O
+  /// Order without noise: 2 at most.
   static constexpr int order = thermostatted_order(P, M::order, M::symmetric);
-  static constexpr bool symmetric = P != placement::end && M::symmetric;  ///< not with O at the end
-  static constexpr bool requires_quadratic_kinetic = M::requires_quadratic_kinetic;  ///< as without the bath
+  static constexpr bool symmetric = P != placement::end && M::symmetric;  ///< false with O at the end
+  static constexpr bool requires_quadratic_kinetic =
+      M::requires_quadratic_kinetic;  ///< value of the method without the bath
 
   /// Holds a copy of the method.
   explicit thermostatted_method(const M& plain) : plain_(plain) {}
 
-  /// Those of the method with those of the letters O, in the order of the word.
+  /// Coefficients of the method and of the letters O, in the order of the word.
   typename word::template coefficients<double> coefficients() const {
     return thermostatted_coefficients<word>(P, plain_.coefficients());
   }
@@ -47,7 +48,8 @@ thermostatted_method<P, M> thermostat(const M& method) {
   return thermostatted_method<P, M>(method);
 }
 
-/// The same as data. Throws std::invalid_argument if the method has letters O already, or no central letter.
+/// A thermostatted method as data. Throws std::invalid_argument if the method has letters O already, or no
+/// central letter.
 inline tabulated thermostat(const tabulated& method, placement where) {
   const run_time_word letters = thermostatted(method.letters(), where);
   return tabulated(method.name(), letters,

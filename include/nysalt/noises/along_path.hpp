@@ -13,25 +13,25 @@
 
 namespace nysalt {
 
-/// The noise of a recorded path as a method needs it: that of each letter O over its own part of the step,
-/// halves included. Refers to the path.
+/// The noise of a recorded path for the letters O of a method: that of each letter O over its own part of the
+/// step, halves included. Refers to the path.
 template <class T, int N>
 class along_path {
  public:
   static constexpr bool draws_freely = false;
 
-  /// For a word whose letters O cover `intervals` of a step. Throws std::invalid_argument unless the parts of
-  /// a step are whole intervals of the path.
+  /// A path for a word whose letters O cover `intervals` of a step. Throws std::invalid_argument unless the
+  /// parts of a step are whole intervals of the path.
   along_path(const recorded_path<T, N>& path, noise_intervals intervals, double step)
       : path_(&path), intervals_(std::move(intervals)) {
     if (intervals_.parts == 0) return;
     const double part = step / intervals_.parts / path.interval();
     per_part_ = std::llround(part);
     if (per_part_ >= 1 && std::abs(part - static_cast<double>(per_part_)) <= 1e-9 * part) return;
-    throw std::invalid_argument(sentence(
-        "the step {} in {} parts, as the letters O need them, does not consist of whole intervals {} of the "
-        "recorded path",
-        step, intervals_.parts, path.interval()));
+    throw std::invalid_argument(
+        sentence("along_path: the step {} in the {} parts of the letters O must consist of whole "
+                 "intervals {} of the recorded path",
+                 step, intervals_.parts, path.interval()));
   }
 
   /// The noise of the path over one letter O of one step. Throws std::invalid_argument where the path is too
@@ -46,8 +46,10 @@ class along_path {
     static_assert(all_lanes || std::is_same_v<U, double>, "nysalt: a path is for all its lanes or one");
     const std::uint64_t lane_of = at.trajectory - path_->trajectory();
     if (lane_of >= (all_lanes ? 1 : lanes_in<T>)) {
-      throw std::invalid_argument(sentence("the recorded path is that of trajectory {}, not of {}",
-                                           path_->trajectory(), at.trajectory));
+      throw std::invalid_argument(
+          sentence("along_path: the recorded path must be that of the trajectory, got trajectory {}, "
+                   "not of {}",
+                   path_->trajectory(), at.trajectory));
     }
     if constexpr (all_lanes) {
       path_->over(from, to, xi);

@@ -21,25 +21,25 @@ namespace nysalt {
 
 /// The purpose of a random number, so that no two uses share one.
 enum class noise_purpose : std::uint8_t {
-  initial_state = 1,   ///< of a trajectory
-  bath = 2,            ///< of a run
-  bath_halves = 3,     ///< which split a letter O into halves
-  finer_path = 4,      ///< which split a step of a path into halves
-  burn_in = 5,         ///< of the run that makes an initial state
-  burn_in_halves = 6,  ///< as bath_halves, of that run
-  search = 7,          ///< from where one begins
-  perturbation = 8,    ///< of a start
-  momenta = 9,         ///< of a trajectory of Hybrid Monte Carlo, and whether it is accepted
-  duration = 10        ///< of such trajectories
+  initial_state = 1,   ///< initial state of a trajectory
+  bath = 2,            ///< noise of the bath in a run
+  bath_halves = 3,     ///< noise that splits a letter O into halves
+  finer_path = 4,      ///< noise that splits a step of a path into halves
+  burn_in = 5,         ///< noise of the run that makes an initial state
+  burn_in_halves = 6,  ///< noise that splits letters O of that run
+  search = 7,          ///< random starts of a search
+  perturbation = 8,    ///< perturbation of a start
+  momenta = 9,         ///< momenta of a trajectory of Hybrid Monte Carlo, and whether it is accepted
+  duration = 10        ///< durations of trajectories of Hybrid Monte Carlo
 };
 
-/// Where random numbers are used. A slot holds two of them: a step that needs N numbers k times gives
+/// Index of random numbers. A slot holds two of them: a step that needs N numbers k times gives
 /// slots_for(N) slots to each time.
 struct noise_counter {
   std::uint64_t trajectory = 0;  ///< below 2^48
-  std::int64_t step = 0;         ///< from 0 to below 2^48
+  std::int64_t step = 0;         ///< step number, 0 <= step < 2^48
   std::uint64_t slot = 0;        ///< below 2^24
-  noise_purpose purpose{};       ///< what the numbers are for
+  noise_purpose purpose{};       ///< purpose of the numbers
 };
 
 /// The number of slots that hold n numbers.
@@ -52,18 +52,18 @@ inline void check_counter(const noise_counter& first, std::uint64_t trajectories
   constexpr std::uint64_t two_to_48 = std::uint64_t{1} << 48U;
   constexpr std::uint64_t two_to_24 = std::uint64_t{1} << 24U;
   if (first.trajectory > two_to_48 - trajectories) {
-    throw std::invalid_argument(sentence(
-        "standard_normals: trajectory {} is too large, trajectories are below 2^48", first.trajectory));
+    throw std::invalid_argument(
+        sentence("standard_normals: trajectory must be < 2^48, got {}", first.trajectory));
   }
   if (first.step < 0 || first.step >= static_cast<std::int64_t>(two_to_48)) {
     throw std::invalid_argument(
-        sentence("standard_normals: step {} has no noise, steps go from 0 to below 2^48", first.step));
+        sentence("standard_normals: step must be >= 0 and < 2^48, got {}", first.step));
   }
   if (slots > two_to_24 || first.slot > two_to_24 - slots) {
-    throw std::invalid_argument(sentence(
-        "standard_normals: {} slots from slot {} are too many, slots of a step are below 2^24: use fewer "
-        "numbers a step",
-        slots, first.slot));
+    throw std::invalid_argument(
+        sentence("standard_normals: slots of a step must be < 2^24, got {} slots from slot {}; use "
+                 "fewer numbers a step",
+                 slots, first.slot));
   }
 }
 
@@ -141,7 +141,7 @@ template <class T>
   }
 }
 
-/// The same into a vector.
+/// Writes standard normals into a vector.
 template <class T, int N>
 void standard_normals(std::uint64_t seed, const noise_counter& first, vector<T, N>& out) {
   standard_normals<T>(seed, first, std::span<T>(out.data(), static_cast<std::size_t>(out.size())));

@@ -5,7 +5,8 @@
 
 namespace nysalt {
 
-/// For runs that need no noise: no letter O, or a bath with sigma = 0. A stepper refuses it otherwise.
+/// A noise source for runs without noise: no letter O, or a bath with sigma = 0. A stepper refuses it
+/// otherwise.
 struct no_noise {
   static constexpr bool draws_freely = false;
 

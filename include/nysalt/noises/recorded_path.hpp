@@ -52,7 +52,7 @@ class coarse_graining {
   void over(std::span<const vector<T, N>> intervals, vector<T, N>& xi) const {
     over(intervals, 0, intervals.size(), xi);
   }
-  /// The same of `count` intervals of a list, from one on.
+  /// Noise over `count` intervals of a list, from one on.
   template <class T, int N>
   void over(const auto& intervals, std::size_t from, std::size_t count, vector<T, N>& xi) const {
     first(xi);
@@ -65,7 +65,7 @@ class coarse_graining {
   double decay_;
 };
 
-/// The noise of a run as it was: standard normal numbers of consecutive intervals, of one trajectory or of
+/// The recorded noise of a run: standard normal numbers of consecutive intervals, of one trajectory or of
 /// those in the lanes of T.
 template <class T, int N>
 class recorded_path {
@@ -75,17 +75,19 @@ class recorded_path {
   recorded_path(double interval, double friction, std::uint64_t trajectory = 0)
       : interval_(interval), trajectory_(trajectory), coarse_(friction * interval) {
     if (interval > 0.0 && std::isfinite(interval) && friction >= 0.0 && std::isfinite(friction)) return;
-    throw std::invalid_argument(sentence(
-        "recorded_path: needs a positive interval and a friction >= 0, got {} and {}", interval, friction));
+    throw std::invalid_argument(
+        sentence("recorded_path: interval must be > 0 and friction >= 0, got {} and {}", interval, friction));
   }
 
   double interval() const { return interval_; }             ///< length of each in time
-  std::uint64_t trajectory() const { return trajectory_; }  ///< whose it is; that of lane 0
+  std::uint64_t trajectory() const { return trajectory_; }  ///< trajectory number, of lane 0
   /// Number of the first interval that is held.
   std::int64_t begin() const { return begin_; }
   std::int64_t end() const { return begin_ + std::ssize(normals_); }  ///< number of the one after the last
 
-  void add(vector<T, N> normals) { normals_.push_back(std::move(normals)); }  ///< of interval end()
+  void add(vector<T, N> normals) {
+    normals_.push_back(std::move(normals));
+  }  ///< appends the noise of interval end()
   /// Forgets the intervals before that number: a reader that advances in intervals keeps little of the path.
   void forget_before(std::int64_t interval) {
     const std::int64_t known = std::clamp(interval, begin_, end());
@@ -97,10 +99,10 @@ class recorded_path {
   /// held.
   void over(std::int64_t from, std::int64_t to, vector<T, N>& xi) const {
     if (from < begin_ || to > end()) {
-      throw std::invalid_argument(sentence(
-          "the recorded path holds the intervals {} to {} of length {}, but the run needs {} to {}: record a "
-          "longer one",
-          begin_, end(), interval_, from, to));
+      throw std::invalid_argument(
+          sentence("recorded_path: the path must hold the intervals of the run, got {} to {} of length "
+                   "{} for {} to {}; record a longer path",
+                   begin_, end(), interval_, from, to));
     }
     const auto held = std::span<const vector<T, N>>(normals_);
     coarse_.over(held.subspan(static_cast<std::size_t>(from - begin_), static_cast<std::size_t>(to - from)),

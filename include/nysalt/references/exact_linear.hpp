@@ -16,8 +16,8 @@
 namespace nysalt {
 
 /// The exact flow of a linear system, mode by mode: x(t) = cos(w t) x + sin(w t)/w y,
-/// y(t) = -w sin(w t) x + cos(w t) y with x = U^T M^{1/2} q, y = U^T M^{-1/2} p. Its error is rounding.
-/// It is the flow of one linear system and refuses any other, as the error would not be noticed otherwise.
+/// y(t) = -w sin(w t) x + cos(w t) y with x = U^T M^{1/2} q, y = U^T M^{-1/2} p. The error is rounding. An
+/// object belongs to one linear system and refuses any other, where the error would not be noticed.
 class exact_linear {
  public:
   // Not of itself, first of all: whether that is a system depends on whether it can be copied.
@@ -26,7 +26,7 @@ class exact_linear {
   template <class S>
     requires(!std::same_as<S, exact_linear> && NystromSystem<S> && HasModes<S>)
   explicit exact_linear(const S& system) : system_(describe(system)) {
-    if constexpr (HasBath<S>) require_alone(system);
+    if constexpr (HasBath<S>) require_no_bath(system);
     require_orthonormal(system.modes(), size(system));
     modes_ = modal_coordinates::of(system);
     require_linear(system);
@@ -38,7 +38,9 @@ class exact_linear {
   void advance(const S& system, phase_point<double, S::dimension>& point, double t) const {
     if (const std::string other = describe(system); other != system_) {
       throw std::invalid_argument(
-          sentence("exact_linear: made for {}, it cannot advance {}; make one for that", system_, other));
+          sentence("exact_linear: the system must be that of the constructor, {}, got {}; make an "
+                   "exact_linear of this system",
+                   system_, other));
     }
     Eigen::VectorXd x(modes_->size());
     Eigen::VectorXd y(modes_->size());
@@ -54,17 +56,16 @@ class exact_linear {
     modes_->from_modes(x, y, point.q, point.p);
   }
 
-  exact_linear finer() const { return *this; }                         ///< itself: nothing is finer
-  std::string description() const { return "the exact linear flow"; }  ///< for provenance
+  exact_linear finer() const { return *this; }                         ///< the same object: the flow is exact
+  std::string description() const { return "the exact linear flow"; }  ///< description for provenance
 
  private:
   static constexpr double eps = std::numeric_limits<double>::epsilon();
 
-  void require_alone(const auto& system) const {
+  void require_no_bath(const auto& system) const {
     const bath& heat_bath = system.bath();
     if (!heat_bath.acts()) return;
-    throw std::invalid_argument(
-        sentence("exact_linear: the flow of {} is not known, as it is in a bath", system_));
+    throw std::invalid_argument(sentence("exact_linear: the system must be in no bath, got {}", system_));
   }
   void require_orthonormal(const normal_modes& modes, Eigen::Index n) const;
 

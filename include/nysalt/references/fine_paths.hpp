@@ -26,7 +26,7 @@ class fine_paths {
   /// Throws std::invalid_argument unless the step is positive and finite.
   explicit fine_paths(double step, const M& method = M{}) : fine_paths(step, method, 0) {}
 
-  /// x becomes the state a time t later on its path, the `at.step`-th such time of it; xi[k] become the
+  /// x becomes the state a time t later on its path, interval `at.step` of the path; xi[k] become the
   /// standard normal numbers of the noise over the k-th of as many equal parts of that time. Throws
   /// std::invalid_argument unless each part is a positive multiple of the step, to 1e-9 relative.
   template <HasBath S, Scalar T>
@@ -35,9 +35,9 @@ class fine_paths {
     detail::advance_on_path(system, method_, step_, halvings_, x, t, at, xi);
   }
 
-  double step() const { return step_; }        ///< of its method
-  const M& method() const { return method_; }  ///< that takes the steps
-  int halvings() const { return halvings_; }   ///< of the step whose noise is fresh
+  double step() const { return step_; }        ///< step of the method
+  const M& method() const { return method_; }  ///< method of the steps
+  int halvings() const { return halvings_; }   ///< halvings of the step with fresh noise
 
   /// Half the step, on the same path.
   fine_paths finer() const { return fine_paths(0.5 * step_, method_, halvings_ + 1); }

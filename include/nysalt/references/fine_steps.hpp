@@ -33,7 +33,7 @@ class fine_steps {
     const auto steps = detail::whole_steps(t, step_);
     if (!steps) {
       throw std::invalid_argument(
-          sentence("fine_steps: the time {} is not a multiple of the fine step {}", t, step_));
+          sentence("fine_steps: the time must be a multiple of the fine step, got {} and {}", t, step_));
     }
     const auto fine = make_stepper(system, method_, t / static_cast<double>(*steps));
     auto run = fine.open(x);
@@ -41,9 +41,9 @@ class fine_steps {
     x = fine.synchronous(run);
   }
 
-  double step() const { return step_; }                                  ///< of its method
-  const M& method() const { return method_; }                            ///< that takes the steps
-  fine_steps finer() const { return fine_steps(0.5 * step_, method_); }  ///< with half the step
+  double step() const { return step_; }                                  ///< step of the method
+  const M& method() const { return method_; }                            ///< method of the steps
+  fine_steps finer() const { return fine_steps(0.5 * step_, method_); }  ///< reference with half the step
   std::string description() const {
     return sentence("{} with step {}", method_.name(), in_digits(step_, 12));
   }

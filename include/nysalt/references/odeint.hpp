@@ -59,8 +59,10 @@ class odeint_reference {
     }
   }
 
-  double tolerance() const { return tolerance_; }  ///< of a step's error, absolute and relative
-  /// With a hundredth of the tolerance.
+  double tolerance() const {
+    return tolerance_;
+  }  ///< tolerance of the error of a step, absolute and relative
+  /// A reference with a hundredth of the tolerance.
   odeint_reference finer() const { return odeint_reference(0.01 * tolerance_); }
   std::string description() const {
     return sentence("Boost.Odeint Runge-Kutta-Fehlberg 7(8) with tolerance {}", tolerance_);
@@ -73,7 +75,7 @@ class odeint_reference {
       const bath& heat_bath = system.bath();
       if (heat_bath.sigma() == 0.0) return heat_bath.friction();
       throw std::invalid_argument(
-          sentence("odeint_reference: the {} is noisy, and this is for smooth motion: take fine_paths",
+          sentence("odeint_reference: the motion must be without noise, got a {}; take fine_paths",
                    heat_bath.description()));
     }
     return 0.0;

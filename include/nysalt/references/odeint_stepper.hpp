@@ -18,15 +18,15 @@ namespace nysalt {
 template <Method M>
 class odeint_stepper {
  public:
-  using value_type = double;                                     ///< as Odeint asks
-  using time_type = double;                                      ///< as Odeint asks
-  using order_type = unsigned short;                             ///< as Odeint asks
-  using stepper_category = boost::numeric::odeint::stepper_tag;  ///< as Odeint asks
+  using value_type = double;                                     ///< value type, as Odeint requires
+  using time_type = double;                                      ///< time type, as Odeint requires
+  using order_type = unsigned short;                             ///< order type, as Odeint requires
+  using stepper_category = boost::numeric::odeint::stepper_tag;  ///< stepper category, as Odeint requires
 
-  /// Holds a copy of the method.
+  /// A stepper with a copy of the method.
   explicit odeint_stepper(M method = M{}) : method_(std::move(method)) {}
 
-  order_type order() const { return static_cast<order_type>(M::order); }  ///< that of the method
+  order_type order() const { return static_cast<order_type>(M::order); }  ///< order of the method
 
   /// One plain step of x by dt. Cost: the word's evaluations_of_plain_step, and the making of a stepper.
   template <System S>

@@ -25,14 +25,14 @@ namespace nysalt {
 template <Scalar T>
 struct compensated {
   T value{};  ///< the sum, rounded to T
-  T carry{};  ///< what rounding took from it: goes into the next sum
+  T carry{};  ///< rounding error of the value, which enters the next sum
 
   compensated() = default;
-  compensated(double x) : value(x), carry(0.0) {}  ///< nothing carried
+  compensated(double x) : value(x), carry(0.0) {}  ///< a number without carry
   compensated(const T& x)
     requires(!std::same_as<T, double>)
-      : value(x), carry(0.0) {}                  ///< nothing carried
-  explicit operator T() const { return value; }  ///< without the carry
+      : value(x), carry(0.0) {}                  ///< a number without carry
+  explicit operator T() const { return value; }  ///< value without the carry
 
   compensated& operator+=(const compensated& b) {
     const T summand = b.value + carry;
@@ -130,7 +130,7 @@ compensated<T> abs(const compensated<T>& a) {
   using std::abs;
   return T(abs(a.value));
 }
-/// Of the value; the exponent is a constant.
+/// Power of the value; the exponent is a constant.
 template <class T>
 compensated<T> pow(const compensated<T>& a, double exponent) {
   using std::pow;

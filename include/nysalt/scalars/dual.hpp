@@ -16,14 +16,14 @@ namespace nysalt {
 /// Cost: an operation on dual<T, N> is N + 1 (sums) to 3 N + 1 (products, quotients) operations on T.
 template <Scalar T, int N>
 struct dual {
-  using value_type = T;                  ///< which may be a dual or a pack itself
-  static constexpr int derivatives = N;  ///< how many are carried
+  using value_type = T;                  ///< type of the value, possibly a dual number or a pack
+  static constexpr int derivatives = N;  ///< number of derivatives
 
-  T value{};                      ///< of the function
-  std::array<T, N> derivative{};  ///< of the function by each variable
+  T value{};                      ///< value of the function
+  std::array<T, N> derivative{};  ///< derivatives of the function by each variable
 
   dual() = default;
-  /// Its derivatives are 0.
+  /// A constant: all derivatives are 0.
   dual(double constant) : value(constant) { derivative.fill(T(0.0)); }
   dual(const T& constant)
     requires(!std::same_as<T, double>)

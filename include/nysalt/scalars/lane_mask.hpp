@@ -10,7 +10,7 @@
 
 namespace nysalt {
 
-/// Which lanes: what comparing packs gives. It is no bool, as lanes may differ.
+/// Mask of lanes, the result of comparing packs. Not a bool, as lanes may differ.
 template <int W>
 class lane_mask {
  public:
@@ -24,7 +24,7 @@ class lane_mask {
     for (int lane = 0; lane < W; ++lane) set(lane, all);
   }
 
-  /// Whether lane 0 <= lane < W is among them; not checked.
+  /// Whether the mask has lane 0 <= lane < W; not checked.
   bool operator[](int lane) const {
     if constexpr (of_part == 1) {
       return parts[static_cast<std::size_t>(lane)] != 0;
@@ -47,7 +47,7 @@ class lane_mask {
     for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = a.parts[i] & b.parts[i];
     return result;
   }
-  /// Lanes that are in one of them or in both.
+  /// Lanes that are in a, in b or in both.
   friend lane_mask operator|(const lane_mask& a, const lane_mask& b) {
     lane_mask result;
     for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = a.parts[i] | b.parts[i];
@@ -72,7 +72,7 @@ class lane_mask {
   std::array<part, W / of_part> parts;  ///< lane k is in parts[k / of_part]
 };
 
-/// Whether there is a lane among them.
+/// Whether the mask has any lane.
 template <int W>
 bool any(const lane_mask<W>& which) {
   auto some = which.parts[0];

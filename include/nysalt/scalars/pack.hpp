@@ -21,13 +21,13 @@ template <class T, int W = default_lanes>
   requires(std::same_as<T, double> && 1 <= W && W <= 16)
 class pack {
  public:
-  static constexpr int lanes = W;                              ///< how many numbers
+  static constexpr int lanes = W;                              ///< number of lanes
   static constexpr int of_part = detail::lanes_of_part(W);     ///< lanes in a register of the target
   using part = typename detail::native_vector<of_part>::type;  ///< a register
-  using mask = lane_mask<W>;                                   ///< what comparing two packs gives
+  using mask = lane_mask<W>;                                   ///< result of comparing two packs
 
   pack() = default;
-  /// The same number in all lanes, with its sign if it is zero.
+  /// A pack with one number in all lanes; the sign of zero is kept.
   pack(double all) {
     for (part& mine : parts) mine = all - part{};  // - keeps the sign of zero
   }
@@ -40,7 +40,7 @@ class pack {
       return parts[static_cast<std::size_t>(lane / of_part)][lane % of_part];
     }
   }
-  /// Puts a number into lane 0 <= lane < W; not checked.
+  /// Assigns lane 0 <= lane < W; unchecked.
   void set(int lane, double value) {
     if constexpr (of_part == 1) {
       parts[static_cast<std::size_t>(lane)] = value;

@@ -15,11 +15,11 @@ namespace nysalt {
 /// Cost: a product takes (Degree + 1)(Degree + 2)/2 multiplications.
 template <int Degree>
 struct series {
-  static constexpr std::size_t terms = Degree + 1;  ///< how many coefficients are kept
-  std::array<double, terms> coefficient{};          ///< of x^k at k
+  static constexpr std::size_t terms = Degree + 1;  ///< number of coefficients kept
+  std::array<double, terms> coefficient{};          ///< coefficients, of x^k at k
 
   series() = default;
-  series(double constant) { coefficient[0] = constant; }  ///< of degree 0
+  series(double constant) { coefficient[0] = constant; }  ///< series of degree 0
 
   /// The variable x itself.
   static series variable()

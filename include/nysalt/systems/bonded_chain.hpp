@@ -29,8 +29,8 @@ class stiff_bonds {
   T potential(const vector<T, N>& q) const {
     T sum(0.0);
     for (int i = 0; i + 1 < N; ++i) {
-      const T stretch = q[i + 1] - q[i];
-      sum += stretch * stretch;
+      const T elongation = q[i + 1] - q[i];
+      sum += elongation * elongation;
     }
     return sum * (0.5 * omega_ * omega_);
   }
@@ -43,16 +43,18 @@ class stiff_bonds {
       f[i + 1] -= pull;
     }
   }
-  double omega() const { return omega_; }  ///< of one bond and unit masses at its ends: sqrt(2) omega
+  double omega() const {
+    return omega_;
+  }  ///< frequency of one bond with unit masses at its ends: sqrt(2) omega
   std::string description() const { return sentence("stiff_bonds({}, omega={})", N, omega_); }
 
  private:
   double omega_;
 };
 
-/// The same masses as charges of one sign, in a harmonic trap around their places:
+/// The masses of a bonded_chain as charges of one sign, in a harmonic trap around their places:
 ///   V = sum q_i^2/2 + strength sum_{i<j} (1 + r^2)^(-1/2),  r = j + q_j - i - q_i.
-/// The dear part of a bonded_chain: O(N^2), and frequencies of order one.
+/// The expensive part of a bonded_chain: O(N^2), and frequencies of order one.
 template <int N>
 class soft_charges {
  public:
@@ -98,7 +100,7 @@ class soft_charges {
   double strength_;
 };
 
-/// Part 0 is fast and cheap, part 1 slow and dear: what multiple time steps are for.
+/// Part 0 is fast and cheap, part 1 slow and expensive: a case for multiple time steps.
 template <int N>
 using bonded_chain = sum_of_parts<stiff_bonds<N>, soft_charges<N>>;
 

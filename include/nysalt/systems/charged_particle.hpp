@@ -40,7 +40,7 @@ class charged_particle {
   const Potential& part() const {
     return electric_;
   }
-  double cyclotron_frequency() const { return frequency_; }  ///< of its turns around the field
+  double cyclotron_frequency() const { return frequency_; }  ///< frequency of the turns around the field
   /// v = p - A(q).
   template <class State>
   auto velocity_of(const State& x) const {

@@ -17,7 +17,8 @@ template <System S>
 struct counted : S {
   explicit counted(const S& system) : S(system) {}  ///< counts from 0
 
-  /// One evaluation. Of a black box it is over double only, so that each call that differences make counts.
+  /// Counts one evaluation. Of a black box it is over double only, so that each call that differences make
+  /// counts.
   template <class T>
     requires(BlackBoxForce<S> ? std::is_same_v<T, double> : SystemOver<S, T>)
   void force(const vector<T, S::dimension>& q, vector<T, S::dimension>& f) const {
@@ -25,7 +26,7 @@ struct counted : S {
     nysalt::force<T>(static_cast<const S&>(*this), q, f);
   }
 
-  /// One evaluation.
+  /// Counts one evaluation.
   template <class T>
     requires HasSoftForce<S, T>
   void soft_force(const vector<T, S::dimension>& q, vector<T, S::dimension>& f) const {
@@ -33,7 +34,7 @@ struct counted : S {
     S::soft_force(q, f);
   }
 
-  /// One evaluation.
+  /// Counts one evaluation.
   template <class T>
     requires HasForceDerivative<S, T>
   void force_derivative(const vector<T, S::dimension>& q, const vector<T, S::dimension>& v,
@@ -42,7 +43,7 @@ struct counted : S {
     S::force_derivative(q, v, g);
   }
 
-  /// One evaluation.
+  /// Counts one evaluation.
   template <class T, class C>
     requires HasKick<S, T, C>
   void kick(const vector<T, S::dimension>& q, vector<T, S::dimension>& p, const C& c) const {

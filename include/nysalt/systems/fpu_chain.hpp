@@ -31,7 +31,7 @@ class fpu_chain {
   /// Pairs), omega positive and finite.
   fpu_chain(Eigen::Index pairs, double omega) : pairs_(pairs), omega_(omega) {
     if (pairs < 1 || (Pairs != Eigen::Dynamic && pairs != Pairs)) {
-      throw std::invalid_argument(sentence("fpu_chain: cannot have {} pairs of masses", pairs));
+      throw std::invalid_argument(sentence("fpu_chain: pairs must be >= 1 and fit the type, got {}", pairs));
     }
     if (!(omega > 0.0) || !std::isfinite(omega)) {
       throw std::invalid_argument(sentence("fpu_chain: omega must be positive and finite, got {}", omega));
@@ -40,7 +40,7 @@ class fpu_chain {
 
   Eigen::Index pairs() const { return Pairs == Eigen::Dynamic ? pairs_ : Pairs; }  ///< m, stiff springs
   Eigen::Index size() const { return 2 * pairs(); }
-  double omega() const { return omega_; }  ///< of the stiff springs
+  double omega() const { return omega_; }  ///< frequency of the stiff springs
 
   template <class T>
   T potential(const vector<T, dimension>& q) const {
@@ -48,8 +48,8 @@ class fpu_chain {
     T soft(0.0);
     T bond = q[0];
     for (Eigen::Index i = 0; i < pairs(); ++i) {
-      const T stretch = q[2 * i + 1] - q[2 * i];
-      stiff += stretch * stretch;
+      const T elongation = q[2 * i + 1] - q[2 * i];
+      stiff += elongation * elongation;
       soft += fourth_power(bond);
       bond = i + 1 < pairs() ? q[2 * i + 2] - q[2 * i + 1] : -q[2 * i + 1];
     }
@@ -57,7 +57,7 @@ class fpu_chain {
     return stiff * (0.25 * omega_ * omega_) + soft;
   }
 
-  /// What a soft bond stretched by u pulls with, 4 u^3.
+  /// Force of a soft bond with the elongation u, 4 u^3.
   template <class T>
   static T quartic_pull(const T& u) {
     return u * u * (u * 4.0);  // two products at once
@@ -76,7 +76,7 @@ class fpu_chain {
     }
   }
 
-  /// By how much that changes where u changes by w, 12 u^2 w.
+  /// Derivative of quartic_pull(u) in the direction w, 12 u^2 w.
   template <class T>
   static T slope_of_pull(const T& u, const T& w) {
     return u * u * (w * 12.0);
@@ -87,13 +87,13 @@ class fpu_chain {
   void force_derivative(const vector<T, dimension>& q, const vector<T, dimension>& v,
                         vector<T, dimension>& g) const {
     const double k = 0.5 * omega_ * omega_;
-    const auto stretch = [&](const vector<T, dimension>& x, Eigen::Index i) {
+    const auto elongation = [&](const vector<T, dimension>& x, Eigen::Index i) {
       return i + 1 < pairs() ? T(x[2 * i + 2] - x[2 * i + 1]) : T(-x[2 * i + 1]);
     };
     T left = slope_of_pull(q[0], v[0]);
     for (Eigen::Index i = 0; i < pairs(); ++i) {
       const T stiff = (v[2 * i + 1] - v[2 * i]) * k;
-      const T right = slope_of_pull(stretch(q, i), stretch(v, i));
+      const T right = slope_of_pull(elongation(q, i), elongation(v, i));
       g[2 * i] = stiff - left;
       g[2 * i + 1] = right - stiff;
       left = right;
@@ -133,7 +133,7 @@ class fpu_chain {
   static constexpr int components = 2;                   ///< coordinates of a site
   Eigen::Index sites() const { return pairs(); }         ///< m
   static constexpr Eigen::Index reach() { return 1; }    ///< sites between a force and what the force reads
-  static constexpr bool is_periodic() { return false; }  ///< its ends are fixed
+  static constexpr bool is_periodic() { return false; }  ///< false: the ends are fixed
   /// The force on both ends of stiff springs begin .. end - 1, as a LocalSystem has it.
   template <class T>
   void force_in_range(const site_columns<const T>& q, const site_columns<T>& f, Eigen::Index begin,
@@ -165,8 +165,8 @@ class fpu_chain {
     T stiff(0.0);
     T soft(0.0);
     for (Eigen::Index i = begin; i < end; ++i) {
-      const T stretch = q(1, i) - q(0, i);
-      stiff += stretch * stretch;
+      const T elongation = q(1, i) - q(0, i);
+      stiff += elongation * elongation;
       soft += fourth_power(i > 0 ? T(q(0, i) - q(1, i - 1)) : q(0, i));
     }
     if (end == pairs()) soft += fourth_power(T(-q(1, end - 1)));
@@ -177,9 +177,9 @@ class fpu_chain {
   /// [li_lu_tao_ye_2023, equation (5.4)].
   template <class T>
   T stiff_energy(const phase_point<T, dimension>& x, Eigen::Index j) const {
-    const T stretch = x.q[2 * j + 1] - x.q[2 * j];
+    const T elongation = x.q[2 * j + 1] - x.q[2 * j];
     const T rate = x.p[2 * j + 1] - x.p[2 * j];
-    return (rate * rate + stretch * stretch * (omega_ * omega_)) * 0.25;
+    return (rate * rate + elongation * elongation * (omega_ * omega_)) * 0.25;
   }
   /// I = sum_j I_j, an adiabatic invariant.
   template <class T>
@@ -211,7 +211,8 @@ class fpu_chain {
     const double soft = std::sqrt(24.0 * std::sqrt(soft_energy));
     return {{0.0, soft}, {omega_, std::sqrt(omega_ * omega_ + soft * soft)}};
   }
-  /// In a bath: a bond holds less than 12.5 kT, the energy of five deviations, but for one in 10^5.
+  /// Frequency bands in a bath: a bond holds less than 12.5 kT, the energy of five deviations, but for one in
+  /// 10^5.
   std::vector<frequency_band> frequency_bands_at(double temperature) const {
     return frequency_bands(std::max(2.0, 12.5 * temperature));
   }

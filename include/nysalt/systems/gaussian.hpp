@@ -23,8 +23,8 @@ class gaussian {
  public:
   static constexpr int dimension = Eigen::Dynamic;
 
-  /// One frequency for each coordinate. Throws std::invalid_argument unless there is one, and all are
-  /// positive and finite.
+  /// A Gaussian with one frequency for each coordinate. Throws std::invalid_argument unless there is one, and
+  /// all are positive and finite.
   explicit gaussian(const Eigen::VectorXd& frequencies) : stiffness_(frequencies.cwiseAbs2()) {
     if (frequencies.size() == 0 || !frequencies.allFinite() || !(frequencies.minCoeff() > 0.0)) {
       throw std::invalid_argument(sentence(

@@ -32,24 +32,24 @@ class in_bath : public S {
   in_bath(S system, nysalt::bath heat_bath) : S(std::move(system)), bath_(std::move(heat_bath)) {}
 
   const nysalt::bath& bath() const { return bath_; }
-  const S& alone() const { return *this; }  ///< without the bath
+  const S& base() const { return *this; }  ///< system without the bath
 
-  /// Those of the system in this bath.
+  /// Frequency bands of the system in this bath.
   std::vector<frequency_band> frequency_bands() const
     requires HasFrequencyBands<S>
   {
-    return detail::frequency_bands_in(alone(), bath_);
+    return detail::frequency_bands_in(base(), bath_);
   }
 
   /// The system, and the bath that it is in; one that does not act goes without saying.
   std::string description() const {
-    if (!bath_.acts()) return describe(alone());
-    return sentence("{} in {}", describe(alone()), bath_.description());
+    if (!bath_.acts()) return describe(base());
+    return sentence("{} in {}", describe(base()), bath_.description());
   }
-  /// That of the system, and the bath.
+  /// Kind of the system, and the bath.
   std::string kind() const {
-    if (!bath_.acts()) return kind_of(alone());
-    return sentence("{} in {}", kind_of(alone()), bath_.description());
+    if (!bath_.acts()) return kind_of(base());
+    return sentence("{} in {}", kind_of(base()), bath_.description());
   }
 
  private:

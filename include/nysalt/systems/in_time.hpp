@@ -37,7 +37,7 @@ class in_time {
   /// The system that P describes.
   explicit in_time(const P& driven = {}) : driven_(driven) {}
 
-  const P& driven() const { return driven_; }  ///< what was written
+  const P& driven() const { return driven_; }  ///< the system P with time
   template <class T>
   T potential(const vector<T, dimension>& q) const {
     vector<T, P::dimension> x;
@@ -93,7 +93,7 @@ class in_time {
   P driven_;
 };
 
-/// A pendulum under a torque that swings: V = -cos q - amplitude q cos(frequency t).
+/// A pendulum under a periodic torque: V = -cos q - amplitude q cos(frequency t).
 class driven_pendulum {
  public:
   static constexpr int dimension = 1;

@@ -34,7 +34,7 @@ class lennard_jones {
   /// Throws std::invalid_argument unless space is 2 or 3 and atoms >= 2 (and both fit the type).
   lennard_jones(Eigen::Index space, Eigen::Index atoms) : space_(space), atoms_(atoms) {
     if ((space != 2 && space != 3) || (Space != Eigen::Dynamic && space != Space)) {
-      throw std::invalid_argument(sentence("lennard_jones: space has 2 or 3 dimensions, not {}", space));
+      throw std::invalid_argument(sentence("lennard_jones: space dimension must be 2 or 3, got {}", space));
     }
     if (atoms < 2 || (Atoms != Eigen::Dynamic && atoms != Atoms)) {
       throw std::invalid_argument(
@@ -43,7 +43,9 @@ class lennard_jones {
   }
 
   Eigen::Index space() const { return Space == Eigen::Dynamic ? space_ : Space; }  ///< 2 or 3 dimensions
-  Eigen::Index atoms() const { return Atoms == Eigen::Dynamic ? atoms_ : Atoms; }  ///< at least 2
+  Eigen::Index atoms() const {
+    return Atoms == Eigen::Dynamic ? atoms_ : Atoms;
+  }  ///< number of atoms, 2 or more
   Eigen::Index size() const { return space() * atoms(); }
 
   template <class T>

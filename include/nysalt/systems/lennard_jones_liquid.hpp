@@ -15,7 +15,7 @@ namespace detail {
 class neighbour_list;
 }
 
-/// What a lennard_jones_liquid may be told.
+/// Options of a lennard_jones_liquid.
 struct lennard_jones_liquid_options {
   double cutoff = 2.5;  ///< r_c, in units of the range
   /// How many derivatives of a pair's potential are continuous at the cut-off: 0 to 3.
@@ -28,7 +28,7 @@ struct lennard_jones_liquid_options {
 /// cut-off r_c with the potential of Lennard and Jones in units of its depth and range [verlet_1967], less
 /// its Taylor polynomial of degree `smoothness` in r^2 around r_c^2:
 ///   V = sum_{i<j, r_ij < r_c} u(r_ij^2) - T(r_ij^2),   u(r^2) = 4 (r^-12 - r^-6).
-/// Smoothness 0 shifts the energy alone, as others do by default: the force jumps at r_c by 0.039 for r_c =
+/// Smoothness 0 shifts the energy only, as others do by default: the force jumps at r_c by 0.039 for r_c =
 /// 2.5, so that the energy errors of all methods end at a floor that no order lowers. Smoothness 1 is the
 /// potential of Stoddard and Ford [stoddard_ford_1973], whose force is continuous; a method of order 4 wants
 /// 2 or 3. The pair's well becomes shallower: by 0.02, 0.06, 0.12 and 0.20 at r = 2^{1/6}.

@@ -30,7 +30,8 @@ class linear_chain {
     if (inverse_masses_.size() == 0) inverse_masses_ = Eigen::VectorXd::Ones(n);
     if (n > 0 && (inverse_masses_.size() != n || !(inverse_masses_.minCoeff() > 0.0) ||
                   !inverse_masses_.allFinite())) {
-      throw std::invalid_argument(sentence("linear_chain: {} positive, finite masses are needed", n));
+      throw std::invalid_argument(
+          sentence("linear_chain: masses must be positive and finite, {} of them", n));
     }
     inverse_masses_ = inverse_masses_.cwiseInverse();
     modes_ = stiffness_modes(stiffness_, inverse_masses_, "linear_chain");
@@ -93,7 +94,7 @@ class linear_chain {
   std::string description() const { return description_; }
 
  private:
-  /// Of K, by columns, and the inverse masses: what distinguishes one chain from another of its size.
+  /// Fingerprint of K, by columns, and the inverse masses, which distinguishes chains of one size.
   std::string fingerprint() const {
     detail::fingerprint sum;
     sum.add_all(stiffness_.reshaped());

@@ -88,7 +88,7 @@ class logistic_regression {
     }
   }
 
-  /// From that of the prior to the bound by which no curvature is larger.
+  /// Frequency band from the frequency of the prior to the upper bound of the curvature.
   std::vector<frequency_band> frequency_bands() const { return {{std::sqrt(precision_), fastest_}}; }
   /// Made once: it takes all the data.
   std::string description() const { return description_; }
@@ -103,7 +103,7 @@ class logistic_regression {
     return sum;
   }
 
-  /// At least the largest eigenvalue of X^T X: the largest sum of a row's magnitudes.
+  /// Upper bound of the largest eigenvalue of X^T X: the largest sum of a row's magnitudes.
   static double bound_of_eigenvalues(const Eigen::MatrixXd& x) {
     const Eigen::MatrixXd products = x.transpose() * x;
     return products.cwiseAbs().rowwise().sum().maxCoeff();

@@ -29,7 +29,7 @@ class phi4_chain {
   /// Throws std::invalid_argument unless masses >= 1 (and fits Masses).
   explicit phi4_chain(Eigen::Index masses) : masses_(masses) {
     if (masses >= 1 && (Masses == Eigen::Dynamic || masses == Masses)) return;
-    throw std::invalid_argument(sentence("phi4_chain: cannot have {} masses", masses));
+    throw std::invalid_argument(sentence("phi4_chain: masses must be >= 1 and fit the type, got {}", masses));
   }
 
   Eigen::Index size() const { return Masses == Eigen::Dynamic ? masses_ : Masses; }
@@ -39,9 +39,9 @@ class phi4_chain {
     T springs(0.0);
     T wells(0.0);
     for (Eigen::Index i = 0; i < size(); ++i) {
-      const T stretch = q[next(i)] - q[i];
+      const T elongation = q[next(i)] - q[i];
       const T square = q[i] * q[i];
-      springs += stretch * stretch;
+      springs += elongation * elongation;
       wells += square * square;
     }
     return springs * 0.5 + wells * 0.25;
@@ -80,15 +80,15 @@ class phi4_chain {
     T springs(0.0);
     T wells(0.0);
     for (Eigen::Index i = begin; i < end; ++i) {
-      const T stretch = q(0, i + 1) - q(0, i);
+      const T elongation = q(0, i + 1) - q(0, i);
       const T square = q(0, i) * q(0, i);
-      springs += stretch * stretch;
+      springs += elongation * elongation;
       wells += square * square;
     }
     return springs * 0.5 + wells * 0.25;
   }
 
-  /// The force of the wells alone, -q_i^3.
+  /// The force of the wells only, -q_i^3.
   template <class T>
   void soft_force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     for (Eigen::Index i = 0; i < size(); ++i) f[i] = -(q[i] * q[i] * q[i]);
@@ -123,7 +123,8 @@ class phi4_chain {
   std::vector<frequency_band> frequency_bands(double well_energy = usual_well_energy) const {
     return {{0.0, std::sqrt(4.0 + 6.0 * std::sqrt(well_energy))}};
   }
-  /// In a bath: a well holds less than 12.5 kT, the energy of five deviations, but for one in 10^5.
+  /// Frequency bands in a bath: a well holds less than 12.5 kT, the energy of five deviations, but for one in
+  /// 10^5.
   std::vector<frequency_band> frequency_bands_at(double temperature) const {
     return frequency_bands(std::max(usual_well_energy, 12.5 * temperature));
   }

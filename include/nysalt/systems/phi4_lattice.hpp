@@ -67,7 +67,7 @@ class phi4_lattice {
 
   // A LocalSystem, whose ranges are whole rows of sites.
   static constexpr int components = 1;                  ///< coordinates of a site
-  Eigen::Index sites() const { return size(); }         ///< L^2
+  Eigen::Index sites() const { return size(); }         ///< number of sites, L^2
   Eigen::Index reach() const { return side_; }          ///< the rows above and below
   static constexpr bool is_periodic() { return true; }  ///< the last row is next to the first
   Eigen::Index sites_of_row() const { return side_; }   ///< L
@@ -94,7 +94,7 @@ class phi4_lattice {
               __attribute__((always_inline)) { out[k] += x * c; });
     }
   }
-  /// The terms of V of the sites of these rows, with the springs to the right and down.
+  /// Potential energy of the sites of these rows, with the springs to the right and down.
   template <class T>
   T potential_in_range(const site_columns<const T>& q, Eigen::Index begin, Eigen::Index end) const {
     T sum(0.0);

@@ -35,7 +35,7 @@ class jacobi_masses {
     }
   }
 
-  double mass(std::size_t body) const { return masses_[body]; }  ///< of the star (0) or planet i (i)
+  double mass(std::size_t body) const { return masses_[body]; }  ///< mass of the star (0) or planet i (i)
   double gravity() const { return gravity_; }                    ///< G
   double reduced_mass(std::size_t planet) const { return reduced_[planet]; }  ///< planets are counted from 0
   /// G M_i: the Kepler motion is r'' = -G M_i r/|r|^3.
@@ -62,12 +62,12 @@ class kepler_motions {
  public:
   static constexpr int dimension = 3 * Planets;
   static constexpr int lanes = 1;                  // kepler_flow iterates as often as each state needs
-  static constexpr std::size_t planets = Planets;  ///< without the star
+  static constexpr std::size_t planets = Planets;  ///< number of planets
 
   /// The part of a solar system of these masses.
   explicit kepler_motions(const jacobi_masses<Planets>& masses) : masses_(masses) {}
 
-  const jacobi_masses<Planets>& masses() const { return masses_; }  ///< those of the star and its planets
+  const jacobi_masses<Planets>& masses() const { return masses_; }  ///< masses of the star and its planets
   double inverse_mass(Eigen::Index i) const {
     return 1.0 / masses_.reduced_mass(static_cast<std::size_t>(i / 3));
   }
@@ -109,7 +109,7 @@ template <int Planets>
 class planet_interaction {
  public:
   static constexpr int dimension = 3 * Planets;
-  static constexpr int lanes = 1;  ///< one trajectory at a time
+  static constexpr int lanes = 1;  ///< 1: trajectories are stepped one at a time
 
   /// The part of a solar system of these masses.
   explicit planet_interaction(const jacobi_masses<Planets>& masses) : kepler_(masses) {}
@@ -200,8 +200,8 @@ class solar_system : public sum_of_parts<kepler_motions<Planets>, planet_interac
   using base = sum_of_parts<kepler_motions<Planets>, planet_interaction<Planets>>;
 
  public:
-  /// From the masses, the star's first, and G. Throws std::invalid_argument unless all are positive and
-  /// finite.
+  /// A solar system from the masses, the star's first, and G. Throws std::invalid_argument unless all are
+  /// positive and finite.
   solar_system(const std::array<double, Planets + 1>& masses, double gravity)
       : base(kepler_motions<Planets>(jacobi_masses<Planets>(masses, gravity)),
              planet_interaction<Planets>(jacobi_masses<Planets>(masses, gravity))) {}
@@ -236,7 +236,8 @@ inline solar_system<5> outer_solar_system() {
            1.0 / 1.3e8},
           2.95912208286e-4};
 }
-/// Where they were on September 5, 1994, at 0h00. Source: [hairer_lubich_wanner_2006, table I.2.2].
+/// Positions and momenta of sun and outer planets on September 5, 1994, at 0h00. Source:
+/// [hairer_lubich_wanner_2006, table I.2.2].
 inline phase_point<double, 15> outer_solar_system_start() {
   return outer_solar_system().from_bodies(
       {0.0, 0.0, 0.0, -3.5023653, -3.8169847, -1.5507963, 9.0755314, -3.0458353, -1.6483708, 8.3101420,

@@ -20,22 +20,22 @@ class with_quadratic_part : public S {
   /// symmetric, and no eigenvalue is negative.
   with_quadratic_part(S system, Eigen::MatrixXd stiffness)
       : S(std::move(system)), stiffness_(std::move(stiffness)) {
-    Eigen::VectorXd inverse_masses = Eigen::VectorXd::Ones(nysalt::size(alone()));
+    Eigen::VectorXd inverse_masses = Eigen::VectorXd::Ones(nysalt::size(base()));
     if constexpr (HasInverseMass<S>) {
       for (Eigen::Index i = 0; i < inverse_masses.size(); ++i) inverse_masses[i] = S::inverse_mass(i);
     }
     modes_ = stiffness_modes(stiffness_, inverse_masses, "with_quadratic_part");
   }
 
-  const S& alone() const { return *this; }  ///< as it was given
+  const S& base() const { return *this; }  ///< system as given
   normal_modes modes() const { return modes_; }
-  bool has_modes() const { return true; }  ///< whatever S says of its own
+  bool has_modes() const { return true; }  ///< true, for every S
 
   /// The rest of the force, f + K q. Cost: a force and N^2 products.
   template <class T>
     requires SystemOver<S, T>
   void soft_force(const vector<T, S::dimension>& q, vector<T, S::dimension>& f) const {
-    nysalt::force<T>(alone(), q, f);
+    nysalt::force<T>(base(), q, f);
     for (Eigen::Index j = 0; j < q.size(); ++j) {
       for (Eigen::Index i = 0; i < q.size(); ++i) {
         if (stiffness_(i, j) != 0.0) f[i] += q[j] * stiffness_(i, j);
@@ -44,10 +44,10 @@ class with_quadratic_part : public S {
   }
 
   std::string description() const {
-    return sentence("{} with a quadratic part of frequencies up to {}", describe(alone()),
+    return sentence("{} with a quadratic part of frequencies up to {}", describe(base()),
                     modes_.frequencies.maxCoeff());
   }
-  /// One of its own: the quadratic part at another size is another.
+  /// Kind: the description, as a quadratic part belongs to one size.
   std::string kind() const { return description(); }
 
  private:

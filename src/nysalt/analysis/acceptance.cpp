@@ -10,8 +10,8 @@
 
 #include "../sampling/metropolis.hpp"
 #include "nysalt/analysis/evaluations.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/together.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/shard.hpp"
 
@@ -48,7 +48,7 @@ void require_even_kinetic(const model& system, const Eigen::VectorXd& p, std::in
 acceptance_result acceptance(const model& system, const tabulated& method, const initial_states& ensemble,
                              const trajectory_options& options, double temperature) {
   require_metropolis_applies("acceptance", system, method, temperature);
-  together(*options.ranks, [&] { require_room(options, 1, 1); });
+  collectively(*options.ranks, [&] { require_room(options, 1, 1); });
   if (!has_quadratic_kinetic(system)) {
     constexpr std::int64_t enough = 16;
     for (std::int64_t m = 0; m < std::min(enough, options.trajectories); ++m) {

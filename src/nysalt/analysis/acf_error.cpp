@@ -12,9 +12,10 @@ namespace nysalt {
 
 acf_distance acf_error(const autocovariance& a, const autocovariance& b) {
   if (a.lags() != b.lags() || std::abs(a.interval() - b.interval()) > 1e-9 * std::abs(a.interval())) {
-    throw std::invalid_argument(fmt::format(
-        "acf_error: {} lags of {} and {} lags of {} do not compare; sample both at the same times", a.lags(),
-        a.interval(), b.lags(), b.interval()));
+    throw std::invalid_argument(
+        fmt::format("acf_error: both autocovariances must have the same lags, got {} lags of {} and {} "
+                    "lags of {}; sample both at the same times",
+                    a.lags(), a.interval(), b.lags(), b.interval()));
   }
   using numbers = std::vector<double>;
   const auto over_lags = [](const numbers& at, const numbers& other, auto&& term) {

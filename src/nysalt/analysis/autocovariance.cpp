@@ -35,12 +35,13 @@ std::vector<double> autocovariance::jackknife(
 
 autocovariance::autocovariance(double interval, double centre, std::vector<autocovariance_sums> groups)
     : interval_(interval), centre_(centre) {
-  if (groups.empty()) throw std::invalid_argument("autocovariance: there is no group of trajectories");
+  if (groups.empty())
+    throw std::invalid_argument("autocovariance: groups of trajectories must be one or more, got none");
   total_.resize(groups.front().size());
   for (auto& group : groups) {
     if (group.size() != total_.size()) {
-      throw std::invalid_argument(fmt::format(
-          "autocovariance: groups of {} and of {} lags do not go together", lags(), group.size() - 1));
+      throw std::invalid_argument(fmt::format("autocovariance: groups must have equal lags, got {} and {}",
+                                              lags(), group.size() - 1));
     }
     if (group.front().pairs == 0.0) continue;
     for (std::size_t k = 0; k < total_.size(); ++k) total_[k] = total_[k] + group[k];
@@ -58,8 +59,8 @@ std::vector<double> autocovariance::normalised(const autocovariance_sums& sums) 
   const double variance = sums.front().covariance();
   if (!(variance > 0.0)) {
     throw std::runtime_error(
-        "autocovariance: the observable does not vary, or no trajectory counts: there is nothing to divide "
-        "by");
+        "autocovariance: the variance must be > 0, got none: the observable does not vary, "
+        "or no trajectory counts");
   }
   std::vector<double> rho;
   for (const pair_sums& at : sums) rho.push_back(at.covariance() / variance);

@@ -21,8 +21,8 @@ std::int64_t samples_of_trajectory(const ensemble_options& options, const statis
   const std::int64_t samples = options.steps / options.every + 1 - before;
   if (samples > wanted.lags.value_or(0)) return samples;
   throw std::invalid_argument(
-      fmt::format("ensemble_statistics: {} samples along a trajectory are not enough for {} lags; take more "
-                  "steps or fewer lags",
+      fmt::format("ensemble_statistics: samples along a trajectory must exceed the lags, got {} "
+                  "samples for {} lags; take more steps or fewer lags",
                   samples, wanted.lags.value_or(0)));
 }
 

@@ -20,7 +20,7 @@ std::int64_t evaluations_of_run(const model& system, const tabulated& method, do
     if (!system.bath().acts()) word = conservative_part(word);
     if (word.is_processed() && steps == 0) return 0;
     return evaluations_of(
-        system, word.evaluations_to_open + steps * word.evaluations_per_step + word.evaluations_to_look,
+        system, word.evaluations_to_open + steps * word.evaluations_per_step + word.evaluations_to_observe,
         steps * word.force_derivatives);
   }
   const model watched = system.separate();

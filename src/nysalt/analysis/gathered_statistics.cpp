@@ -35,7 +35,7 @@ gathering::gathering(const statistics_wanted& wanted, std::int64_t trajectories,
 }
 
 void gathering::gather() {
-  if (ranks_->is_alone()) return;
+  if (ranks_->is_single()) return;
   gather(lost_at_, 1);
   gather(means_, 1);
   if (wanted_->histogram) gather_histograms();

@@ -25,14 +25,15 @@ histogram::histogram(const equal_bins& bins) : bins_(bins), per_width_(1.0 / bin
 
 histogram::histogram(const equal_bins& bins, std::span<const std::int64_t> counts) : histogram(bins) {
   if (counts.size() != counts_.size()) {
-    throw std::invalid_argument(fmt::format("histogram: {} counts are not those of {} bins, below and above",
-                                            counts.size(), bins.count));
+    throw std::invalid_argument(
+        fmt::format("histogram: counts must be those of the bins, below and above, got {} for {} bins",
+                    counts.size(), bins.count));
   }
   counts_.assign(counts.begin(), counts.end());
 }
 
 void histogram::add(double x) {
-  if (std::isnan(x)) throw std::invalid_argument("histogram: NaN lies in no bin");
+  if (std::isnan(x)) throw std::invalid_argument("histogram: values must be numbers, got NaN");
   count(place(x));
 }
 
@@ -50,7 +51,8 @@ histogram& histogram::operator-=(const histogram& other) {
 
 std::vector<double> histogram::fractions() const {
   const auto all = static_cast<double>(total());
-  if (all == 0.0) throw std::invalid_argument("histogram: nothing was added, so it has no fractions");
+  if (all == 0.0)
+    throw std::invalid_argument("histogram: values must be one or more for fractions, got none");
   std::vector<double> result;
   for (const std::int64_t n : counts_) result.push_back(static_cast<double>(n) / all);
   return result;

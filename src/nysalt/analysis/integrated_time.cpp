@@ -9,7 +9,8 @@
 namespace nysalt {
 
 integrated_time integrated_autocorrelation_time(std::span<const double> rho) {
-  if (rho.size() < 2) throw std::invalid_argument("integrated_autocorrelation_time: there is no lag");
+  if (rho.size() < 2)
+    throw std::invalid_argument("integrated_autocorrelation_time: lags must be one or more, got none");
   integrated_time result;
   for (std::size_t k = 1; k < rho.size(); ++k) {
     result.tau += 2.0 * rho[k];

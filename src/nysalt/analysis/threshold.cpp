@@ -14,17 +14,18 @@ namespace {
 
 void require_rows(std::span<const error_at> rows, double level) {
   if (rows.empty() || !(level > 0.0) || !std::isfinite(level)) {
-    throw std::invalid_argument(fmt::format(
-        "threshold: {} rows and the level {}: takes one row at least, and a positive finite level",
-        rows.size(), level));
+    throw std::invalid_argument(
+        fmt::format("threshold: rows must be one or more and the level positive and finite, got {} rows "
+                    "and the level {}",
+                    rows.size(), level));
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool sorted = i < 2 || (rows[i].x > rows[i - 1].x) == (rows[1].x > rows[0].x);
     const bool differs = i == 0 || rows[i].x != rows[i - 1].x;
     if (rows[i].x > 0.0 && std::isfinite(rows[i].x) && sorted && differs && !(rows[i].error < 0.0)) continue;
     throw std::invalid_argument(
-        fmt::format("threshold: row {} at {} with error {}: takes positive abscissas, sorted from the "
-                    "accurate end on, and no negative error",
+        fmt::format("threshold: abscissas must be positive and sorted from the accurate end on, and "
+                    "errors >= 0, got row {} at {} with error {}",
                     i + 1, rows[i].x, rows[i].error));
   }
 }

@@ -16,7 +16,8 @@ namespace nysalt {
 namespace {
 
 histogram sum_of(std::span<const histogram> groups) {
-  if (groups.empty()) throw std::invalid_argument("total_variation: there is no group of trajectories");
+  if (groups.empty())
+    throw std::invalid_argument("total_variation: groups of trajectories must be one or more, got none");
   histogram all(groups.front().bins());
   for (const histogram& group : groups) all += group;
   return all;
@@ -48,7 +49,8 @@ double total_variation(const histogram& a, const histogram& b) {
 
 double mean_total_variation(const histogram& given, std::span<const histogram> ensembles) {
   if (ensembles.empty())
-    throw std::invalid_argument("mean_total_variation: there is nothing to compare with");
+    throw std::invalid_argument(
+        "mean_total_variation: ensembles to compare with must be one or more, got none");
   double sum = 0.0;
   for (const histogram& other : ensembles) sum += total_variation(given, other);
   return sum / static_cast<double>(ensembles.size());
@@ -74,7 +76,7 @@ estimate mean_total_variation(std::span<const histogram> groups,
 double sampling_floor(std::span<const histogram> ensembles) {
   if (ensembles.size() < 4) {
     throw std::invalid_argument(fmt::format(
-        "sampling_floor: {} independent ensembles are too few, take 4 at least (6 pairs)", ensembles.size()));
+        "sampling_floor: independent ensembles must be 4 or more (6 pairs), got {}", ensembles.size()));
   }
   double sum = 0.0;
   double pairs = 0.0;

@@ -9,13 +9,13 @@
 #include <stdexcept>
 #include <vector>
 
-#include "compared_block.hpp"
 #include "measured_trajectories.hpp"
+#include "method_runs.hpp"
 #include "nysalt/analysis/evaluations.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/together.hpp"
 #include "nysalt/langevin.hpp"
 
 namespace nysalt::detail {
@@ -26,9 +26,9 @@ constexpr std::size_t most_checks = 16;  // enough for the size of an error
 
 void require_comparable(const model& system, const reference_value& reference,
                         std::span<const tabulated> methods, int parts, const trajectory_options& options) {
-  if (parts > 0 && !reference.tells_noise()) {
+  if (parts > 0 && !reference.gives_noise()) {
     throw std::invalid_argument(
-        sentence("trajectory_errors: the reference ({}) has no noise to share; take fine_paths",
+        sentence("trajectory_errors: the reference must have noise to share, got {}; take fine_paths",
                  reference.description()));
   }
   const double perturbation = options.perturbation.value_or(1.0);
@@ -71,9 +71,9 @@ struct comparison {
     const auto of_block = [&](std::size_t wanted) {
       return static_cast<int>(std::clamp<std::int64_t>(static_cast<std::int64_t>(wanted) - first, 0, n));
     };
-    compared_block<T> block(own, reference, methods, options.step, measures, start, n,
-                            {of_block(checks), of_block(perturbed), options.perturbation, options.null_model},
-                            {parts, options.seed, first}, weights);
+    method_runs<T> block(own, reference, methods, options.step, measures, start, n,
+                         {of_block(checks), of_block(perturbed), options.perturbation, options.null_model},
+                         {parts, options.seed, first}, weights);
     block.run(options.steps);
     block.reference().require_sound(first);
     for (std::size_t i = 0; i < measures.size(); ++i) {
@@ -110,7 +110,8 @@ std::vector<trajectory_errors_result> trajectory_errors(const model& system, con
                                                         std::span<const tabulated> methods,
                                                         std::span<const error_measure> measures,
                                                         const trajectory_options& options) {
-  if (measures.empty()) throw std::invalid_argument("trajectory_errors: at least one measure is needed");
+  if (measures.empty())
+    throw std::invalid_argument("trajectory_errors: measures must be one or more, got none");
   const communicator& ranks = *options.ranks;
   const shard own(options.trajectories, ranks);
   const auto trajectories = static_cast<std::size_t>(options.trajectories);
@@ -123,7 +124,7 @@ std::vector<trajectory_errors_result> trajectory_errors(const model& system, con
     if (system.facts().in_lanes) return compared.follow<lanes>(own.first() + block, n, found);
     compared.follow<double>(own.first() + block, n, found);
   };
-  together(ranks, [&] {
+  collectively(ranks, [&] {
     require_room(options, methods.size(), joined_measures(measures).width(), measures.size());
     compared.parts = parts_of_noise(system, methods);
     require_comparable(system, reference, methods, compared.parts, options);

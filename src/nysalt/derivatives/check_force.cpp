@@ -18,15 +18,15 @@ namespace nysalt::detail {
 namespace {
 
 /// Up to this number of coordinates each is a direction of a check.
-constexpr Eigen::Index looked_along_singly = 64;
+constexpr Eigen::Index examined_singly = 64;
 
 /// Along coordinates, each as far as its length, or four at random, the same at every point. A defect d of
 /// some coordinates is seen along these as |d|/sqrt(N) or so; a tolerance of 2e-4, that of differences, still
 /// shows one whole coordinate in 10^6. Sums over N terms of either sign err by eps sqrt(N) of their size.
-std::vector<Eigen::VectorXd> directions_to_look_along(const Eigen::VectorXd& lengths) {
+std::vector<Eigen::VectorXd> directions_to_examine(const Eigen::VectorXd& lengths) {
   const Eigen::Index n = lengths.size();
   std::vector<Eigen::VectorXd> result;
-  if (n <= looked_along_singly) {
+  if (n <= examined_singly) {
     for (Eigen::Index j = 0; j < n; ++j) result.push_back(lengths[j] * Eigen::VectorXd::Unit(n, j));
     return result;
   }
@@ -50,8 +50,8 @@ class force_examination {
       : source_(source),
         lengths_(lengths),
         lengths_of_momenta_(lengths_of_momenta),
-        along_(directions_to_look_along(lengths)),
-        along_momenta_(directions_to_look_along(lengths_of_momenta)),
+        along_(directions_to_examine(lengths)),
+        along_momenta_(directions_to_examine(lengths_of_momenta)),
         f_(source.size),
         other_(source.size) {
     found_.has_potential = source.has_potential;
@@ -62,17 +62,17 @@ class force_examination {
     found_.velocity_tolerance = source.has_exact_velocity ? tolerance_of_exact() : tolerance_of_differences();
   }
 
-  void look_at(const column& q, const column& p) {
+  void examine(const column& q, const column& p) {
     source_.force(q, f_);
     keep(energies(f_), largest_force_);
-    if (source_.has_potential) look_at_potential(q);
-    if (source_.has_kick) look_at_kick(q);
-    if (source_.has_ranges) look_at_ranges(q);
-    if (source_.has_soft_force && source_.size <= looked_along_singly) look_at_soft_force(q);
+    if (source_.has_potential) examine_potential(q);
+    if (source_.has_kick) examine_kick(q);
+    if (source_.has_ranges) examine_ranges(q);
+    if (source_.has_soft_force && source_.size <= examined_singly) examine_soft_force(q);
     const auto slope = [&](const column& v) { source_.force_slope(q, v, other_); };
-    look_at_symmetry(along_, lengths_, slope, found_.asymmetry, largest_slope_);
-    if (source_.has_derivative) look_at_derivative(q);
-    if (source_.has_velocity) look_at_velocity(p);
+    examine_symmetry(along_, lengths_, slope, found_.asymmetry, largest_slope_);
+    if (source_.has_derivative) examine_derivative(q);
+    if (source_.has_velocity) examine_velocity(p);
   }
 
   force_check result() const {
@@ -92,20 +92,20 @@ class force_examination {
   }
 
  private:
-  void look_at_potential(const column& q) {
+  void examine_potential(const column& q) {
     for (std::size_t j = 0; j < along_.size(); ++j) {
       const double defect = f_.dot(along_[j]) + source_.potential_slope(q, along_[j]);
       note_along(defect, j, found_.gradient_defect, found_.coordinate);
     }
   }
 
-  void look_at_kick(const column& q) {
+  void examine_kick(const column& q) {
     other_ = f_;
     source_.kick(q, other_);
     note(energies(other_ - 1.5 * f_), found_.kick_defect, found_.kick_coordinate);
   }
 
-  void look_at_ranges(const column& q) {
+  void examine_ranges(const column& q) {
     other_ = f_;
     source_.kick_in_ranges(q, other_);
     const column defects = energies(other_ - 1.5 * f_);
@@ -119,7 +119,7 @@ class force_examination {
   }
 
   /// With K q = M^{1/2} U omega^2 x, x = U^T M^{1/2} q.
-  void look_at_soft_force(const column& q) {
+  void examine_soft_force(const column& q) {
     const auto modes = source_.modes();
     const column rest = column::Zero(source_.size);
     column x(source_.size);
@@ -136,7 +136,7 @@ class force_examination {
     note(energies(other_ - f_ - quadratic), found_.soft_defect, found_.soft_coordinate);
   }
 
-  void look_at_derivative(const column& q) {
+  void examine_derivative(const column& q) {
     const auto force_at = [&](const column& x) {
       column y(x.size());
       source_.force(x, y);
@@ -151,13 +151,13 @@ class force_examination {
     }
   }
 
-  void look_at_velocity(const column& p) {
+  void examine_velocity(const column& p) {
     column v(source_.size);
     source_.velocity(p, v);
     keep(v.cwiseProduct(lengths_of_momenta_), largest_velocity_);
     if (!source_.has_kinetic_energy) {
       const auto slope = [&](const column& along) { source_.velocity_slope(p, along, other_); };
-      look_at_symmetry(along_momenta_, lengths_of_momenta_, slope, found_.velocity_asymmetry,
+      examine_symmetry(along_momenta_, lengths_of_momenta_, slope, found_.velocity_asymmetry,
                        largest_velocity_slope_);
       return;
     }
@@ -168,7 +168,7 @@ class force_examination {
   }
 
   /// Of the matrix that slope_along multiplies a direction with, into other_.
-  void look_at_symmetry(const std::vector<column>& along, const column& lengths, const auto& slope_along,
+  void examine_symmetry(const std::vector<column>& along, const column& lengths, const auto& slope_along,
                         double& most, double& largest_slope) {
     std::vector<column> slopes;
     for (const auto& v : along) {
@@ -201,7 +201,7 @@ class force_examination {
     found_.finite = found_.finite && std::isfinite(defect);
     if (std::abs(defect) <= most) return;
     most = std::abs(defect);
-    coordinate = source_.size <= looked_along_singly ? static_cast<Eigen::Index>(j) : -1;
+    coordinate = source_.size <= examined_singly ? static_cast<Eigen::Index>(j) : -1;
   }
 
   const force_source& source_;
@@ -223,10 +223,11 @@ class force_examination {
 /// At all points; what fails is checked once more at a small distance from them.
 force_check check_force(const model& system, const std::vector<Eigen::VectorXd>& points,
                         const std::vector<Eigen::VectorXd>& momenta, const phase_points& seen) {
-  if (points.empty()) throw std::invalid_argument("check_force: no points to check at; give it one or more");
+  if (points.empty()) throw std::invalid_argument("check_force: points must be one or more, got none");
   if (momenta.size() != points.size()) {
-    throw std::invalid_argument(sentence("check_force: {} points with {} momenta; give it one for each",
-                                         points.size(), momenta.size()));
+    throw std::invalid_argument(
+        sentence("check_force: momenta must be one for each point, got {} points with {} momenta",
+                 points.size(), momenta.size()));
   }
   for (std::size_t m = 0; m < points.size(); ++m) {
     for (const auto* x : {&points[m], &momenta[m]}) {
@@ -257,7 +258,7 @@ force_check check_force(const model& system, const std::vector<Eigen::VectorXd>&
     };
     for (std::size_t m = 0; m < points.size(); ++m) {
       const Eigen::VectorXd q = beside(points[m], lengths);
-      examination.look_at(q, beside(momenta[m], lengths_of_momenta));
+      examination.examine(q, beside(momenta[m], lengths_of_momenta));
     }
     return examination.result();
   };

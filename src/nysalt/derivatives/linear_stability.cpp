@@ -230,7 +230,7 @@ stability_chart chart_stability(const run_time_word& word, const std::vector<dou
         word.letters()));
   }
   if (word.evaluations_of_plain_step > most_evaluations) {
-    throw std::invalid_argument(fmt::format("stability is known for words of at most {} evaluations, not {}",
+    throw std::invalid_argument(fmt::format("stability: evaluations of the word must be <= {}, got {}",
                                             most_evaluations, word.evaluations_of_plain_step));
   }
   require_served<oscillator, double>(word, oscillator{});

@@ -90,7 +90,7 @@ word_on_parts::word_on_parts(const model& system, const phase_points& states, co
   } else if (nysalt::size(system) > most_for_all_frequencies) {
     why_not_ = sentence("of more than {} degrees of freedom", most_for_all_frequencies);
   } else {
-    examine(system.alone(), states, word);
+    examine(system.base(), states, word);
   }
 }
 

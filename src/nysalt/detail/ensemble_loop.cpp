@@ -18,8 +18,9 @@ namespace nysalt {
 void for_each_block(std::int64_t count, int width, int threads,
                     const std::function<void(std::int64_t, int)>& body,
                     const std::function<void(std::int64_t)>& progress) {
-  if (threads < 1) throw std::invalid_argument(fmt::format("at least one thread is needed, got {}", threads));
-  if (width < 1) throw std::invalid_argument(fmt::format("a block has at least one lane, got {}", width));
+  if (threads < 1) throw std::invalid_argument(fmt::format("threads must be at least one, got {}", threads));
+  if (width < 1)
+    throw std::invalid_argument(fmt::format("lanes of a block must be at least one, got {}", width));
   const std::int64_t blocks = count / width + (count % width != 0 ? 1 : 0);
   const auto size_of = [&](std::int64_t block) {
     return static_cast<int>(std::min<std::int64_t>(width, count - block * width));

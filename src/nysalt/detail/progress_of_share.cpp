@@ -9,7 +9,7 @@ namespace nysalt {
 std::function<void(std::int64_t)> progress_of_share(const communicator& ranks, std::int64_t count,
                                                     std::int64_t total,
                                                     const std::function<void(std::int64_t)>& progress) {
-  if (!progress || ranks.is_alone()) return progress;
+  if (!progress || ranks.is_single()) return progress;
   if (!ranks.is_first()) return {};
   return [progress, count, total](std::int64_t done) {
     const double share = static_cast<double>(done) / static_cast<double>(count);

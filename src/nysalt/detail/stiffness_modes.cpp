@@ -18,7 +18,7 @@ normal_modes stiffness_modes(const Eigen::MatrixXd& stiffness, const Eigen::Vect
         sentence("{}: the stiffness matrix must be square, got {} x {}", who, n, stiffness.cols()));
   }
   if (!stiffness.allFinite()) {
-    throw std::invalid_argument(sentence("{}: the stiffness matrix is not finite", who));
+    throw std::invalid_argument(sentence("{}: the stiffness matrix must be finite", who));
   }
   if (stiffness != stiffness.transpose()) {
     throw std::invalid_argument(sentence("{}: the stiffness matrix must be symmetric; use (K + K^T)/2", who));
@@ -32,8 +32,9 @@ normal_modes stiffness_modes(const Eigen::MatrixXd& stiffness, const Eigen::Vect
   Eigen::VectorXd squares = solver.eigenvalues();
   if (squares.minCoeff() < -rounding) {
     throw std::invalid_argument(
-        sentence("{}: the stiffness matrix has the negative eigenvalue {}: the motion is unbounded", who,
-                 squares.minCoeff()));
+        sentence("{}: eigenvalues of the stiffness matrix must be >= 0, got {}: the motion is "
+                 "unbounded",
+                 who, squares.minCoeff()));
   }
   for (auto& square : squares) square = square <= rounding ? 0.0 : square;
   return {solver.eigenvectors(), squares.cwiseSqrt()};

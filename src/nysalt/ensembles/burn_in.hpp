@@ -33,18 +33,18 @@ class burn_in_search {
  public:
   /// Of chains that start at states of `from`, of a system that comes without its bath; refers to both.
   /// Throws std::invalid_argument if an option is out of range.
-  burn_in_search(const model& alone, double temperature, const initial_states& from,
+  burn_in_search(const model& base, double temperature, const initial_states& from,
                  const burn_in_options& options)
-      : alone_(&alone), temperature_(temperature), from_(&from), options_(options) {
+      : base_(&base), temperature_(temperature), from_(&from), options_(options) {
     detail::require_burn_in(options);
-    slowest_ = slowest_mode(alone);
+    slowest_ = slowest_mode(base);
   }
 
   /// Throws std::runtime_error where a chain diverges, nothing becomes stationary, or a check fails.
   burn_in_report find() {
     const auto began = std::chrono::steady_clock::now();
     burn_in_report report;
-    report.step = options_.step > 0.0 ? options_.step : step_of_frequency(*alone_, 0.5, "gibbs");
+    report.step = options_.step > 0.0 ? options_.step : step_of_frequency(*base_, 0.5, "gibbs");
     while (!settle(report)) {
       report.step *= 0.5;
       ++report.halvings;
@@ -63,37 +63,37 @@ class burn_in_search {
   burn_in_pilot<T> pilot(double friction, double step, int count) {
     // Far from the numbers of chains that anybody uses, and from those of other pilots.
     const std::int64_t noise = (std::int64_t{1} << 47) + (pilots_++ << 24);
-    return {*alone_, *from_, temperature_, friction, step, options_, count, noise, slowest_};
+    return {*base_, *from_, temperature_, friction, step, options_, count, noise, slowest_};
   }
 
   /// Chains that are watched for 32 times what they remember, after as long a time unwatched; nothing where
   /// that would take longer than `most`.
-  std::optional<watched_stretch> stationary(double friction, double step, int count, double most) {
-    constexpr std::int64_t looks = 256;
+  std::optional<watched_interval> stationary(double friction, double step, int count, double most) {
+    constexpr std::int64_t observations = 256;
     auto chains = pilot(friction, step, count);
-    chains.watch(looks, looks);
-    for (std::int64_t every = 1; 2 * every * looks <= options_.most_steps; every *= 2) {
-      const auto stretch = chains.watch(2 * every * looks, every);
-      if (stretch.duration >= 32.0 * stretch.tau()) return stretch;
-      if (stretch.duration > 32.0 * most) return std::nullopt;
+    chains.watch(observations, observations);
+    for (std::int64_t every = 1; 2 * every * observations <= options_.most_steps; every *= 2) {
+      const auto interval = chains.watch(2 * every * observations, every);
+      if (interval.duration >= 32.0 * interval.tau()) return interval;
+      if (interval.duration > 32.0 * most) return std::nullopt;
     }
     throw std::runtime_error(
         sentence("gibbs: no stationary state of {} within {} steps of {} with the friction {}: give another "
                  "friction or more steps",
-                 describe(*alone_), options_.most_steps, in_digits(step, 6), in_digits(friction, 6)));
+                 describe(*base_), options_.most_steps, in_digits(step, 6), in_digits(friction, 6)));
   }
 
   /// The friction with the least tau, of omega/4, omega/16, ... with the highest frequency omega: strong
   /// friction makes slow motion creep, weak friction leaves energies what they were.
   double best_friction(double step) {
-    const double omega = highest_frequency(*alone_).value_or(0.5 / step);
+    const double omega = highest_frequency(*base_).value_or(0.5 / step);
     double best = 0.0;
     double least = std::numeric_limits<double>::infinity();
     for (const double part : {1.0 / 64, 1.0 / 16, 1.0 / 4, 1.0 / 256}) {
-      const auto stretch = stationary(part * omega, step, std::min(64, options_.pilots), least);
-      if (!stretch || stretch->tau() >= least) continue;
+      const auto interval = stationary(part * omega, step, std::min(64, options_.pilots), least);
+      if (!interval || interval->tau() >= least) continue;
       best = part * omega;
-      least = stretch->tau();
+      least = interval->tau();
     }
     return best;
   }
@@ -148,7 +148,7 @@ class burn_in_search {
     }
   }
 
-  const model* alone_;
+  const model* base_;
   double temperature_;
   const initial_states* from_;
   burn_in_options options_;

@@ -22,8 +22,8 @@ class burn_in_chains {
   using stepper_type = stepper<model, run_time_word, double, counter_noise>;
 
   /// Chains of a system that comes without its bath; temperature is kT, an energy.
-  burn_in_chains(const model& alone, double temperature, double friction, double step, std::uint64_t seed)
-      : system_(detail::own_copy(alone).in(bath::of_temperature(friction, temperature))),
+  burn_in_chains(const model& base, double temperature, double friction, double step, std::uint64_t seed)
+      : system_(detail::own_copy(base).in(bath::of_temperature(friction, temperature))),
         stepper_(
             make_stepper(system_, tabulated(baoab{}), step, counter_noise(seed, noise_purpose::burn_in))) {}
   burn_in_chains(const burn_in_chains&) = delete;  // the stepper refers to the system

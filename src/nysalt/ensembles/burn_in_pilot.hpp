@@ -14,7 +14,7 @@
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "watched_stretch.hpp"
+#include "watched_interval.hpp"
 
 namespace nysalt {
 
@@ -38,27 +38,27 @@ class burn_in_pilot {
 
  public:
   /// Refers to the weights of the slowest mode, which may be empty.
-  burn_in_pilot(const model& alone, const initial_states& from, double temperature, double friction,
+  burn_in_pilot(const model& base, const initial_states& from, double temperature, double friction,
                 double step, const burn_in_options& options, int count, std::int64_t first_noise,
                 const Eigen::VectorXd& slowest)
-      : chains_(std::make_shared<burn_in_chains>(alone, temperature, friction, step, options.seed)),
+      : chains_(std::make_shared<burn_in_chains>(base, temperature, friction, step, options.seed)),
         threads_(options.threads),
         count_(count),
         slowest_(&slowest) {
     for (int first = 0; first < count; first += width) {
       const int here = std::min(width, count - first);
-      const state start = sound_starts<T>(alone, from, options.seed, first, here);
-      const auto chains = !is_black_box(alone) ? chains_
-                                               : std::make_shared<const burn_in_chains>(
-                                                     alone, temperature, friction, step, options.seed);
+      const state start = sound_starts<T>(base, from, options.seed, first, here);
+      const auto chains = !is_black_box(base) ? chains_
+                                              : std::make_shared<const burn_in_chains>(
+                                                    base, temperature, friction, step, options.seed);
       blocks_.push_back({chains, start, here, chains->open(start, first_noise + first, here)});
     }
     zero_ = lane(potential_of(*chains_, blocks_.front().start), 0);
   }
 
   /// Goes on to step `end`, watching from here on. Throws chain_diverged, naming the first that did.
-  watched_stretch watch(std::int64_t end, std::int64_t every) {
-    watched_stretch result;
+  watched_interval watch(std::int64_t end, std::int64_t every) {
+    watched_interval result;
     const auto chains = static_cast<std::size_t>(count_);
     for (auto* numbers : {&result.begin, &result.mean, &result.square})
       numbers->fill(std::vector<double>(chains));
@@ -107,18 +107,18 @@ class burn_in_pilot {
   }
 
   void follow(block& here, std::int64_t first, std::int64_t end, std::int64_t every,
-              watched_stretch& result) {
+              watched_interval& result) {
     of_watched<T> begin;
     of_watched<T> sum;
     of_watched<T> squares;
     sum.fill(T(0.0));
     squares.fill(T(0.0));
     read(*here.chains, here.run.synchronous(), begin);
-    std::int64_t looks = 0;
-    const auto look = [&](const state& x, std::span<T> out) { read(*here.chains, x, out); };
-    here.run.go_on(end, every, watched_numbers, look,
+    std::int64_t observations = 0;
+    const auto observe = [&](const state& x, std::span<T> out) { read(*here.chains, x, out); };
+    here.run.go_on(end, every, watched_numbers, observe,
                    [&](std::int64_t, std::span<const T> seen, const auto&) {
-                     ++looks;
+                     ++observations;
                      for (std::size_t i = 0; i < watched_numbers; ++i) {
                        sum[i] += seen[i];
                        squares[i] += seen[i] * seen[i];
@@ -128,8 +128,8 @@ class burn_in_pilot {
       for (int k = 0; k < here.count; ++k) {
         const auto chain = static_cast<std::size_t>(first + k);
         result.begin[i][chain] = lane(begin[i], k);
-        result.mean[i][chain] = lane(sum[i], k) / static_cast<double>(looks);
-        result.square[i][chain] = lane(squares[i], k) / static_cast<double>(looks);
+        result.mean[i][chain] = lane(sum[i], k) / static_cast<double>(observations);
+        result.square[i][chain] = lane(squares[i], k) / static_cast<double>(observations);
       }
     }
   }

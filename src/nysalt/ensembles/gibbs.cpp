@@ -17,34 +17,33 @@ namespace {
 /// kT. Throws std::invalid_argument unless the bath has a temperature, and that is positive.
 double temperature_to_sample(const bath& in) {
   if (!in.has_temperature()) {
-    throw std::invalid_argument(
-        fmt::format("gibbs: a {} has no temperature; give one, or friction", in.description()));
+    throw std::invalid_argument(fmt::format(
+        "gibbs: the bath must have a temperature, got a {}; give one, or friction", in.description()));
   }
   if (in.temperature() > 0.0) return in.temperature();
   throw std::invalid_argument(
-      "gibbs: at temperature 0 a system rests where its potential is least, and there is nothing to "
-      "sample; start from "
-      "another ensemble");
+      "gibbs: the temperature must be > 0, got 0, at which the system rests at the minimum "
+      "of the potential; start from another ensemble");
 }
 
 }  // namespace
 
 gibbs_chains::gibbs_chains(const model& in_bath, initial_states from, const burn_in_options& options)
-    : alone_(in_bath.alone()), from_(std::move(from)), temperature_(temperature_to_sample(in_bath.bath())) {
+    : base_(in_bath.base()), from_(std::move(from)), temperature_(temperature_to_sample(in_bath.bath())) {
   report_ = with_scalar_of(
-      alone_, [&]<class T>(T) { return burn_in_search<T>(alone_, temperature_, from_, options).find(); });
+      base_, [&]<class T>(T) { return burn_in_search<T>(base_, temperature_, from_, options).find(); });
 }
 
 template <class T>
 phase_point<T, Eigen::Dynamic> gibbs_chains::block(std::uint64_t seed, std::int64_t first, int count) const {
-  const burn_in_chains chains(alone_, temperature_, report_.friction, report_.step, seed);
-  auto run = chains.open(sound_starts<T>(alone_, from_, seed, first, count), first, count);
+  const burn_in_chains chains(base_, temperature_, report_.friction, report_.step, seed);
+  auto run = chains.open(sound_starts<T>(base_, from_, seed, first, count), first, count);
   run.go_on(report_.steps);
   for (int k = 0; k < count; ++k) {
     if (!run.diverged_at(k)) continue;
     throw std::runtime_error(sentence(
         "gibbs: chain {} of seed {} diverged at time {}: the motion of {} is not confined", first + k, seed,
-        in_digits(static_cast<double>(*run.diverged_at(k)) * report_.step, 6), describe(alone_)));
+        in_digits(static_cast<double>(*run.diverged_at(k)) * report_.step, 6), describe(base_)));
   }
   auto x = run.synchronous();
   chains.draw_momenta(x, first, report_.steps);

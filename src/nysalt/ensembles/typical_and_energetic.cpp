@@ -14,14 +14,15 @@ using state = phase_point<double, Eigen::Dynamic>;
 /// Those of the ensemble are made as many at a time as T has lanes.
 template <class T>
 std::vector<state> starts_made_in_lanes(const model& system, const initial_states& ensemble,
-                                        std::uint64_t seed, std::int64_t first, std::int64_t most_of_dear) {
+                                        std::uint64_t seed, std::int64_t first,
+                                        std::int64_t most_if_expensive) {
   constexpr auto plain = static_cast<std::int64_t>(plain_starts);
   constexpr std::int64_t energetic = 64;
   constexpr std::int64_t pool = 896;
   constexpr double numbers = 2e6;  // 16 MB
   const auto that_fit = static_cast<std::int64_t>(numbers / (2.0 * static_cast<double>(size(system))));
   std::int64_t most =
-      std::min(ensemble.is_dear() ? std::min(energetic, most_of_dear) : plain + pool, that_fit);
+      std::min(ensemble.is_expensive() ? std::min(energetic, most_if_expensive) : plain + pool, that_fit);
   most = std::min(most, ensemble.size() - first);
   std::vector<state> result;
   std::vector<std::pair<double, state>> by_energy;
@@ -56,9 +57,9 @@ std::vector<state> starts_made_in_lanes(const model& system, const initial_state
 
 std::vector<state> typical_and_energetic_starts(const model& system, const initial_states& ensemble,
                                                 std::uint64_t seed, std::int64_t first,
-                                                std::int64_t most_of_dear) {
+                                                std::int64_t most_if_expensive) {
   return detail::with_scalar_of(system, [&]<class T>(T) {
-    return starts_made_in_lanes<T>(system, ensemble, seed, first, most_of_dear);
+    return starts_made_in_lanes<T>(system, ensemble, seed, first, most_if_expensive);
   });
 }
 

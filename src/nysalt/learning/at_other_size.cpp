@@ -58,7 +58,7 @@ size_trial try_at_size(const model& system, const tabulated& method, double step
   const auto objection_of = [&](met which) {
     return guard.objection(word, method.coefficients(), step, which);
   };
-  // What is met rarely, and lasts for a part of a period, the trial run tells.
+  // The trial run shows what occurs rarely, and lasts for a part of a period.
   result.objection = objection_of(met::often);
   if (!result.objection.empty()) return result;
   trial_options some = options;

@@ -12,7 +12,7 @@ namespace nysalt {
 
 double energies_outside::probability() const {
   const auto m = static_cast<double>(trajectories);
-  const auto n = static_cast<double>(looked_at);
+  const auto n = static_cast<double>(examined);
   double term = m * (m - 1.0) / ((m + n) * (m + n - 1.0));  // that none is
   double rest = 1.0;
   for (std::size_t j = 0; j < outside; ++j) {
@@ -27,7 +27,7 @@ double energies_outside::far() const {
   const double m = static_cast<double>(trajectories) + 1.0;
   if (trajectories < 2) return std::numeric_limits<double>::infinity();
   return (seen.high - seen.low) *
-         std::max(0.0, std::log(static_cast<double>(looked_at) / (m * chance)) / std::log(m));
+         std::max(0.0, std::log(static_cast<double>(examined) / (m * chance)) / std::log(m));
 }
 
 std::string energies_outside::report() const {
@@ -35,7 +35,7 @@ std::string energies_outside::report() const {
       "{} of {} starts have energies outside {:.6g} to {:.6g}, on which it was learned (they go from "
       "{:.6g} "
       "to {:.6g})",
-      outside, looked_at, seen.low, seen.high, energies.low, energies.high);
+      outside, examined, seen.low, seen.high, energies.low, energies.high);
 }
 
 }  // namespace nysalt

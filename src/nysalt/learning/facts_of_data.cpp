@@ -47,7 +47,7 @@ int shortest_of(const flow_map_data& data) {
 
 Eigen::VectorXd motion_in(const flow_map_data& data, const metric& measure, const after_steps_options& how) {
   const auto last = static_cast<std::size_t>(how.steps.back());
-  const stretch_starts starts(data, last, static_cast<std::size_t>(how.apart));
+  const window_starts starts(data, last, static_cast<std::size_t>(how.apart));
   const double terms =
       static_cast<double>(data.share().ranks().total(std::ssize(starts.pairs)) * std::ssize(how.steps));
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(measure.residuals());

@@ -144,22 +144,23 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
                                       const tabulated& method,
                                       const detail::data_loss& held) -> std::optional<rival_method> {
     if (method.requires_quadratic_kinetic && !has_quadratic_kinetic(system)) return std::nullopt;
-    run_time_family alone(method.name(), method.letters(), method.coefficients());
+    run_time_family as_family(method.name(), method.letters(), method.coefficients());
     if (family.letters.stochastic_letters > 0) {
-      if (!place || alone.letters.is_processed()) return std::nullopt;
-      if (*place == placement::middle && alone.letters.length % 2 == 0) return std::nullopt;
-      alone = thermostatted(alone, *place);
+      if (!place || as_family.letters.is_processed()) return std::nullopt;
+      if (*place == placement::middle && as_family.letters.length % 2 == 0) return std::nullopt;
+      as_family = thermostatted(as_family, *place);
     }
     try {
-      require_served_with_slopes(alone.letters, system, in_lanes);
+      require_served_with_slopes(as_family.letters, system, in_lanes);
     } catch (const std::invalid_argument&) {
       return std::nullopt;
     }
-    const auto coefficients = alone.coefficients({});
+    const auto coefficients = as_family.coefficients({});
     rival_method result;
     result.name = method.name();
-    result.held_out_losses = held.by_trajectory_of(alone);
-    result.trial = [run, letters = alone.letters, coefficients](std::int64_t trajectories, std::int64_t n) {
+    result.held_out_losses = held.by_trajectory_of(as_family);
+    result.trial = [run, letters = as_family.letters, coefficients](std::int64_t trajectories,
+                                                                    std::int64_t n) {
       return run(letters, coefficients, trajectories, n);
     };
     return result;
@@ -212,8 +213,8 @@ learning_problem make_learning_problem(const run_time_family& family, const mode
   const bool in_lanes = system.facts().in_lanes_with_slopes && (other == nullptr || other->in_lanes);
   require_served_with_slopes(family.letters, system, in_lanes);
   if (held_out.step != data.step) {
-    throw std::invalid_argument(
-        fmt::format("learn: the data have the step {}, the held-out data {}", data.step, held_out.step));
+    throw std::invalid_argument(fmt::format(
+        "learn: data and held-out data must have the same step, got {} and {}", data.step, held_out.step));
   }
   if (&held_out.share().ranks() != &data.share().ranks()) {
     throw std::invalid_argument("learn: the data and the held-out data must be shared by the same ranks");

@@ -85,7 +85,7 @@ void unpack(std::span<const double> numbers, Eigen::Index dimension, flow_map_da
 void redistribute(flow_map_data& data, const shard& next, Eigen::Index dimension) {
   const shard now = data.share();
   const communicator& ranks = next.ranks();
-  if (ranks.is_alone()) return;
+  if (ranks.is_single()) return;
   flow_map_data kept;
   kept.first_of = {0};
   kept.noise_parts = data.noise_parts;

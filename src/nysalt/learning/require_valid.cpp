@@ -6,16 +6,16 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/together.hpp"
 
 namespace nysalt {
 
 namespace {
 
 [[noreturn]] void refuse_size(const char* what, std::size_t n, Eigen::Index found, Eigen::Index wanted) {
-  throw std::invalid_argument(
-      sentence("{} {} of the data has not the dimension of the system: {} for {}", what, n, found, wanted));
+  throw std::invalid_argument(sentence(
+      "{} {} of the data must have the dimension of the system, got {} for {}", what, n, found, wanted));
 }
 
 void require_valid_here(const flow_map_data& data, const model& system) {
@@ -24,23 +24,26 @@ void require_valid_here(const flow_map_data& data, const model& system) {
     return static_cast<std::size_t>(data.share().first()) + data.trajectory_of(pair);
   };
   if (data.system != describe(system)) {
-    throw std::invalid_argument(
-        sentence("the data are of {}, the system is {}", data.system, describe(system)));
+    throw std::invalid_argument(sentence("learn: the data must be of the system, got data of {} for {}",
+                                         data.system, describe(system)));
   }
   const bool covers = !data.first_of.empty() && data.first_of.front() == 0 &&
                       data.first_of.back() == data.pairs() &&
                       std::is_sorted(data.first_of.begin(), data.first_of.end());
   if (data.all_pairs() == 0 || data.finish.size() != data.pairs() || !covers) {
-    throw std::invalid_argument(sentence("the data are not whole: {} starts, {} finishes, {} trajectories",
-                                         data.pairs(), data.finish.size(), data.trajectories()));
+    throw std::invalid_argument(
+        sentence("learn: the data must be whole, got {} starts, {} finishes, {} trajectories", data.pairs(),
+                 data.finish.size(), data.trajectories()));
   }
   if (data.noise_parts < 0 ||
       data.noise.size() != data.pairs() * static_cast<std::size_t>(data.noise_parts)) {
-    throw std::invalid_argument(sentence("the data are not whole: {} pairs with noise in {} parts hold {}",
-                                         data.pairs(), data.noise_parts, data.noise.size()));
+    throw std::invalid_argument(
+        sentence("learn: the data must be whole, got {} pairs with noise in {} parts that hold {}",
+                 data.pairs(), data.noise_parts, data.noise.size()));
   }
   if (data.step == 0.0 || !std::isfinite(data.step)) {
-    throw std::invalid_argument(sentence("the data cannot have the step {}", data.step));
+    throw std::invalid_argument(
+        sentence("learn: the step of the data must be positive and finite, got {}", data.step));
   }
   for (std::size_t n = 0; n < data.noise.size(); ++n) {
     const auto noise = data.noise[n];
@@ -68,8 +71,8 @@ void require_valid_here(const flow_map_data& data, const model& system) {
   }
   for (const auto& [pair, finish] : data.finer) {
     if (pair >= data.pairs()) {
-      throw std::invalid_argument(sentence(
-          "the data are not whole: a finer finish is of pair {}, but there are {}", pair, data.pairs()));
+      throw std::invalid_argument(
+          sentence("learn: the data must be whole, got a finer finish of pair {} of {}", pair, data.pairs()));
     }
     require_sound("finer finish", pair, finish);
   }
@@ -78,7 +81,7 @@ void require_valid_here(const flow_map_data& data, const model& system) {
 }  // namespace
 
 void require_valid(const flow_map_data& data, const model& system) {
-  together(data.share().ranks(), [&] { require_valid_here(data, system); });
+  collectively(data.share().ranks(), [&] { require_valid_here(data, system); });
 }
 
 }  // namespace nysalt

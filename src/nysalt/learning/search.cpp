@@ -253,18 +253,19 @@ search_result search(const search_task& task, const std::vector<named_parameters
   }
 
   std::vector<candidate> held;
-  std::vector<named_parameters> refuges = starts;
-  if (starts.size() < given.size()) refuges.insert(refuges.end(), given.begin(), given.end());
-  std::erase_if(refuges, [&](const named_parameters& start) { return !is_allowed(start.theta); });
-  keep_least(refuges, task.loss, most_at_edge);
-  if (refuges.size() > most_to_the_end) {
-    for (auto& start : refuges) {
+  std::vector<named_parameters> from = starts;
+  if (starts.size() < given.size()) from.insert(from.end(), given.begin(), given.end());
+  std::erase_if(from, [&](const named_parameters& start) { return !is_allowed(start.theta); });
+  keep_least(from, task.loss, most_at_edge);
+  if (from.size() > most_to_the_end) {
+    for (auto& start : from) {
       start.theta = descend_at_edge(task.loss, is_allowed, start.theta, task.free, some_passes);
     }
-    keep_least(refuges, task.loss, most_to_the_end);
+    keep_least(from, task.loss, most_to_the_end);
   }
-  if (task.refuge && is_allowed(task.refuge->theta)) refuges.push_back(*task.refuge);
-  for (const auto& start : refuges) {
+  if (task.most_stable_member && is_allowed(task.most_stable_member->theta))
+    from.push_back(*task.most_stable_member);
+  for (const auto& start : from) {
     candidate one{
         .from = start.name, .theta = start.theta, .hessian = {}, .free = task.free, .is_held = true};
     one.theta = descend_at_edge(task.loss, is_allowed, start.theta, task.free);

@@ -16,7 +16,7 @@
 
 #include "length_of_trial.hpp"
 #include "nysalt/derivatives/near_resonance.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/families/phase_fitted_start.hpp"
 #include "nysalt/learning/objection.hpp"
 #include "nysalt/learning/search.hpp"
@@ -54,7 +54,7 @@ std::optional<named_parameters> phase_fitted_member(const learning_problem& prob
 
 /// Whether a trial run shows what rare frequencies do to a method: it is long enough to meet states many
 /// times over that are one in a thousand.
-bool tells_of_rare_states(const trial_result& trial) {
+bool shows_rare_states(const trial_result& trial) {
   constexpr std::int64_t many_steps = 100'000;
   return trial.passed() && trial.kept() * trial.steps >= many_steps;
 }
@@ -71,7 +71,7 @@ std::optional<named_parameters> best_contained(search_task task, const learning_
     if (!options->fixed[static_cast<std::size_t>(k)]) task.free.push_back(k);
   }
   task.withstands = {};
-  task.refuge = {};
+  task.most_stable_member = {};
   constexpr int some_iterations = 20;  // as the search goes on from here
   task.max_iterations = some_iterations;
   const auto starts = starts_of(inner->family, *options, problem, task.free);
@@ -152,7 +152,7 @@ attempt solve_as_it_is(const learning_problem& problem) {
   const auto instability_of = [&](const Eigen::VectorXd& theta, const trial_result& trial) {
     if (const std::string linear = objection_of_guard(theta, met::often); !linear.empty()) return linear;
     if (const std::string failed = trial.objection(); !failed.empty()) return failed;
-    return tells_of_rare_states(trial) ? std::string() : objection_of_guard(theta, met::ever);
+    return shows_rare_states(trial) ? std::string() : objection_of_guard(theta, met::ever);
   };
   const auto withstands = [&](const Eigen::VectorXd& theta) {
     return instability_of(theta, trial_of(theta)).empty();
@@ -173,9 +173,9 @@ attempt solve_as_it_is(const learning_problem& problem) {
                    .free = free,
                    .max_iterations = options.max_iterations};
   if (options.guarded) task.withstands = withstands;
-  if (family.refuge) {
-    task.refuge = named_parameters{"refuge", *family.refuge};
-    fix(options, task.refuge->theta);
+  if (family.most_stable_member) {
+    task.most_stable_member = named_parameters{"the most stable member", *family.most_stable_member};
+    fix(options, task.most_stable_member->theta);
   }
   if (problem.shorter == nullptr) {
     for (auto& stage : task.stages) stage.lost_above = std::numeric_limits<double>::infinity();
@@ -205,7 +205,7 @@ attempt solve_as_it_is(const learning_problem& problem) {
     for (const auto& known : family.starts) {
       if (known.name != "further start") members.push_back(member_at(known.name, known.theta));
     }
-    if (family.refuge) members.push_back(member_at("equal steps", *family.refuge));
+    if (family.most_stable_member) members.push_back(member_at("equal steps", *family.most_stable_member));
     if (fitted) members.push_back(member_at(fitted->name, fitted->theta));
     if (contained) members.push_back(member_at(contained->name, contained->theta));
     std::ranges::stable_sort(members, {}, &contender::loss);

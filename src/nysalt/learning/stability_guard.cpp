@@ -11,9 +11,9 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "nysalt/derivatives/magnification.hpp"
-#include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/derivatives/sum_resonance.hpp"
+#include "nysalt/derivatives/transient_growth.hpp"
 #include "nysalt/derivatives/word_on_oscillator.hpp"
 #include "nysalt/detail/served_letters.hpp"
 
@@ -80,7 +80,7 @@ stability_guard::stability_guard(const model& system, const phase_points& states
                                  std::int64_t steps, std::size_t typical)
     : steps_(steps) {
   if (has_frequency_bands(system)) declare(system.frequency_bands());
-  look_along(frequencies_of_states(system, states), states.size(), std::min(typical, states.size()),
+  scan_along(frequencies_of_states(system, states), states.size(), std::min(typical, states.size()),
              has_quadratic_kinetic(system));
   const bool has_soft_derivative = system.facts().serves<double>(soft_gradient_kick::letter);
   if (has_soft_derivative && rotations && states.size() > 0) watch_rotations(system, states);
@@ -90,7 +90,7 @@ void stability_guard::declare(const std::vector<frequency_band>& bands) {
   for (const auto& band : bands) bands_.push_back({band.low * (1.0 - margin), band.high * (1.0 + margin)});
 }
 
-void stability_guard::look_along(const frequencies_along& along, std::size_t count, std::size_t typical,
+void stability_guard::scan_along(const frequencies_along& along, std::size_t count, std::size_t typical,
                                  bool has_quadratic_kinetic) {
   const bool are_declared = !bands_.empty();
   highest_along_ = along.highest().frequency;

@@ -7,11 +7,11 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
-#include "nysalt/derivatives/magnification.hpp"
-#include "nysalt/derivatives/stiffness_along.hpp"
 #include "nysalt/derivatives/strong_stability.hpp"
 #include "nysalt/derivatives/sum_resonance.hpp"
+#include "nysalt/derivatives/transient_growth.hpp"
 #include "nysalt/detail/conservative_part.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/learning/stability_guard.hpp"
@@ -34,7 +34,7 @@ stability_guard::stability_guard(const model& system, const phase_points& states
 
 void stability_guard::watch_rotations(const model& system, const phase_points& states) {
   const auto part = modal_coordinates::of(system);
-  watch_modes(part->frequencies(), stiffness_along<field::soft>(system, states).highest_frequency());
+  watch_modes(part->frequencies(), hessian_spectrum<field::soft>(system, states).highest_frequency());
   const Eigen::Index n = size(system);
   if (n > most_for_all_frequencies) {
     description_ += "; pairs of modes are not examined";
@@ -51,9 +51,9 @@ void stability_guard::watch_rotations(const model& system, const phase_points& s
   force_jacobian<field::soft, model> jacobian(system, states);
   for (const auto& state : states) {
     // Evenly spread: the k-th of those that are examined is the state count * k / enough.
-    const bool is_looked_at = number * enough / count != (number + 1) * enough / count;
+    const bool is_examined = number * enough / count != (number + 1) * enough / count;
     ++number;
-    if (count > enough && !is_looked_at) continue;
+    if (count > enough && !is_examined) continue;
     const Eigen::MatrixXd root = detail::kinetic_factor(system, state.p);
     const Eigen::MatrixXd soft = root * detail::potential_hessian(jacobian, state.q) * root;
     soft_.push_back(modes.basis.transpose() * soft * modes.basis);
@@ -144,7 +144,7 @@ stability_guard::magnified_mode stability_guard::most_magnified(const run_time_w
   for (const double omega : modes_) {
     for (int i = 1; i <= samples && stiffest_soft_ > 0.0; ++i) {
       const double soft = step * stiffest_soft_ * i / samples;
-      const double grown = magnification(word, coefficients, step * omega, soft * soft, steps_);
+      const double grown = transient_growth(word, coefficients, step * omega, soft * soft, steps_);
       if (!(grown <= worst.factor)) worst = {omega, grown};
       if (!(worst.factor <= enough)) return worst;
     }

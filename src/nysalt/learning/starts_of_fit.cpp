@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/oscillator_loss.hpp"
-#include "nysalt/detail/together.hpp"
 #include "nysalt/learning/minimise.hpp"
 #include "nysalt/learning/search.hpp"
 
@@ -111,11 +111,11 @@ search_task within(const contained_family& inner, search_task task) {
 }
 
 void require_same(const communicator& ranks, const Eigen::VectorXd& theta) {
-  if (ranks.is_alone()) return;
+  if (ranks.is_single()) return;
   Eigen::VectorXd of_first = theta;
   ranks.broadcast(std::as_writable_bytes(std::span(of_first.data(), static_cast<std::size_t>(theta.size()))),
                   0);
-  together(ranks, [&] {
+  collectively(ranks, [&] {
     if (theta == of_first) return;
     throw std::runtime_error(
         fmt::format("learn: rank {} came to other parameters than rank 0: run all on processors of one kind",
@@ -141,7 +141,7 @@ void require_sound(const run_time_family& family, const fit_options& options) {
   }
   for (const auto& start : options.further_starts) {
     if (start.theta.size() == family.parameters() && !start.theta.allFinite()) {
-      throw std::invalid_argument(fmt::format("learn: the start '{}' is not finite", start.name));
+      throw std::invalid_argument(fmt::format("learn: starts must be finite, got '{}'", start.name));
     }
     if (start.theta.size() == family.parameters()) continue;
     throw std::invalid_argument(fmt::format("learn: the start '{}' has {} parameters, {} has {}", start.name,

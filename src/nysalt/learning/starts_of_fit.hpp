@@ -26,7 +26,7 @@ std::vector<named_parameters> starts_of(const run_time_family& family, const fit
 std::optional<fit_options> options_within(const contained_family& inner, const fit_options& options);
 
 /// The same task, of a larger family, among the members of one that it contains. The kept starts and the
-/// refuge are of the smaller family.
+/// most stable member are of the smaller family.
 search_task within(const contained_family& inner, search_task task);
 
 /// Ranks search each by itself with the same sums. They would not take the same steps if their processors'

@@ -27,7 +27,7 @@ void summarise_rival(const learning_problem& problem, const contender& chosen, s
     if (family.letters.has_own_letters()) continue;  // what these cost is for their author to declare
     if (!method.letters().is_symplectic && family.letters.is_symplectic) continue;
     // Nor do words without a processor pay for looking.
-    if (method.letters().evaluations_to_look > family.letters.evaluations_to_look) continue;
+    if (method.letters().evaluations_to_observe > family.letters.evaluations_to_observe) continue;
     methods.push_back(problem.rival(method));
     const auto& known = methods.back();
     if (!known) continue;

@@ -24,9 +24,8 @@ enough_course until_enough(std::int64_t first, const enough_options& options,
                            const std::function<fit_summary(std::int64_t trajectories)>& learn) {
   if (!(options.share > 0.0) || first < 2 || first > options.most) {
     throw std::invalid_argument(
-        fmt::format("until_enough: a share above 0, and from 2 trajectories on to as many at least; got a "
-                    "share of {} and "
-                    "{} to {} trajectories",
+        fmt::format("until_enough: share must be > 0 and trajectories a range from 2 or more, got a "
+                    "share of {} and {} to {} trajectories",
                     options.share, first, options.most));
   }
   enough_course course;

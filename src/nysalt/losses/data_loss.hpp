@@ -77,8 +77,8 @@ data_loss without_type(const std::shared_ptr<const Loss>& loss, const std::share
 }
 
 /// The mean over windows of the squares of these residuals.
-data_loss after_steps_of(const loss_inputs& from, const stretch_error<lanes>& error);
-data_loss after_steps_of(const loss_inputs& from, const stretch_error<double>& error);
+data_loss after_steps_of(const loss_inputs& from, const window_error<lanes>& error);
+data_loss after_steps_of(const loss_inputs& from, const window_error<double>& error);
 
 /// That of the state's error.
 data_loss of_states(const loss_inputs& from);

@@ -43,10 +43,11 @@ std::map<double, double> spectrum_of(const model& system) {
 /// The argument of acceptance_at(): half of rho at h omega for each oscillator.
 objective of_spectrum(const model& system, const run_time_family& family, double step) {
   if (!family.symmetric || family.letters.rotates() || family.letters.is_processed()) {
-    throw std::invalid_argument(sentence(
-        "the loss gaussian_acceptance needs a symmetric family without rotations and processors, got {}; "
-        "take the loss acceptance, or a family such as bab3",
-        family.name));
+    throw std::invalid_argument(
+        sentence("gaussian_acceptance: the family must be symmetric, without rotations and "
+                 "processors, got {}; "
+                 "take the loss acceptance, or a family such as bab3",
+                 family.name));
   }
   return [family, step, count_of = spectrum_of(system)](const Eigen::VectorXd& theta) {
     const Eigen::Index parameters = theta.size();

@@ -10,7 +10,7 @@ namespace nysalt {
 
 squares stationary_covariance::at(const std::vector<double>& coefficients,
                                   const Eigen::MatrixXd& jacobian) const {
-  constexpr int width = 2;  // columns at a time, as their number is known while running only
+  constexpr int width = 2;  // columns at a time, as their number is known at run time only
   const auto values = residuals(coefficients);
   const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
   Eigen::MatrixXd J(r.size(), jacobian.cols());

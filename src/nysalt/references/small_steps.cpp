@@ -63,7 +63,7 @@ class steps_reference final : public any_reference {
                        fmt::format("{} with step {:.12g}", method_.name(), 0.5 * step_));
   }
   std::string description() const override { return text_; }
-  bool tells_noise() const override { return false; }
+  bool gives_noise() const override { return false; }
 
  private:
   template <class T>
@@ -71,7 +71,7 @@ class steps_reference final : public any_reference {
     const auto steps = whole_steps(t, step_);
     if (!steps) {
       throw std::invalid_argument(
-          sentence("fine_steps: the time {} is not a multiple of the fine step {}", t, step_));
+          sentence("fine_steps: the time must be a multiple of the fine step, got {} and {}", t, step_));
     }
     return std::make_unique<steps_run<T>>(system, method_, t, *steps);
   }
@@ -121,7 +121,7 @@ class paths_reference final : public any_reference {
                                 fmt::format("{} with step {:.12g}", method_.name(), 0.5 * step_));
   }
   std::string description() const override { return text_; }
-  bool tells_noise() const override { return true; }
+  bool gives_noise() const override { return true; }
 
  private:
   tabulated method_;

@@ -18,7 +18,7 @@ void require_metropolis_applies(const char* who, const model& system, const tabu
   }
   if (system.bath().acts()) {
     throw std::invalid_argument(
-        sentence("{}: H is not conserved in {}; take the system without its bath", who, describe(system)));
+        sentence("{}: H must be conserved, got {}; take the system without its bath", who, describe(system)));
   }
   if (!(temperature > 0.0) || !std::isfinite(temperature)) {
     throw std::invalid_argument(sentence("{}: kT must be positive and finite, got {}", who, temperature));

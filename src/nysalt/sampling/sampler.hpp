@@ -19,10 +19,10 @@
 
 #include "block_of_chains.hpp"
 #include "dual_averaging.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/together.hpp"
 #include "nysalt/hmc.hpp"
 #include "nysalt/shard.hpp"
 #include "rescaled.hpp"
@@ -49,12 +49,12 @@ class sampler {
         method_(method),
         options_(options),
         mine_(options.chains, *options.ranks),
-        tell_(progress_of_share(*options.ranks, mine_.count() * (options.burn_in + options.draws),
-                                options.chains * (options.burn_in + options.draws), options.progress)) {
+        report_(progress_of_share(*options.ranks, mine_.count() * (options.burn_in + options.draws),
+                                  options.chains * (options.burn_in + options.draws), options.progress)) {
     result_.step = options.step;
     const std::int64_t blocks = (mine_.count() + lanes_in<T> - 1) / lanes_in<T>;
     blocks_.resize(static_cast<std::size_t>(blocks));
-    together(*options.ranks, [&] {
+    collectively(*options.ranks, [&] {
       for_each_block([&](std::size_t b, std::int64_t first, int count) {
         blocks_[b] =
             std::make_unique<block_of_chains<T>>(own_copy(system), starts, options.seed, first, count);
@@ -69,18 +69,18 @@ class sampler {
     while (done_ < options_.burn_in) {
       burn_in(done_);
       if (++done_ == options_.burn_in) end_burn_in();
-      keep_and_tell();
+      keep_and_report();
     }
     const std::int64_t all = options_.burn_in + options_.draws;
     while (done_ < all) {
       const std::int64_t every = options_.keep_every;
       const std::int64_t next = every > 0 ? std::min(all, (done_ / every + 1) * every) : all;
       for (std::int64_t n = done_; n < next; ++n) count_steps(n);
-      together(*options_.ranks, [&] {
+      collectively(*options_.ranks, [&] {
         for_each_block([&](std::size_t b, std::int64_t, int) { draw(*blocks_[b], next, take); });
       });
       done_ = next;
-      keep_and_tell();
+      keep_and_report();
     }
     const double of_draws = static_cast<double>(options_.draws);
     result_.evaluations_of_draw = evaluations(of_draws, steps_ - steps_of_burn_in_) / of_draws;
@@ -99,7 +99,7 @@ class sampler {
   double evaluations(double trajectories, double steps) const {
     const run_time_word& word = method_.letters();
     const auto per_step = evaluations_of(system_, word.evaluations_per_step, word.force_derivatives);
-    return trajectories * (word.evaluations_to_open + word.evaluations_to_look) +
+    return trajectories * (word.evaluations_to_open + word.evaluations_to_observe) +
            steps * static_cast<double>(per_step);
   }
   /// Before masses are known the length of a trajectory is some steps.
@@ -134,7 +134,7 @@ class sampler {
     }
     if (tuned_) result_.step = tuned_->step();
     const std::int64_t steps = count_steps(n);
-    together(*options_.ranks, [&] {
+    collectively(*options_.ranks, [&] {
       for_each_block([&](std::size_t b, std::int64_t, int) { go_on(*blocks_[b], n, steps); });
     });
     if (tuned_) tuned_->take(acceptance_of_last());
@@ -157,8 +157,8 @@ class sampler {
                  *options_.acceptance, tuned_->settled()));
   }
 
-  void keep_and_tell() {
-    if (tell_) tell_(done_ * mine_.count());
+  void keep_and_report() {
+    if (report_) report_(done_ * mine_.count());
     if (options_.keep_every > 0 && options_.keep && done_ % options_.keep_every == 0) options_.keep(state());
   }
 
@@ -299,7 +299,7 @@ class sampler {
   const tabulated& method_;
   const hmc_options& options_;
   shard mine_;
-  std::function<void(std::int64_t)> tell_;
+  std::function<void(std::int64_t)> report_;
   std::vector<std::unique_ptr<block_of_chains<T>>> blocks_;
   std::optional<dual_averaging> tuned_;
   std::vector<moments> seen_;  // of the chains of this rank, with `diagonal_masses`

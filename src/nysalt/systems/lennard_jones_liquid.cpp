@@ -64,7 +64,7 @@ void for_each_atom(const detail::neighbour_list& list, int threads, const detail
       const detail::centre here(places[slot]);
       use(
           slot, [&](const auto& action) __attribute__((always_inline)) {
-            const auto look_at = [&](std::size_t n) __attribute__((always_inline)) {
+            const auto distances_of = [&](std::size_t n) __attribute__((always_inline)) {
               const std::int32_t* const others = row.data() + n;
               const auto d = detail::ways_to(
                   here, [=](int k) __attribute__((always_inline))->const detail::place& {
@@ -72,10 +72,10 @@ void for_each_atom(const detail::neighbour_list& list, int threads, const detail
                   });
               return distances{d, pair.inverse(d.square)};
             };
-            distances next = look_at(0);
+            distances next = distances_of(0);
             for (std::size_t n = 0; n < row.size(); n += detail::pairs_at_a_time) {
               const distances here_and_now = next;
-              next = look_at(n + detail::pairs_at_a_time);
+              next = distances_of(n + detail::pairs_at_a_time);
               action(here_and_now, row.data() + n);
             }
           });

@@ -15,7 +15,7 @@ namespace nysalt::detail {
 /// For each atom all others that were nearer than reach + skin when the list was made [verlet_1967]: those
 /// nearer than the reach are among them until an atom has moved by half the skin. Atoms are kept in slots,
 /// cell after cell, so that neighbours lie near each other in memory; the list is that of slots, in blocks
-/// whose number depends on that of the atoms alone. The order within a row means nothing.
+/// whose number depends only on that of the atoms. The order within a row means nothing.
 class neighbour_list {
  public:
   static constexpr std::int64_t slots_of_block = 128;

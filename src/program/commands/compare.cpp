@@ -12,7 +12,7 @@
 #include "../systems.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/refusal.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 
 namespace nysalt::program {
 
@@ -77,7 +77,7 @@ int compare(const compare_command& command, const common_settings& common) {
   comparison_options asked = command;
   asked.energies = !command.output.empty();
   std::optional<comparison> planned;
-  together(all_ranks(), [&] { planned.emplace(make_system(command.system), asked, common); });
+  collectively(all_ranks(), [&] { planned.emplace(make_system(command.system), asked, common); });
   comparison& all = *planned;
   require_agreement("methods", all.question().dump(-1, ' ', false, json::error_handler_t::replace));
   warn_of_threads(common);

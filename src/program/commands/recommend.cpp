@@ -7,14 +7,14 @@
 #include "../commands.hpp"
 #include "../output.hpp"
 #include "comparison/all_ranks.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 
 namespace nysalt::program {
 
 namespace {
 
 /// Does the work, prints what was found, and writes the scheme of a winner that was learned.
-int tell(auto& all, const std::string& output, const common_settings& common) {
+int print_result(auto& all, const std::string& output, const common_settings& common) {
   if (!output.empty()) on_first(all_ranks(), [&] { require_result(output); });
   warn_of_threads(common);
   all.learn_and_rank();
@@ -39,10 +39,10 @@ int recommend(const recommend_command& command, const common_settings& common) {
   auto system = make_system(command.system);
   if (command.purpose == "sampling") {
     sampling_choice all(std::move(system), command.sampling, common);
-    return tell(all, command.output, common);
+    return print_result(all, command.output, common);
   }
   recommendation all(std::move(system), command, common);
-  return tell(all, command.output, common);
+  return print_result(all, command.output, common);
 }
 
 }  // namespace nysalt::program

@@ -15,7 +15,7 @@
 #include "comparison/learning.hpp"
 #include "comparison/progress.hpp"
 #include "comparison/sampled_run.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "program/output/planned_run.hpp"
 #include "program/output/run_output.hpp"
 #include "report/manifest.hpp"
@@ -30,7 +30,7 @@ namespace {
 void require_room(const run_command& command, std::int64_t steps, bool whole_document, int threads) {
   constexpr double most = 1e8;  // numbers: about a gigabyte, some more in a document
   const auto columns = static_cast<double>(command.observables.size());
-  const std::int64_t at_once = longest_stretch(steps, command.every);
+  const std::int64_t at_once = longest_segment(steps, command.every);
   const auto samples = static_cast<double>(at_once / command.sample_every + 1);
   const std::int64_t at_a_time = whole_document ? command.trajectories : default_lanes * threads;
   const auto trajectories = static_cast<double>(std::min(command.trajectories, at_a_time));
@@ -88,9 +88,9 @@ void require_files(const run_command& command) {
 }
 
 /// Steps between two checks for a signal, some seconds, where there is a checkpoint to make then.
-std::optional<std::int64_t> stretch_of(const run_command& command, std::int64_t dimension) {
+std::optional<std::int64_t> segment_of(const run_command& command, std::int64_t dimension) {
   if (!command.every) return std::nullopt;
-  return std::min(*command.every, 10 * short_stretch(dimension));
+  return std::min(*command.every, 10 * short_segment(dimension));
 }
 
 /// Facts of a run for which a file of NumPy has no place; a table and HDF5 hold them themselves.
@@ -115,7 +115,7 @@ json with_times(std::vector<diverged_trajectory> lost, double step) {
 }
 
 /// In words, instead of the document.
-void tell(const run_command& command, const json& document, bool was_finished) {
+void print_result(const run_command& command, const json& document, bool was_finished) {
   constexpr std::size_t enough = 20;  // lines of warnings
   if (was_finished) {
     print(fmt::format("{} is finished already: nothing was done\n", command.output));
@@ -169,7 +169,7 @@ int run(const run_command& asked, const common_settings& common) {
       for (const auto& text : warnings) warn(text);
     }
     sampled_plan sampled{plan, command.observables, command.sample_every,
-                         stretch_of(command, system.dimension())};
+                         segment_of(command, system.dimension())};
     on_first(all_ranks(), [&] { output->begin(sampled); });
     const auto take = [&](std::int64_t m, const record& one) { output->take(m, one); };
     shown.part("running");
@@ -199,17 +199,17 @@ int run(const run_command& asked, const common_settings& common) {
     document["steps"] = plan.steps;
     document["seed"] = common.seed;
     if (!was_finished || common.json) {
-      const std::int64_t further_looks =
+      const std::int64_t further_observations =
           std::max<std::int64_t>(plan.steps / command.sample_every - 1, 0);  // one is counted with the run
       document["evaluations"] = system.count_evaluations(*planned.method, plan) +
-                                further_looks * planned.method->letters().evaluations_to_look;
+                                further_observations * planned.method->letters().evaluations_to_observe;
     }
     document["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     document["warnings"] = warnings;
     if (common.json) {
       print(text_of(document));
     } else {
-      tell(command, document, was_finished);
+      print_result(command, document, was_finished);
     }
     if (was_finished && output->was_changed()) {
       warn(fmt::format("{} is not as the run left it: it was changed since", command.output));

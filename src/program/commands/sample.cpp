@@ -20,7 +20,7 @@
 #include "comparison/progress.hpp"
 #include "comparison/refusal.hpp"
 #include "comparison/seeds.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "nysalt/hmc.hpp"
 #include "report/manifest.hpp"
 #include "report/table.hpp"
@@ -117,7 +117,7 @@ std::int64_t draws_before(const sample_command& command, std::int64_t trajectori
 /// The state in a checkpoint of this question, and its draws; what went wrong at rank 0 goes wrong at all.
 hmc_state state_in(const sample_command& command, const json& question, kept_draws& draws) {
   hmc_state state;
-  together(all_ranks(), [&] {
+  collectively(all_ranks(), [&] {
     checkpoint_file saved = read_checkpoint_file(command.checkpoint, "sample");
     try {
       require_question(saved.head.at("question"), question, command.checkpoint);
@@ -275,7 +275,7 @@ int sample(const sample_command& command, const common_settings& common) {
   const auto system = make_system(command.system);
   if (system->heat_bath().acts()) refuse("sample: --hmc-temperature is the temperature: leave the bath away");
   method_source source;
-  together(all_ranks(), [&] { source = find_method(command.method, {}, system->letters()); });
+  collectively(all_ranks(), [&] { source = find_method(command.method, {}, system->letters()); });
   charge(source, *system);
   hmc_options options = options_of(command, *system, source, common);
   std::vector<std::string> warnings;

@@ -247,7 +247,7 @@ bool add_parts(answer& result, const tabulated& method, const prepared_problem& 
   result.document["stable"] = true;
   const auto guard = system.guard_of_parts(method.letters());
   if (!guard) {
-    result.text += "its linearised motion is not known: a trial run alone decides\n";
+    result.text += "its linearised motion is not known: only a trial run decides\n";
     return false;
   }
   const std::string objection = guard->objection(method.letters(), method.coefficients(), step);

@@ -10,7 +10,7 @@
 #include "../commands.hpp"
 #include "comparison/all_ranks.hpp"
 #include "number_option.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "shared_options.hpp"
 
 namespace nysalt::program {
@@ -27,8 +27,9 @@ subcommand offer_stability(CLI::App& app, common_settings& common) {
   command.add_option("--method", asked.method, "a name, or the file of a scheme or table");
   command.add_option("--family", asked.family, "with --parameters");
   command.add_option("--parameters", typed->parameters, "of the family, joined by commas");
-  auto of_system = add_system(command, typed->system,
-                              "law, gibbs or trajectory: as run takes it; frequencies are those of law");
+  auto of_system =
+      add_system(command, typed->system,
+                 "law, gibbs or trajectory: as run takes it; frequencies are those of the first");
   of_system.push_back(
       add_number(command, "--step", asked.step, "with --system: is the system stable there?"));
   command.add_option("--output", asked.output, "write trace/2 over z as CSV");

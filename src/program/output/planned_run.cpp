@@ -9,7 +9,7 @@
 #include "comparison/refusal.hpp"
 #include "comparison/stability_margin.hpp"
 #include "hdf5_layout.hpp"
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 #include "program/systems.hpp"
 #include "report/manifest.hpp"
 
@@ -43,7 +43,7 @@ planned_run::planned_run(const run_command& asked, const common_settings& common
     : command(asked), system(make_system(asked.system)), plan(plan_of(asked, common)), seed(common.seed) {
   if (command.observables.empty()) command.observables = {system->default_observable()};
   require_observables(command, *system);
-  together(all_ranks(), [&] { source = find_method(command.method, command.held, system->letters()); });
+  collectively(all_ranks(), [&] { source = find_method(command.method, command.held, system->letters()); });
   method = coefficients_at(source, *system, command.step, common.force, placement_asked(command.placement),
                            warnings);
 }

@@ -21,10 +21,10 @@ struct three_stiff {
     T sum(0.0);
     T bond = q[0];
     for (int i = 0; i < 3; ++i) {
-      const T stretch = q[2 * i + 1] - q[2 * i];
+      const T elongation = q[2 * i + 1] - q[2 * i];
       const double omega = frequencies()[static_cast<std::size_t>(i)];
       const T square = bond * bond;
-      sum = sum + square * square + stretch * stretch * (0.25 * omega * omega);
+      sum = sum + square * square + elongation * elongation * (0.25 * omega * omega);
       bond = i < 2 ? T(q[2 * i + 2] - q[2 * i + 1]) : T(-q[2 * i + 1]);
     }
     const T square = bond * bond;

@@ -11,14 +11,14 @@
 
 namespace nysalt {
 
-/// Has pairs() stiff springs, the energy of spring j being stiff_energy(x, j) >= 0.
+/// A system with pairs() stiff springs and the energy of spring j, stiff_energy(x, j) >= 0.
 template <class S, class T>
 concept HasStiffEnergiesOver =
     System<S> && requires(const S& system, const phase_point<T, S::dimension>& x, Eigen::Index j) {
       { system.pairs() } -> std::convertible_to<Eigen::Index>;
       { system.stiff_energy(x, j) } -> std::same_as<T>;
     };
-/// The same over double.
+/// Stiff energies over double, see HasStiffEnergiesOver.
 template <class S>
 concept HasStiffEnergies = HasStiffEnergiesOver<S, double>;
 

@@ -17,7 +17,7 @@ concept IsObservable = requires(const F& f, const phase_point<T, N>& x) {
 
 namespace detail {
 
-/// An observable of states of N coordinates, of states whose dimension is known while running.
+/// An observable of states of N coordinates, of states whose dimension is known at run time.
 template <int N, class Observable>
 struct observable_of_any_dimension {
   Observable observable;

@@ -10,7 +10,7 @@
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
-#include "nysalt/derivatives/stiffness_along.hpp"
+#include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
@@ -73,7 +73,7 @@ stiffness_range by_eigenvalues(const S& system, const states_of<S>& states) {
 /// Bounds that are at most 1 % too wide, each by the rule by which the iteration stops; rounding aside.
 template <NystromSystem S>
 void check_states(const S& system, const states_of<S>& states) {
-  const auto found = stiffness_along(system, states);
+  const auto found = hessian_spectrum(system, states);
   const auto exact = by_eigenvalues(system, states);
   const auto coordinates = static_cast<double>(size(system));
   const double largest = std::max(std::abs(exact.lowest), std::abs(exact.highest));
@@ -111,19 +111,19 @@ BOOST_AUTO_TEST_CASE(negative_curvature_does_not_pass_for_stiffness) {
   check_states(pair, {at(0.95), at(1.0), at(1.2), at(1.5)});
   const states_of<trapped_pair> stretched{at(1.2)};
   check_states(pair, stretched);
-  const auto found = stiffness_along(pair, stretched);
+  const auto found = hessian_spectrum(pair, stretched);
   BOOST_TEST(std::abs(found.highest_frequency() - std::sqrt(0.1)) < 1e-6);  // sqrt of rounding, and more
   BOOST_TEST(found.lowest < -14.0);
 
   // The same estimate from the wrong sign: the fastest departure passes for the highest frequency.
-  BOOST_TEST(stiffness_along(upside_down(), stretched).highest_frequency() > 3.0);
+  BOOST_TEST(hessian_spectrum(upside_down(), stretched).highest_frequency() > 3.0);
 }
 
 // A hilltop has no frequency at all.
 BOOST_AUTO_TEST_CASE(where_all_curvature_is_negative_the_highest_frequency_is_zero) {
   const black_box_with_derivative pendulum;
   const phase_point<double, 1> top{vector<double, 1>(3.14), vector<double, 1>(0.0)};
-  const auto found = stiffness_along(pendulum, std::vector{top});
+  const auto found = hessian_spectrum(pendulum, std::vector{top});
   BOOST_TEST(found.highest < 0.0);
   BOOST_TEST(found.highest_frequency() == 0.0);
 }
@@ -131,8 +131,8 @@ BOOST_AUTO_TEST_CASE(where_all_curvature_is_negative_the_highest_frequency_is_ze
 BOOST_AUTO_TEST_CASE(soft_stiffness_is_that_without_the_quadratic_part) {
   const with_quadratic_part system(henon_heiles(), Eigen::MatrixXd::Identity(2, 2));
   const std::vector states{phase_point<double, 2>{vector<double, 2>(0.3, -0.2), vector<double, 2>(0.0, 0.0)}};
-  const auto soft = stiffness_along<field::soft>(system, states);
-  const auto all = stiffness_along(system, states);
+  const auto soft = hessian_spectrum<field::soft>(system, states);
+  const auto all = hessian_spectrum(system, states);
   BOOST_TEST(std::abs(all.highest - soft.highest - 1.0) < 20.0 * eps);  // some ten operations
   BOOST_TEST(std::abs(all.lowest - soft.lowest - 1.0) < 20.0 * eps);
   BOOST_TEST(soft.highest > 0.1);
@@ -143,17 +143,17 @@ BOOST_AUTO_TEST_CASE(the_order_of_states_does_not_matter_to_a_percent) {
   draws random;
   const fpu_chain<> chain(30, 5.0);
   auto states = random_states(chain, random, 0.8, 20);
-  const auto one_way = stiffness_along(chain, states);
+  const auto one_way = hessian_spectrum(chain, states);
   std::reverse(states.begin(), states.end());
-  const auto other_way = stiffness_along(chain, states);
+  const auto other_way = hessian_spectrum(chain, states);
   BOOST_TEST(std::abs(one_way.highest - other_way.highest) <= 0.01 * one_way.highest);
   BOOST_TEST(one_way.evaluations <= 40 * one_way.states);
 }
 
 BOOST_AUTO_TEST_CASE(nothing_to_look_at_is_refused) {
   BOOST_TEST(refuses<std::invalid_argument>(
-      [] { stiffness_along(henon_heiles(), states_of<henon_heiles>()); }, {"states must", "none"}));
+      [] { hessian_spectrum(henon_heiles(), states_of<henon_heiles>()); }, {"states must", "none"}));
   const phase_point<double, 2> together{vector<double, 2>(0.0, 0.0), vector<double, 2>(0.0, 0.0)};
-  BOOST_TEST(refuses<std::invalid_argument>([&] { stiffness_along(trapped_pair(), std::vector{together}); },
-                                            {"no finite derivative", "state 0"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { hessian_spectrum(trapped_pair(), std::vector{together}); },
+                                            {"finite derivative", "state 0"}));
 }

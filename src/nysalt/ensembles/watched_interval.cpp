@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "watched_stretch.hpp"
+#include "watched_interval.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ discrepancy mean_over_chains(const std::vector<double>& x) {
   return {mean, std::sqrt(squares / (n - 1.0) / n)};
 }
 
-double watched_stretch::tau() const {
+double watched_interval::tau() const {
   double longest = 0.0;
   for (std::size_t i = 0; i < watched_numbers; ++i) {
     if (!counts(i)) continue;

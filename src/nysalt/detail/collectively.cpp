@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 
 #include <exception>
 #include <functional>
@@ -37,8 +37,8 @@ failure describe_thrown(const std::exception_ptr& thrown, std::string& text) {
 
 }  // namespace
 
-void together(const communicator& ranks, const std::function<void()>& work) {
-  if (ranks.is_alone()) {
+void collectively(const communicator& ranks, const std::function<void()>& work) {
+  if (ranks.is_single()) {
     work();
     return;
   }
@@ -66,7 +66,7 @@ void on_first(const communicator& ranks, const std::function<void()>& work) {
     const communicator& ranks;
     ~meeting() { ranks.meet(); }  // whether or not the work succeeds
   };
-  together(ranks, [&] {
+  collectively(ranks, [&] {
     const meeting at_end{ranks};
     if (ranks.is_first()) work();
   });

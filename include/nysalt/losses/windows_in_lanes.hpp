@@ -22,17 +22,17 @@ namespace nysalt {
 /// Windows of some consecutive trajectories, as many in each entry as R has lanes; the last one fills what
 /// is left of the last entry.
 template <Scalar R>
-struct stretches_in_lanes {
-  static constexpr int N = Eigen::Dynamic;  ///< the dimension is known while running
+struct windows_in_lanes {
+  static constexpr int N = Eigen::Dynamic;  ///< the dimension is known at run time
   /// One window in each lane.
   struct entry {
-    phase_point<R, N> start;                ///< where the windows begin
-    std::vector<phase_point<R, N>> finish;  ///< where the data are at each time that counts
-    std::vector<vector<R, N>> noise;        ///< that of each letter O of the word, step after step
+    phase_point<R, N> start;                ///< initial states of the windows
+    std::vector<phase_point<R, N>> finish;  ///< states of the data at each time that counts
+    std::vector<vector<R, N>> noise;        ///< noise of each letter O of the word, step after step
   };
-  std::size_t first_trajectory;  ///< that of the first window, at this rank
-  std::size_t begin;             ///< number of the first window, as in stretch_starts
-  std::size_t end;               ///< one more than that of the last
+  std::size_t first_trajectory;  ///< number of the trajectory of the first window, at this rank
+  std::size_t begin;             ///< number of the first window, as in window_starts
+  std::size_t end;               ///< number of the last window, plus one
   std::vector<entry> entries;    ///< all windows, lane by lane
 };
 
@@ -40,10 +40,10 @@ struct stretches_in_lanes {
 /// entries.
 template <Scalar R>
 struct noise_of_entries {
-  static constexpr int N = Eigen::Dynamic;     ///< the dimension is known while running
+  static constexpr int N = Eigen::Dynamic;     ///< the dimension is known at run time
   static constexpr bool draws_freely = false;  ///< the numbers are those of the data
   /// Entry m has the noise of trajectory m.
-  const std::vector<typename stretches_in_lanes<R>::entry>* entries = nullptr;
+  const std::vector<typename windows_in_lanes<R>::entry>* entries = nullptr;
   std::int64_t letters = 0;  ///< letters O of a step
 
   /// The numbers of one letter O of one step into xi; T carries R, or derivatives over it.
@@ -57,19 +57,19 @@ struct noise_of_entries {
 
 /// The noise in data that the letters O of a word need.
 struct wanted_noise {
-  noise_intervals intervals;   ///< in the parts of the data
+  noise_intervals intervals;   ///< intervals of the letters O, in parts of the data
   double damping_of_part = 0;  ///< gamma times the length of a part
 };
 
 /// The pairs with which windows of a number of steps begin, trajectory by trajectory. first_of is as in
 /// flow_map_data.
-struct stretch_starts {
-  std::vector<std::size_t> pairs;        ///< where windows begin
+struct window_starts {
+  std::vector<std::size_t> pairs;        ///< pairs with which windows begin
   std::vector<std::size_t> first_of{0};  ///< trajectory m has windows first_of[m] .. first_of[m + 1] - 1
 
-  /// Of the windows of `steps` steps that fit into trajectories of the data whose number, among those of
-  /// all ranks, `every` divides, and begin `apart` steps apart.
-  stretch_starts(const flow_map_data& data, std::size_t steps, std::size_t apart, std::int64_t every = 1) {
+  /// First pairs of the windows of `steps` steps that fit into trajectories of the data whose number, among
+  /// those of all ranks, `every` divides, and begin `apart` steps apart.
+  window_starts(const flow_map_data& data, std::size_t steps, std::size_t apart, std::int64_t every = 1) {
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
       const bool counts = (data.share().first() + static_cast<std::int64_t>(m)) % every == 0;
       for (std::size_t pair = data.first_of[m]; counts && pair + steps <= data.first_of[m + 1];
@@ -84,11 +84,11 @@ struct stretch_starts {
 namespace detail {
 
 template <Scalar R>
-stretches_in_lanes<R> gather_stretches(const flow_map_data& data, const stretch_starts& starts,
-                                       std::span<const int> after, const wanted_noise& wanted,
-                                       std::size_t first_trajectory, std::size_t end_trajectory) {
+windows_in_lanes<R> gather_windows(const flow_map_data& data, const window_starts& starts,
+                                   std::span<const int> after, const wanted_noise& wanted,
+                                   std::size_t first_trajectory, std::size_t end_trajectory) {
   constexpr std::size_t width = lanes_in<R>;
-  stretches_in_lanes<R> result{
+  windows_in_lanes<R> result{
       first_trajectory, starts.first_of[first_trajectory], starts.first_of[end_trajectory], {}};
   const coarse_graining coarse(wanted.damping_of_part);
   const auto parts = static_cast<std::size_t>(data.noise_parts);
@@ -125,19 +125,18 @@ stretches_in_lanes<R> gather_stretches(const flow_map_data& data, const stretch_
 /// All windows, with the data after these numbers of steps, in parts of whole trajectories that a thread
 /// can take: of some thousand steps or more, so that lanes are left idle for one in a hundred at most.
 template <Scalar R>
-std::vector<stretches_in_lanes<R>> gather_stretches(const flow_map_data& data, const stretch_starts& starts,
-                                                    std::span<const int> after, const wanted_noise& wanted) {
+std::vector<windows_in_lanes<R>> gather_windows(const flow_map_data& data, const window_starts& starts,
+                                                std::span<const int> after, const wanted_noise& wanted) {
   constexpr std::size_t enough = 1600;
-  const auto is_part = [&](std::size_t stretches) {
-    const bool fills_lanes = stretches % lanes_in<R> == 0;
-    return stretches >= enough ||
-           (fills_lanes && stretches * static_cast<std::size_t>(after.back()) >= enough);
+  const auto is_part = [&](std::size_t windows) {
+    const bool fills_lanes = windows % lanes_in<R> == 0;
+    return windows >= enough || (fills_lanes && windows * static_cast<std::size_t>(after.back()) >= enough);
   };
-  std::vector<stretches_in_lanes<R>> result;
+  std::vector<windows_in_lanes<R>> result;
   for (std::size_t first = 0, end = 0; first < data.trajectories(); first = end) {
     do ++end;
     while (end < data.trajectories() && !is_part(starts.first_of[end] - starts.first_of[first]));
-    result.push_back(detail::gather_stretches<R>(data, starts, after, wanted, first, end));
+    result.push_back(detail::gather_windows<R>(data, starts, after, wanted, first, end));
   }
   return result;
 }

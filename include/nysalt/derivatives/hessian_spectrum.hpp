@@ -25,21 +25,21 @@ struct stiffness_range {
   /// Largest eigenvalue of all states.
   double highest = -std::numeric_limits<double>::infinity();
   std::vector<double> highest_of_state;  ///< largest eigenvalue of each state
-  std::int64_t states = 0;               ///< how many were examined
-  std::int64_t evaluations = 0;          ///< of f'(q) v
+  std::int64_t states = 0;               ///< number of states examined
+  std::int64_t evaluations = 0;          ///< evaluations of f'(q) v
 
   /// sqrt(highest), 0 if that is negative.
   double highest_frequency() const { return std::sqrt(std::max(0.0, highest)); }
 };
 
-/// Over all states (a range of phase_point<double, N>), of the whole force or of its soft part. Both ends are
-/// known to 1 % and mostly rounded outwards, see ends_of_spectrum(); who needs a bound adds a percent. The
-/// same states give the same bits. Differences of a black box go a part of how far the states lie apart.
-/// Cost: some 8 to 40 directional derivatives a state, less below 8 dimensions. Throws std::invalid_argument
-/// if there are no states, or one where the force has no finite derivative.
+/// Range of the Hessian's spectrum over all states (a range of phase_point<double, N>), of the whole force or
+/// of its soft part. Both ends are known to 1 % and mostly rounded outwards, see ends_of_spectrum(); who
+/// needs a bound adds a percent. The same states give the same bits. Differences of a black box go a part of
+/// how far the states lie apart. Cost: some 8 to 40 directional derivatives a state, less below 8 dimensions.
+/// Throws std::invalid_argument if there are no states, or one where the force has no finite derivative.
 template <field F = field::whole, NystromSystem S>
   requires ForceDerivativeOver<S, double, F>
-stiffness_range stiffness_along(const S& system, const std::ranges::range auto& states) {
+stiffness_range hessian_spectrum(const S& system, const std::ranges::range auto& states) {
   const Eigen::Index n = size(system);
   Eigen::VectorXd root = Eigen::VectorXd::Ones(n);  // M^{-1/2}
   if constexpr (HasInverseMass<S>) {
@@ -64,8 +64,10 @@ stiffness_range stiffness_along(const S& system, const std::ranges::range auto& 
     };
     const auto ends = ends_of_spectrum(multiply, start);
     if (!std::isfinite(ends.lowest) || !std::isfinite(ends.highest)) {
-      throw std::invalid_argument(sentence(
-          "stiffness_along: the force has no finite derivative at state {}; leave it out", found.states));
+      throw std::invalid_argument(
+          sentence("hessian_spectrum: the force must have a finite derivative at each state, got none "
+                   "at state {}; leave that state out",
+                   found.states));
     }
     found.lowest = std::min(found.lowest, ends.lowest);
     found.highest = std::max(found.highest, ends.highest);
@@ -75,7 +77,7 @@ stiffness_range stiffness_along(const S& system, const std::ranges::range auto& 
     start = chance + ends.lowest_direction + ends.highest_direction;
   }
   if (found.states == 0)
-    throw std::invalid_argument("stiffness_along: states must hold one or more, got none");
+    throw std::invalid_argument("hessian_spectrum: states must hold one or more, got none");
   return found;
 }
 

@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "compared_reference.hpp"
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/along_path.hpp"
+#include "reference_tracker.hpp"
 
 namespace nysalt {
 
@@ -26,16 +26,16 @@ struct shared_noise {
 /// Methods beside the reference, from the same starts and with its noise; one trajectory in each lane. All
 /// measures read the same runs.
 template <class T>
-class compared_block {
+class method_runs {
  public:
   using state = phase_point<T, Eigen::Dynamic>;        ///< states of all lanes
   using path_type = recorded_path<T, Eigen::Dynamic>;  ///< the reference's noise
 
   /// Refers to all but the start, and partly to itself.
-  compared_block(const model& system, const detail::reference_value& reference,
-                 std::span<const tabulated> methods, double step, std::span<const error_measure> measures,
-                 const state& start, int count, const reference_checks& checks, const shared_noise& noise,
-                 const sample_weights& weights)
+  method_runs(const model& system, const detail::reference_value& reference,
+              std::span<const tabulated> methods, double step, std::span<const error_measure> measures,
+              const state& start, int count, const reference_checks& checks, const shared_noise& noise,
+              const sample_weights& weights)
       : measures_(measures),
         step_(step),
         weights_(weights),
@@ -51,8 +51,8 @@ class compared_block {
     for (const auto& stepper : steppers_) runs_.push_back({{stepper, start, count, noise.first}, none});
   }
 
-  compared_block(const compared_block&) = delete;
-  compared_block& operator=(const compared_block&) = delete;
+  method_runs(const method_runs&) = delete;
+  method_runs& operator=(const method_runs&) = delete;
 
   /// Follows the reference and all methods, one interval after the other, so that no path is kept.
   void run(std::int64_t steps) {
@@ -72,7 +72,7 @@ class compared_block {
     }
   }
 
-  const compared_reference<T>& reference() const { return reference_; }  ///< with its checks, after run()
+  const reference_tracker<T>& reference() const { return reference_; }  ///< with its checks, after run()
   /// The score of a method by a measure, in lane k; after run().
   run_score score(std::size_t measure, std::size_t method, int k) const {
     return runs_[method].errors[measure].score(k, runs_[method].run.diverged_at(k));
@@ -100,7 +100,7 @@ class compared_block {
   double step_;
   sample_weights weights_;
   path_type path_;  // of the present interval
-  compared_reference<T> reference_;
+  reference_tracker<T> reference_;
   std::vector<stepper_type> steppers_;
   std::vector<watched_run> runs_;
 };

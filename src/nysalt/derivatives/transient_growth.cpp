@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/derivatives/magnification.hpp"
+#include "nysalt/derivatives/transient_growth.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +21,8 @@ double spectral_norm(double a, double b, double c, double d) {
 
 }  // namespace
 
-double magnification(const run_time_word& word, const std::vector<double>& coefficients, double theta,
-                     double k, std::int64_t steps) {
+double transient_growth(const run_time_word& word, const std::vector<double>& coefficients, double theta,
+                        double k, std::int64_t steps) {
   const auto times_k = [k](double x) { return k * x; };
   double qq = 1.0, pq = 0.0, qp = 0.0, pp = 1.0;
   step_on_oscillator(word, coefficients, theta, times_k, qq, pq);

@@ -55,12 +55,12 @@ void apply_noise(const S& system, const ornstein_uhlenbeck::prepared<C>& flow, i
 /// are independent standard normal, and a_2 s_1 xi_1 + s_2 xi_2 = s xi. A path has its own xi_1 and xi_2, and
 /// they are taken. Before the first step there is only xi_2.
 template <Scalar C>
-class noise_seam {
+class merged_half_steps {
  public:
-  noise_seam() = default;
+  merged_half_steps() = default;
   /// From the letters as they are prepared. `bath_is_warm`: sigma > 0, so that there is noise.
-  noise_seam(const ornstein_uhlenbeck::prepared<C>& end, const ornstein_uhlenbeck::prepared<C>& begin,
-             bool bath_is_warm)
+  merged_half_steps(const ornstein_uhlenbeck::prepared<C>& end, const ornstein_uhlenbeck::prepared<C>& begin,
+                    bool bath_is_warm)
       : end_(end), begin_(begin) {
     using std::sqrt;
     both_.decay = begin.decay * end.decay;

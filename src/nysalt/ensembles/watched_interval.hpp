@@ -12,7 +12,7 @@ namespace nysalt {
 discrepancy mean_over_chains(const std::vector<double>& x);
 
 /// Chains over an interval of time.
-struct watched_stretch {
+struct watched_interval {
   double duration = 0.0;                   ///< how long it is
   of_watched<std::vector<double>> begin;   ///< at its beginning, one number a chain
   of_watched<std::vector<double>> mean;    ///< over time, one a chain

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // What fails on one rank fails on all, in the same words.
-#include "nysalt/detail/together.hpp"
+#include "nysalt/detail/collectively.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/communicators/alone.hpp"
+#include "nysalt/communicators/one_rank.hpp"
 #include "support/ranks_as_threads.hpp"
 
 using namespace nysalt;
@@ -30,7 +30,7 @@ std::vector<std::string> words_of_all(const std::vector<int>& bad) {
         throw Thrown("trouble on " + std::to_string(ours.rank()));
     };
     try {
-      together(ours, work);
+      collectively(ours, work);
     } catch (const Thrown& problem) {
       words[r] = problem.what();
     }
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(all_ranks_see_an_exception_of_one_type) {
   int of_known_kind = 0;
   run_ranks(3, [&](const thread_communicator& ours) {
     try {
-      together(ours, [&] {
+      collectively(ours, [&] {
         if (ours.rank() == 1) throw own_kind("mine");
       });
     } catch (const own_kind&) {  // not even where the exception was thrown
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(all_ranks_see_an_exception_of_one_type) {
   });
   BOOST_TEST(of_own_kind == 0);
   BOOST_TEST(of_known_kind == 3);
-  BOOST_CHECK_THROW(together(alone, [] { throw own_kind("mine"); }), own_kind);
+  BOOST_CHECK_THROW(collectively(one_rank, [] { throw own_kind("mine"); }), own_kind);
 }
 
 BOOST_AUTO_TEST_CASE(the_first_rank_works_for_all) {

@@ -15,7 +15,7 @@ namespace nysalt {
 /// without a bound, but slowly; others are stable there but for a width or a rate that is nil. With trace/2 =
 /// +-cos t, t <= pi/2, +-M^n = cos(n t) + (+-M - cos t) sin(n t)/sin t, taken at n t = pi/2 or the last step,
 /// whichever is first; cosh and sinh where it is unstable. NaN where a coefficient is. Cost: a step.
-double magnification(const run_time_word& word, const std::vector<double>& coefficients, double theta,
-                     double k, std::int64_t steps);
+double transient_growth(const run_time_word& word, const std::vector<double>& coefficients, double theta,
+                        double k, std::int64_t steps);
 
 }  // namespace nysalt

@@ -19,6 +19,6 @@ class lone_communicator final : public communicator {
   void meet() const override {}
 };
 
-inline const lone_communicator alone;  ///< what options take unless they are given other ranks
+inline const lone_communicator one_rank;  ///< default communicator of all options
 
 }  // namespace nysalt

@@ -7,7 +7,7 @@
 #include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/derivatives/magnification.hpp"
+#include "nysalt/derivatives/transient_growth.hpp"
 #include "nysalt/detail/step_on_oscillator.hpp"
 
 using namespace nysalt;
@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(it_is_that_of_all_powers) {
     const double theta = n % 5 == 0 ? 0.0 : random.uniform(0.1, 7.0);
     const double k = random.uniform(0.01, 4.0);
     const double expected = by_powers(impulse, halves, theta, k, 200);
-    const double found = magnification(impulse, halves, theta, k, 200);
+    const double found = transient_growth(impulse, halves, theta, k, 200);
     if (expected > 1e6) ++unstable;
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", theta " << theta << ", k " << k) {
       if (expected < 1e6) BOOST_TEST(std::abs(found - expected) <= 0.05 * expected);
@@ -62,19 +62,19 @@ BOOST_AUTO_TEST_CASE(impulses_grow_linearly_at_a_resonance) {
   const double k = 0.09;
   const double per_step = k / std::sqrt(pi * pi + k);
   for (const std::int64_t steps : {1000, 10'000}) {
-    const double found = magnification(run_time_word("SRS"), {0.5, 1.0, 0.5}, pi, k, steps);
+    const double found = transient_growth(run_time_word("SRS"), {0.5, 1.0, 0.5}, pi, k, steps);
     const double g = per_step * static_cast<double>(steps);
     // Rounding of pi makes t some 2e-9, and the error (n t)^2.
     BOOST_TEST(std::abs(found / (0.5 * g + std::sqrt(1.0 + 0.25 * g * g)) - 1.0) < 1e-8);
   }
-  BOOST_TEST(magnification(impulse, halves, 0.9 * pi, k, 10'000) < 1.1);
+  BOOST_TEST(transient_growth(impulse, halves, 0.9 * pi, k, 10'000) < 1.1);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_exact_magnifies_nothing) {
-  BOOST_TEST(magnification(run_time_word("R"), {1.0}, 2.0, 1e-30, 10'000) <= 1.0 + 1e-9);
+  BOOST_TEST(transient_growth(run_time_word("R"), {1.0}, 2.0, 1e-30, 10'000) <= 1.0 + 1e-9);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_number_is_not_within_a_bound) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  BOOST_TEST(!(magnification(impulse, {0.5, nan, 0.5}, 2.0, 0.1, 100) <= 1e300));
+  BOOST_TEST(!(transient_growth(impulse, {0.5, nan, 0.5}, 2.0, 0.1, 100) <= 1e300));
 }

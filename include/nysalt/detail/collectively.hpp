@@ -13,7 +13,7 @@ namespace nysalt {
 /// words; on a single rank, the very exception. So all ranks catch it, or none does. Lower ranks have lower
 /// trajectories, so that it is the exception of the first that has one, as in for_each_block(). Cost: one
 /// number from and to all ranks.
-void together(const communicator& ranks, const std::function<void()>& work);
+void collectively(const communicator& ranks, const std::function<void()>& work);
 
 /// The same of what only rank 0 does, such as writing a file. Meanwhile the others leave it the processor.
 void on_first(const communicator& ranks, const std::function<void()>& work);

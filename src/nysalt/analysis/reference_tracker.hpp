@@ -29,16 +29,16 @@ struct reference_checks {
 /// start. Beside them go the reference's finer self, one from perturbed starts on the same noise, and the
 /// null model in which all stays as it was at the start; each only as far as it is wanted.
 template <class T>
-class compared_reference {
+class reference_tracker {
  public:
   using state = phase_point<T, Eigen::Dynamic>;        ///< states of all lanes
   using path_type = recorded_path<T, Eigen::Dynamic>;  ///< the reference's noise
 
   /// Refers to all but the start, and to itself. The noise is added to the path in `parts` parts of a step.
-  compared_reference(const model& system, const detail::reference_value& reference,
-                     std::span<const error_measure> measures, double step, const state& start, int count,
-                     const reference_checks& checks, const path_place& at, path_type& path, int noise_parts,
-                     const sample_weights& weights)
+  reference_tracker(const model& system, const detail::reference_value& reference,
+                    std::span<const error_measure> measures, double step, const state& start, int count,
+                    const reference_checks& checks, const path_place& at, path_type& path, int noise_parts,
+                    const sample_weights& weights)
       : measures_(measures, joined_measures::which::of_reference),
         step_(step),
         weights_(weights),
@@ -68,8 +68,8 @@ class compared_reference {
     }
   }
 
-  compared_reference(const compared_reference&) = delete;
-  compared_reference& operator=(const compared_reference&) = delete;
+  reference_tracker(const reference_tracker&) = delete;
+  reference_tracker& operator=(const reference_tracker&) = delete;
 
   /// Goes on through the samples from + 1 .. to.
   void go_on(std::int64_t from, std::int64_t to) {

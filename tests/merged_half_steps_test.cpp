@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Two letters O that meet between steps: one draw for the run, and two independent halves for who looks.
-#include "nysalt/detail/noise_seam.hpp"
+#include "nysalt/detail/merged_half_steps.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -29,7 +29,7 @@ struct meeting {
   bath heat_bath;
   O::prepared<double> end = O::prepare(0.3, 0.5, heat_bath);
   O::prepared<double> begin = O::prepare(0.7, 0.5, heat_bath);
-  noise_seam<double> seam{end, begin, heat_bath.sigma() > 0.0};
+  merged_half_steps<double> seam{end, begin, heat_bath.sigma() > 0.0};
 };
 
 cursor at(std::uint64_t trajectory, std::int64_t step, bool bath_is_warm = true) {
@@ -172,7 +172,7 @@ BOOST_AUTO_TEST_CASE(a_cold_bath_damps_and_draws_nothing) {
 BOOST_AUTO_TEST_CASE(a_seam_without_a_duration_does_nothing) {
   const auto heat_bath = bath::of_sigma(0.8, 0.6);
   const auto none = O::prepare(0.0, 0.5, heat_bath);
-  const noise_seam<double> seam(none, none, true);
+  const merged_half_steps<double> seam(none, none, true);
   auto x = moving(1.0);
   auto where = at(0, 3);
   seam.end(system_of_unit_masses, where, x);
