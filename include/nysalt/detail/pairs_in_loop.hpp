@@ -18,17 +18,6 @@ enum class pair_begins { with_drift, with_kick };
 /// Whether the force of the last kick is stored in the state.
 enum class last_force { unknown, stored };
 
-/// y = x, whose entries are copied one by one where their number N is fixed: as one block they would pass
-/// through memory on their way to the registers.
-template <int N>
-[[gnu::always_inline]] inline void move_entries(auto& x, auto& y) {
-  if constexpr (N == Eigen::Dynamic) {
-    y = std::move(x);
-  } else {
-    for (Eigen::Index i = 0; i < N; ++i) y[i] = x[i];
-  }
-}
-
 /// `steps` >= 1 times a drift and a kick, or a kick and a drift, for each of `count` pairs of coefficients. The
 /// state is a local copy whose address is not taken, so that one of few coordinates stays in registers. The
 /// loop over pairs must not be unrolled: g++ would keep the coefficients in registers and spill the state,
@@ -41,8 +30,8 @@ template <pair_begins Begins, last_force Last, class T, System S>
   static_assert(!stores_force || Begins == pair_begins::with_drift);
   constexpr bool moves_force = S::dimension == Eigen::Dynamic;  // the room for it: kicks do not allocate
   flow_state<T, S::dimension> x;
-  move_entries<S::dimension>(state.q, x.q);
-  move_entries<S::dimension>(state.p, x.p);
+  x.q = std::move(state.q);
+  x.p = std::move(state.p);
   if constexpr (moves_force) x.f = std::move(state.f);
   asm("" : "+r"(count));  // a number that is known at compile time is unrolled in spite of the pragma
   for (std::int64_t n = 1; n <= steps; ++n) {
@@ -67,9 +56,9 @@ template <pair_begins Begins, last_force Last, class T, System S>
     force_of<field::whole, T>(system, x.q, x.f);
     kick::apply(system, second, x, room);
   }
-  move_entries<S::dimension>(x.q, state.q);
-  move_entries<S::dimension>(x.p, state.p);
-  if constexpr (moves_force || stores_force) move_entries<S::dimension>(x.f, state.f);
+  state.q = std::move(x.q);
+  state.p = std::move(x.p);
+  if constexpr (moves_force || stores_force) state.f = std::move(x.f);
 }
 
 }  // namespace nysalt::detail
