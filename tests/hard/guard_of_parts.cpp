@@ -10,7 +10,9 @@
 #include <cstdlib>
 #include <numbers>
 #include <random>
+#include <sstream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "nysalt/ensembles/normal_around.hpp"
@@ -258,11 +260,13 @@ auto springs(std::mt19937_64& bits, double stiffest, double softest) {
   return coupled_springs<N>{solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose()};
 }
 
-/// A member of the class by chance, from the seed and its number.
+/// A member of the class by chance, from the seed and its number; fast parts are `stiffness` times as fast as
+/// those of the class.
 template <int N>
-found_on_class random_member(std::mt19937_64& bits, const std::string& name, int steps, int fits) {
+found_on_class random_member(std::mt19937_64& bits, const std::string& name, int steps, int fits,
+                             double stiffness = 1.0) {
   std::uniform_real_distribution<double> uniform;
-  const double omega = 5.0 * std::pow(8.0, uniform(bits));
+  const double omega = 5.0 * std::pow(8.0, uniform(bits)) * stiffness;
   const int kind = static_cast<int>(3.0 * uniform(bits));
   const double strength = 0.5 + 3.0 * uniform(bits);
   const double momenta = 0.1 + 0.5 * uniform(bits);
@@ -295,6 +299,9 @@ found_on_class random_member(std::mt19937_64& bits, const std::string& name, int
 verdict guard_of_slow_kicks(extent how) {
   verdict result;
   const bool is_full = how == extent::full;
+  // Other members alone: "SEED STIFFNESS SIZES", such as "303 0.4 234", a digit for each number of degrees of
+  // freedom.
+  const char* others = std::getenv("NYSALT_GUARD_CLASS");
   const int steps = is_full ? 25 : 2;
   const int fits = is_full ? 5 : 0;
   counts of_r_respa;
@@ -311,12 +318,12 @@ verdict guard_of_slow_kicks(extent how) {
     refused.insert(refused.end(), found.refused.begin(), found.refused.end());
   };
   const std::vector<int> inner = is_full ? std::vector<int>{1, 2, 3, 4, 5, 6, 16} : std::vector<int>{4};
-  {
+  if (others == nullptr) {
     const std::string name = "bonded_chain<4>, omega = 20";
     take(name, try_all(name, bonded_chain<4>(stiff_bonds<4>(20.0), soft_charges<4>(2.0)),
                        around_rest<4>(0.01, 0.3), {0.1, 0.3, steps, is_full ? 21 : 0}, inner));
   }
-  if (is_full) {
+  if (is_full && others == nullptr) {
     const std::string chain3 = "bonded_chain<3>, omega = 10";
     take(chain3, try_all(chain3, bonded_chain<3>(stiff_bonds<3>(10.0), soft_charges<3>(4.0)),
                          around_rest<3>(0.02, 0.3), {0.2, 0.6, steps, fits}, inner));
@@ -332,15 +339,24 @@ verdict guard_of_slow_kicks(extent how) {
                          around_rest<2>(0.05, 0.4), {0.2, 0.9, steps, fits}, inner));
   }
   // Members that nothing was tuned on: drawn by a seed that was chosen when all else was done.
-  std::uint64_t seed = 20261126;
-  if (const char* given = std::getenv("NYSALT_GUARD_SEED")) seed = std::strtoull(given, nullptr, 10);
+  std::istringstream drawn(others != nullptr ? others : is_full ? "20261126 1 234234" : "20261126 1 23");
+  std::uint64_t seed = 0;
+  double stiffness = 0.0;
+  std::string sizes;
+  drawn >> seed >> stiffness >> sizes;
   std::mt19937_64 bits(seed);
-  const int members = is_full ? 2 : 1;
-  for (int k = 0; k < members; ++k) {
-    const auto named = [&](int n) { return fmt::format("by chance, {} degrees of freedom", n); };
-    take(named(2), random_member<2>(bits, named(2), is_full ? 21 : 3, is_full ? 1 : 0));
-    take(named(3), random_member<3>(bits, named(3), is_full ? 21 : 3, is_full ? 1 : 0));
-    if (is_full) take(named(4), random_member<4>(bits, named(4), 21, 1));
+  const int steps_by_chance = others != nullptr ? 13 : is_full ? 21 : 3;
+  const int fits_by_chance = is_full || others != nullptr ? 1 : 0;
+  for (const char size : sizes) {
+    const std::string name = fmt::format("by chance, {} degrees of freedom", size);
+    const auto member = [&]<int N>(std::integral_constant<int, N>) {
+      if (size == '0' + N)
+        take(name, random_member<N>(bits, name, steps_by_chance, fits_by_chance, stiffness));
+    };
+    member(std::integral_constant<int, 2>());
+    member(std::integral_constant<int, 3>());
+    member(std::integral_constant<int, 4>());
+    member(std::integral_constant<int, 6>());
   }
   counts all = of_r_respa;
   all += of_learned;

@@ -158,20 +158,21 @@ verdict resonance_of_slow_kicks(extent how) {
 }  // namespace
 
 topic several_forces() {
-  return {"Several forces",
-          {{"resonance_of_slow_kicks",
-            "Four charges on bonds of omega = 20, whose kicks lie as far apart as a fast mode's period.",
-            "A word that is learned with its kicks beyond the first resonance, and is usable, has no trend "
-            "in its "
-            "energy error.",
-            "r-RESPA at a resonance, which the guard refuses.", resonance_of_slow_kicks},
-           {"guard_of_slow_kicks",
-            "What the guard that learn() has says beforehand of words with kicks of parts, and what 100 000 "
-            "steps of them do: chains and coupled oscillators of several sizes and stiffnesses, r-RESPA and "
-            "learned words. An error grows if the largest of the second half is more than 1.4 times that of "
-            "the first, or a trajectory diverges; a bounded one is small below the kinetic energy.",
-            "The guard refuses all whose error grows, and of the others a tenth at most.",
-            "Words whose error grows, which are among those that are tried.", guard_of_slow_kicks}}};
+  return {
+      "Several forces",
+      {{"resonance_of_slow_kicks",
+        "Four charges on bonds of omega = 20, whose kicks lie as far apart as a fast mode's period.",
+        "A word that is learned with its kicks beyond the first resonance, and is usable, has no trend "
+        "in its "
+        "energy error.",
+        "r-RESPA at a resonance, which the guard refuses.", resonance_of_slow_kicks},
+       {"guard_of_slow_kicks",
+        "What the guard that learn() has says beforehand of words with kicks of parts, and what 100 000 "
+        "steps of them do: chains and coupled oscillators of several sizes and stiffnesses, r-RESPA and "
+        "learned words. An error grows if the largest of the second half is more than 1.4 times that of "
+        "the first, or a trajectory diverges; a bounded one is small below the kinetic energy.",
+        "The guard refuses all whose error grows, and of those with a small bounded error a tenth at most.",
+        "Words whose error grows, which are among those that are tried.", guard_of_slow_kicks}}};
 }
 
 }  // namespace nysalt::hard
