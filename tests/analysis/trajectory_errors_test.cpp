@@ -271,9 +271,9 @@ BOOST_AUTO_TEST_CASE(the_number_of_ranks_changes_no_bit) {
     };
     return trajectory_errors(chain, reference, law, std::array<verlet, 1>(), state_measure(chain), options);
   };
-  const auto expected = run(alone, 1, 1);
+  const auto expected = run(one_rank, 1, 1);
   BOOST_TEST(expected.methods[0].diverged > 0);
-  BOOST_TEST(!same_bits(run(alone, 1, 2), expected));
+  BOOST_TEST(!same_bits(run(one_rank, 1, 2), expected));
   for (const int size : {1, 2, 3, 5}) {
     for (const int threads : {1, 2}) {
       told.clear();
@@ -464,7 +464,7 @@ BOOST_AUTO_TEST_CASE(all_ranks_name_the_first_trajectory_in_trouble) {
     }
     return std::string("nothing");
   };
-  const std::string expected = said(alone);
+  const std::string expected = said(one_rank);
   BOOST_TEST_CONTEXT(expected) { BOOST_TEST(expected.find("start 33 ") != std::string::npos); }
   for (const int size : {2, 3, 5}) {
     std::vector<std::string> found(static_cast<std::size_t>(size));
