@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(no_two_of_forty_curves_look_alike_without_their_colour_or_w
   for (int j = 0; j < 40; ++j) plot.curves.push_back({fmt::format("{}", j), {0, 1}, {0, 1}});
   std::set<std::string> in_colour, in_grey;
   for (std::size_t j = 0; j < 40; ++j) {
-    const auto seen = detail::look_of(plot, j);
+    const auto seen = detail::style_of(plot, j);
     in_colour.insert(fmt::format("{} {}", seen.colour, seen.point));
     if (j < 30) in_grey.insert(fmt::format("{} {}", seen.point, seen.dash));
   }
