@@ -19,8 +19,8 @@ using texts = std::map<std::string, std::string>;  // by path below include/nysa
 /// Names of files without .hpp, and of folders with a slash, whose files may be named apart; from the lowest
 /// layer to the highest.
 const std::vector<std::vector<std::string>> layers{
-    {"detail/sentence", "detail/in_digits", "detail/fingerprint", "detail/tree_sum", "detail/independent_iterations", "scalar", "scalars/",
-     "phase_point", "phase_points"},
+    {"detail/sentence", "detail/in_digits", "detail/fingerprint", "detail/tree_sum",
+     "detail/independent_iterations", "scalar", "scalars/", "phase_point", "phase_points"},
     {"system", "local_system", "detail/requirements", "force", "energy", "detail/energy_range", "lanes",
      "bath", "noise", "detail/noise_intervals", "detail/modal_coordinates", "detail/stiffness_modes",
      "systems/", "noises/"},

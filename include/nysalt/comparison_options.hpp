@@ -48,8 +48,8 @@ struct comparison_options {
   std::vector<double> steps{};         ///< sizes: of a whole step, or (equal_cost) of a force evaluation
   bool equal_cost =
       false;  ///< whether steps are per force evaluation, so that rows of one step have equal cost
-  /// The price of the force of each part of a sum, in any unit: evaluations are then those of the whole force,
-  /// and a kick with a part counts as the share of the part. Empty: each kick counts as one.
+  /// The price of the force of each part of a sum, in any unit: evaluations are then those of the whole
+  /// force, and a kick with a part counts as the share of the part. Empty: each kick counts as one.
   std::vector<double> prices{};
   std::optional<double> horizon{};  ///< horizon of each trajectory. None: 0.5, or ten of the largest steps
   std::int64_t trajectories = 400;  ///< trajectories to compare on; none of them is learned from

@@ -229,21 +229,21 @@ json comparison::question_asked() const {
   json rows = json::array();
   for (const auto& line : rows_) rows.push_back(as_json(line));
   json question{{"program", fmt::format("nysalt {}, {} {}", version, compiler, compiler_flags)},
-          {"system", system_->parameters()},
-          {"starts", {to_string(system_->start_law()), system_->starts()}},
-          {"metric", metrics},
-          {"rows", rows},
-          {"placement", options_.placement},
-          {"horizon", horizon_},
-          {"trajectories", options_.trajectories},
-          {"equal_cost", options_.equal_cost},
-          {"levels", options_.levels},
-          {"range", options_.range},
-          {"bins", options_.bins},
-          {"longest_lag", options_.longest_lag},
-          {"hmc_temperature", options_.hmc_temperature},
-          {"learning", as_json(options_.learning)},
-          {"seed", common_.seed}};
+                {"system", system_->parameters()},
+                {"starts", {to_string(system_->start_law()), system_->starts()}},
+                {"metric", metrics},
+                {"rows", rows},
+                {"placement", options_.placement},
+                {"horizon", horizon_},
+                {"trajectories", options_.trajectories},
+                {"equal_cost", options_.equal_cost},
+                {"levels", options_.levels},
+                {"range", options_.range},
+                {"bins", options_.bins},
+                {"longest_lag", options_.longest_lag},
+                {"hmc_temperature", options_.hmc_temperature},
+                {"learning", as_json(options_.learning)},
+                {"seed", common_.seed}};
   if (!options_.prices.empty()) question["prices"] = options_.prices;
   return question;
 }

@@ -30,7 +30,7 @@ struct row {
   bool is_learned = false;
   bool gains_nothing = false;  // learned, and a classical method of its cost is as good by the loss
   std::optional<tabulated> coefficients{};
-  std::string reason{};  // why the method could not be used
+  std::string reason{};               // why the method could not be used
   double share_of_evaluation = 1.0;   // what an evaluation costs on average, of one of the whole force
   double evaluations_per_time = 0.0;  // at their prices
   timed_job seconds_per_time{};

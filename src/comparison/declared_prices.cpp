@@ -15,8 +15,8 @@ namespace {
 
 /// The parts whose forces a letter evaluates, a digit for each; empty of letters that kick with no part.
 std::string parts_of(char letter, const detail::named_letters& of_system) {
-  const auto found = std::ranges::find_if(
-      of_system, [&](const auto& one) { return one.letter->facts.letter == letter; });
+  const auto found =
+      std::ranges::find_if(of_system, [&](const auto& one) { return one.letter->facts.letter == letter; });
   if (found == of_system.end() || found->letter->facts.displaced_forces == 0) return {};
   const bool are_parts = std::ranges::all_of(found->times, [](char c) { return '0' <= c && c <= '9'; });
   return are_parts ? found->times : std::string();
@@ -32,8 +32,9 @@ void require_sound_prices(const std::vector<double>& prices, const detail::named
       parts = std::max(parts, static_cast<std::size_t>(part - '0') + 1);
   }
   if (parts == 0)
-    refuse("--prices must be for a system with letters that kick with parts of its force, such as "
-           "kick_of_part<0>, got a system without them; leave --prices out");
+    refuse(
+        "--prices must be for a system with letters that kick with parts of its force, such as "
+        "kick_of_part<0>, got a system without them; leave --prices out");
   if (prices.size() != parts)
     refuse("--prices must be {} numbers, one for each part of the force, got {}", parts, prices.size());
   for (const double price : prices) {

@@ -44,7 +44,8 @@ void require_force(const initial_value_problem& made, const std::string& name) {
     momenta.push_back(start.p);
     auto f = make_vector<double>(made.system);
     force<double>(made.system, start.q, f);
-    if (!f.allFinite()) refuse("{}: the force must be finite, got another value at start {}; check the force", name, n);
+    if (!f.allFinite())
+      refuse("{}: the force must be finite, got another value at start {}; check the force", name, n);
     if (has_energy(made.system) && !std::isfinite(energy<double>(made.system, start))) {
       refuse("{}: the energy must be finite, got another value at start {}; check the potential", name, n);
     }

@@ -11,9 +11,10 @@ using namespace nysalt::test;
 
 namespace {
 
-const std::string of_parts = "compare --system " NYSALT_SOURCE_DIR
-                             "/examples/plugins/bonds_and_charges.hpp --methods "
-                             "verlet,word:1A0A0A1,word:kA0A0Ak,word:A1A0A1A --horizon 1 --trajectories 8 --metric state ";
+const std::string of_parts =
+    "compare --system " NYSALT_SOURCE_DIR
+    "/examples/plugins/bonds_and_charges.hpp --methods "
+    "verlet,word:1A0A0A1,word:kA0A0Ak,word:A1A0A1A --horizon 1 --trajectories 8 --metric state ";
 
 nlohmann::ordered_json compared(const scratch& folder, const std::string& options) {
   const auto done = run(folder, of_parts + options + "--json");
@@ -23,8 +24,8 @@ nlohmann::ordered_json compared(const scratch& folder, const std::string& option
 
 }  // namespace
 
-// In the loop the last letter is merged with the first: two bonds and one charge of 1A0A0A1, two bonds and both of
-// kA0A0Ak, two charges and one bond of A1A0A1A, whose drifts merge.
+// In the loop the last letter is merged with the first: two bonds and one charge of 1A0A0A1, two bonds and
+// both of kA0A0Ak, two charges and one bond of A1A0A1A, whose drifts merge.
 BOOST_AUTO_TEST_CASE(equal_cost_counts_each_kick_at_its_price) {
   const scratch folder("prices");
   const auto plain = compared(folder, "--steps 0.01 --equal-cost ");
@@ -34,7 +35,8 @@ BOOST_AUTO_TEST_CASE(equal_cost_counts_each_kick_at_its_price) {
   for (std::size_t k = 0; k < 4; ++k) {
     BOOST_TEST_CONTEXT(priced["rows"][k]["method"]) {
       const auto& row = priced["rows"][k];
-      BOOST_TEST(plain["rows"][k]["step_size"].get<double>() == 0.01 * without[k], boost::test_tools::tolerance(4 * eps));
+      BOOST_TEST(plain["rows"][k]["step_size"].get<double>() == 0.01 * without[k],
+                 boost::test_tools::tolerance(4 * eps));
       BOOST_TEST(row["step_size"].get<double>() == 0.01 * with[k], boost::test_tools::tolerance(8 * eps));
       // Beside the steps there is one more evaluation, to open the run, at most, in 47 steps or more.
       BOOST_TEST(row["evaluations_per_time"].get<double>() == 100.0, boost::test_tools::tolerance(0.06));

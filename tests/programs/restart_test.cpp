@@ -85,9 +85,9 @@ BOOST_AUTO_TEST_CASE(killed_at_random_moments_it_comes_to_the_same_bytes) {
     const double share = static_cast<double>(random()) / static_cast<double>(random.max());
     const double seconds = of_all.count() * (0.2 + share);
     // --foreground: timeout itself is not killed, and waits until the lock of the killed process is free.
-    const auto done = shell(folder, "timeout --foreground -s KILL " + std::to_string(seconds) + " \"$nysalt\" " +
-                                        with_checkpoint(in_bath, "cut") + (is_there ? "--resume" : "") +
-                                        " >/dev/null 2>&1");
+    const auto done = shell(folder, "timeout --foreground -s KILL " + std::to_string(seconds) +
+                                        " \"$nysalt\" " + with_checkpoint(in_bath, "cut") +
+                                        (is_there ? "--resume" : "") + " >/dev/null 2>&1");
     kills += done.code == 137 ? 1 : 0;
   }
   BOOST_TEST_CONTEXT("seed " << seed << ", " << kills << " kills") {

@@ -101,11 +101,12 @@ BOOST_AUTO_TEST_CASE(ranks_that_share_the_sites_of_a_trajectory_change_no_byte) 
   same_as_alone(chain + "--method verlet --sample-every 7 ", ".csv", {{2, 2}, {3, 1}, {4, 1}});
   same_as_alone(chain + "--method pefrl --sample-every 100 --trajectories 2 ", ".npy", {{3, 1}});
   same_as_alone(
-      "run --system phi4_lattice --side 96 --step 0.05 --horizon 10 --method srkn6b --sample-every 50 ", ".csv",
-      {{2, 1}, {4, 1}});
+      "run --system phi4_lattice --side 96 --step 0.05 --horizon 10 --method srkn6b --sample-every 50 ",
+      ".csv", {{2, 1}, {4, 1}});
   const scratch folder("ranks_sites_lost");
   const std::string lost =
-      "run --system fpu --pairs 6000 --method verlet --step 0.0399 --horizon 40 --sample-every 1 --trajectories 2 "
+      "run --system fpu --pairs 6000 --method verlet --step 0.0399 --horizon 40 --sample-every 1 "
+      "--trajectories 2 "
       "--output ";
   const auto alone = run(folder, lost + "a.csv");
   const auto shared = run_on(3, folder, lost + "b.csv");
@@ -121,7 +122,8 @@ BOOST_AUTO_TEST_CASE(sites_that_ranks_shared_are_resumed_by_others) {
   for (const bool from_ranks : {true, false}) {
     const scratch folder("ranks_sites_resumed");
     const std::string line =
-        "run --system fpu --pairs 6000 --method verlet --step 0.01 --horizon 40 --sample-every 64 --observables "
+        "run --system fpu --pairs 6000 --method verlet --step 0.01 --horizon 160 --sample-every 64 "
+        "--observables "
         "energy,q1,p12000 --trajectories 2 ";
     const auto whole = run(folder, line + "--output whole.csv");
     BOOST_TEST_REQUIRE(whole.code == 0, whole.err);
@@ -130,9 +132,10 @@ BOOST_AUTO_TEST_CASE(sites_that_ranks_shared_are_resumed_by_others) {
     const auto stopped = shell(folder, begun + command + "64 >/dev/null 2>&1 & pid=$!\n" +
                                            wait_for("a.checkpoint", 500) + "kill -TERM $pid; ! wait $pid");
     BOOST_TEST(stopped.code == 0, stopped.err);
-    BOOST_TEST_REQUIRE(std::filesystem::exists(folder / "a.csv.part"));  // so that there is something to resume
-    const auto resumed = from_ranks ? run(folder, command + "64000 --resume")
-                                    : run_on(3, folder, command + "64000 --resume");
+    BOOST_TEST_REQUIRE(
+        std::filesystem::exists(folder / "a.csv.part"));  // so that there is something to resume
+    const auto resumed =
+        from_ranks ? run(folder, command + "64000 --resume") : run_on(3, folder, command + "64000 --resume");
     BOOST_TEST_REQUIRE(resumed.code == 0, resumed.err);
     BOOST_TEST((contents(folder / "a.csv") == contents(folder / "whole.csv")));
   }

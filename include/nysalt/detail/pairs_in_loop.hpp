@@ -18,10 +18,10 @@ enum class pair_begins { with_drift, with_kick };
 /// Whether the force of the last kick is stored in the state.
 enum class last_force { unknown, stored };
 
-/// `steps` >= 1 times a drift and a kick, or a kick and a drift, for each of `count` pairs of coefficients. The
-/// state is a local copy whose address is not taken, so that one of few coordinates stays in registers. The
-/// loop over pairs must not be unrolled: g++ would keep the coefficients in registers and spill the state,
-/// and take half as long again for six pairs.
+/// `steps` >= 1 times a drift and a kick, or a kick and a drift, for each of `count` pairs of coefficients.
+/// The state is a local copy whose address is not taken, so that one of few coordinates stays in registers.
+/// The loop over pairs must not be unrolled: g++ would keep the coefficients in registers and spill the
+/// state, and take half as long again for six pairs.
 template <pair_begins Begins, last_force Last, class T, System S>
 [[gnu::always_inline]] inline void take_pairs(const S& system, auto& state, auto& room,
                                               const std::array<double, 2>* pairs, std::size_t count,

@@ -106,7 +106,8 @@ class prepared_word<word<L...>, C, N> {
                                   ? detail::pair_begins::with_kick
                                   : detail::pair_begins::with_drift;
       const auto pairs = pairs_of_loop(std::make_index_sequence<(end - W::first_in_loop) / 2>{});
-      detail::take_pairs<begins, detail::last_force::unknown, T>(system, x, cursor.room, pairs.data(), pairs.size(), alike);
+      detail::take_pairs<begins, detail::last_force::unknown, T>(system, x, cursor.room, pairs.data(),
+                                                                 pairs.size(), alike);
     } else {
       for (std::int64_t n = 0; n < alike; ++n) {
         loop<in_loop_plan, W::first_in_loop>(system, x, cursor);

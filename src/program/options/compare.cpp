@@ -28,9 +28,10 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
       ->required();
   command.add_option("--steps", typed->steps, "joined by commas")->required();
   command.add_flag("--equal-cost", asked.equal_cost, "steps are per force evaluation");
-  command.add_option("--prices", typed->prices,
-                     "of the forces of parts 0, 1, ..., joined by commas: evaluations count as their shares of the "
-                     "whole force [each kick as one]");
+  command.add_option(
+      "--prices", typed->prices,
+      "of the forces of parts 0, 1, ..., joined by commas: evaluations count as their shares of the "
+      "whole force [each kick as one]");
   add_number(command, "--horizon", asked.horizon,
              "length of each trajectory [0.5, or ten of the largest steps if that is longer]");
   add_number(command, "--trajectories", asked.trajectories, "to compare on");
