@@ -116,7 +116,8 @@ declared_letter letter_on(const S& system, const std::string& description) {
     for (const auto& x : states) points.push_back({x.q, x.p});
     return check_letter<L>(system, points, h);
   };
-  return {{std::make_shared<const bound_letter<L, S>>(system, description), times_of<L>()}, check};
+  return {{std::make_shared<const bound_letter<L, S>>(system, description), times_of<L>(), parts_of<L>()},
+          check};
 }
 
 template <class S, Flow... L>

@@ -13,13 +13,11 @@ namespace nysalt::program {
 
 namespace {
 
-/// The parts whose forces a letter evaluates, a digit for each; empty of letters that kick with no part.
-std::string parts_of(char letter, const detail::named_letters& of_system) {
+/// A letter that kicks with parts; null of any other.
+const detail::named_letter* kick_of_parts_in(const detail::named_letters& of_system, char letter) {
   const auto found =
       std::ranges::find_if(of_system, [&](const auto& one) { return one.letter->facts.letter == letter; });
-  if (found == of_system.end() || found->letter->facts.displaced_forces == 0) return {};
-  const bool are_parts = std::ranges::all_of(found->times, [](char c) { return '0' <= c && c <= '9'; });
-  return are_parts ? found->times : std::string();
+  return found == of_system.end() || found->parts.empty() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -28,8 +26,7 @@ void require_sound_prices(const std::vector<double>& prices, const detail::named
   if (prices.empty()) return;
   std::size_t parts = 0;
   for (const auto& one : of_system) {
-    for (const char part : parts_of(one.letter->facts.letter, of_system))
-      parts = std::max(parts, static_cast<std::size_t>(part - '0') + 1);
+    for (const char part : one.parts) parts = std::max(parts, static_cast<std::size_t>(part - '0') + 1);
   }
   if (parts == 0)
     refuse(
@@ -41,7 +38,9 @@ void require_sound_prices(const std::vector<double>& prices, const detail::named
     if (!(price >= 0.0) || !std::isfinite(price))
       refuse("--prices must be finite numbers >= 0, got {:g}", price);
   }
-  if (std::ranges::max(prices) == 0.0) refuse("--prices must hold a positive number, got zeros only");
+  const double whole = std::accumulate(prices.begin(), prices.end(), 0.0);
+  if (!(whole > 0.0) || !std::isfinite(whole))
+    refuse("--prices must have a positive and finite sum, got {:g}", whole);
 }
 
 double priced_evaluations(const run_time_word& word, const std::vector<double>& prices,
@@ -51,8 +50,10 @@ double priced_evaluations(const run_time_word& word, const std::vector<double>& 
   const double whole = std::accumulate(prices.begin(), prices.end(), 0.0);
   const std::size_t first = word.merges ? 1 : 0;  // in the loop the first letter is merged with the last
   for (std::size_t i = first; i < word.length; ++i) {
-    for (const char part : parts_of(word.letters()[i], of_system))
-      evaluations += prices[static_cast<std::size_t>(part - '0')] / whole - 1.0;
+    const detail::named_letter* kick = kick_of_parts_in(of_system, word.letters()[i]);
+    if (kick == nullptr) continue;
+    evaluations -= kick->letter->facts.displaced_forces;
+    for (const char part : kick->parts) evaluations += prices[static_cast<std::size_t>(part - '0')] / whole;
   }
   return evaluations;
 }

@@ -66,7 +66,12 @@ BOOST_AUTO_TEST_CASE(prices_that_are_none_are_refused) {
   refused(of_parts + "--steps 0.01 --prices 1,2,3", "--prices must be 2 numbers");
   refused(of_parts + "--steps 0.01 --prices 1,-2", "--prices must be finite numbers >= 0, got -2");
   refused(of_parts + "--steps 0.01 --prices 1,inf", "--prices: 'inf' is not a finite number");
-  refused(of_parts + "--steps 0.01 --prices 0,0", "--prices must hold a positive number");
+  refused(of_parts + "--steps 0.01 --prices 0,0", "--prices must have a positive and finite sum, got 0");
+  refused(of_parts + "--steps 0.01 --prices 1e308,1e308",
+          "--prices must have a positive and finite sum, got inf");
+  refused("compare --system " NYSALT_SOURCE_DIR
+          "/examples/plugins/cubic_well.hpp --methods verlet --steps 0.01 --prices 1,2",
+          "--prices must be for a system with letters that kick with parts");
   refused("compare --system fpu --methods verlet --steps 0.01 --prices 1,2",
           "--prices must be for a system with letters that kick with parts");
 }

@@ -2,6 +2,7 @@
 // Letters of one's own by name: those of a system, and those that a file states.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,7 @@ namespace nysalt::detail {
 struct named_letter {
   std::shared_ptr<const own_letter> letter;
   std::string times;
+  std::string parts{};  ///< numbers of the parts whose force the letter evaluates, a digit for each
 };
 using named_letters = std::vector<named_letter>;
 
@@ -29,6 +31,18 @@ std::string times_of() {
   } else {
     return L::slots == 1 ? std::string(1, L::letter) : std::string();
   }
+}
+
+/// Those that L::evaluations_of_part() names; none of a letter without that function.
+template <Flow L>
+std::string parts_of() {
+  std::string parts;
+  if constexpr (requires { L::evaluations_of_part(0); }) {
+    for (char part = '0'; part <= '9'; ++part) {
+      if (L::evaluations_of_part(static_cast<std::size_t>(part - '0')) > 0) parts.push_back(part);
+    }
+  }
+  return parts;
 }
 
 /// What a file states of a letter of a system. A word with it can be read, and steps nothing before it has
