@@ -103,7 +103,7 @@ const detail::own_letter* letter_in(const detail::named_letters& all, char name)
 
 /// Refuses a scheme with letters that the system has not, or has otherwise.
 void require_letters_of(const method_source& source, const prepared_problem& system) {
-  for (const auto& [stated, times] : source.learned->own_letters) {
+  for (const auto& [stated, times, parts] : source.learned->own_letters) {
     const char name = stated->facts.letter;
     const auto* own = letter_in(system.letters(), name);
     if (own == nullptr) {

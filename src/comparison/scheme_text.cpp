@@ -82,7 +82,7 @@ std::string scheme_text(const std::vector<learned_scheme>& learned, const prepar
       {"versions", {{"nysalt", version}}}};
   if (energies) document["energy_range"] = {energies->low, energies->high};
   const run_time_word word = family_named(fit.family, system.letters()).letters;
-  for (const auto& [letter, times] : system.letters()) {
+  for (const auto& [letter, times, parts] : system.letters()) {
     const auto& facts = letter->facts;
     if (word.own_letter(facts.letter) == nullptr) continue;
     document["own_letters"].push_back({{"letter", std::string(1, facts.letter)},
