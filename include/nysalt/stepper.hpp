@@ -125,7 +125,9 @@ class stepper {
       throw std::invalid_argument(
           sentence("stepper: steps must be >= 0 and every >= 1, got {} and {}", steps, every));
     }
-    if constexpr (ErasedSystem<S>) {  // whose loop is compiled once: here a second call inlines nothing less
+    // Without an observation no room for one is needed. Only of an erased system: a second call of the loop
+    // of a typed system keeps g++ from inlining the force.
+    if constexpr (ErasedSystem<S>) {
       if ((run.step / every + 1) * every > run.step + steps) return advance(run, steps);
     }
     flow_state<T, dimension> x = std::move(run.state);
