@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(what_ranks_cannot_share_is_refused_on_all_of_them) {
     run_ranks(ranks, [&](const communicator& among) {
       const bool is_refused = refuses<std::invalid_argument>(
           [&] { distributed_run(system, method, 0.01, from(rest, 2), among); }, words_of_message);
-      const bool is_foreseen = !can_be_distributed(system, tabulated(method), among);
+      const bool is_foreseen = !detail::can_be_distributed(system, tabulated(method), among);
       const std::lock_guard lock(guard);
       thrown += is_refused && is_foreseen;
     });
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(what_ranks_cannot_share_is_refused_on_all_of_them) {
   });
   BOOST_TEST(thrown == 2);
   run_ranks(3, [&](const communicator& among) {
-    const bool is_served = can_be_distributed(fpu_chain<>(4000, 50.0), tabulated(verlet()), among);
+    const bool is_served = detail::can_be_distributed(fpu_chain<>(4000, 50.0), tabulated(verlet()), among);
     const std::lock_guard lock(guard);
     thrown -= is_served;
   });

@@ -71,7 +71,9 @@ class distributed_run {
   std::unique_ptr<parts> parts_;
 };
 
-/// Whether distributed_run takes this system and method on these ranks.
+namespace detail {
+/// Whether the constructor of distributed_run admits this system and method on these ranks.
 bool can_be_distributed(const model& system, const tabulated& method, const communicator& ranks);
+}  // namespace detail
 
 }  // namespace nysalt

@@ -116,7 +116,8 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
 void run_from(const initial_states& starts, const initial_value_problem& made, const tabulated& method,
               const sampled_plan& plan, const record_taker& take, const counter& progress) {
   // Where some ranks would have no trajectory, all share the sites of each.
-  if (plan.trajectories.count < all_ranks().size() && can_be_distributed(made.system, method, all_ranks())) {
+  if (plan.trajectories.count < all_ranks().size() &&
+      nysalt::detail::can_be_distributed(made.system, method, all_ranks())) {
     return run_on_shared_sites(made, starts, method, plan, take, progress, all_ranks());
   }
   // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.

@@ -75,7 +75,7 @@ Eigen::Index least_share(const site_layout& layout) { return std::max<Eigen::Ind
 
 }  // namespace
 
-bool can_be_distributed(const model& system, const tabulated& method, const communicator& ranks) {
+bool detail::can_be_distributed(const model& system, const tabulated& method, const communicator& ranks) {
   const run_time_word& word = method.letters();
   if (system.bath().acts() || system.sites() == nullptr || word.is_processed() || !is_in_turn(word.letters()))
     return false;

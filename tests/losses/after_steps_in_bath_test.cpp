@@ -60,7 +60,7 @@ double loss_of(const flow_map_data& data, const parameters_of<nystrom>& theta, i
   return loss_value(loss, column_of(theta));
 }
 
-/// The formula, window by window over double, with letters O of which each is told its noise.
+/// The formula, window by window over double; each letter O takes the noise given for its position.
 template <Family F>
 double loss_by_hand(const flow_map_data& data, const parameters_of<nystrom>& theta, std::size_t steps) {
   const auto c = F::coefficients(theta);

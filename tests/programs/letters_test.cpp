@@ -337,8 +337,8 @@ struct resonant_word {
     for (int k = 0; k < fast_kicks; ++k) all += "A0";
     return all + "A1";
   }
-  /// A step beside the middle of the tongue at which a step turns the fastest mode by half a turn, by so many
-  /// of the tongue's half widths.
+  /// The step h at an offset from the middle of the resonance tongue of the fastest mode at h omega = pi, the
+  /// offset in half widths of the tongue.
   double step(double half_widths) const {
     const double omega = 40.0 * std::sin(3.0 * std::numbers::pi / 8.0);
     // The fast steps turn it by 2 n asin(h omega/(2 n)); at half a turn only the slow kick moves it on.
