@@ -110,7 +110,7 @@ void by_ranks(const communicator& ranks) {
   const auto ours = run.synchronous();  // of this rank's sites
   // [/ranks]
   double place = -1.0;
-  for (const double found : in_order_of_ranks(ranks, place_of_kink(ours.q, run.first_site()))) {
+  for (const double found : all_gather(ranks, place_of_kink(ours.q, run.first_site()))) {
     place = std::max(place, found);
   }
   if (!ranks.is_first()) return;

@@ -17,7 +17,7 @@ namespace {
 
 /// The noise of each trajectory in its part of the state.
 struct noise_of_each {
-  static constexpr bool draws_freely = true;
+  static constexpr bool is_memoryless = true;
   counter_noise source;
   Eigen::Index dimension;
 

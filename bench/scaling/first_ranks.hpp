@@ -63,7 +63,7 @@ inline void wait_for_all() {
 /// From when all are there until this rank is done. What ends with a collective call ends with the slowest.
 inline double seconds_of(const communicator& ranks, const std::function<void()>& work) {
   using clock = std::chrono::steady_clock;
-  ranks.total(0);
+  ranks.sum(0);
   const auto began = clock::now();
   work();
   return std::chrono::duration<double>(clock::now() - began).count();

@@ -145,7 +145,7 @@ void measure_memory(std::int64_t trajectories, std::int64_t of_steps) {
     std::int64_t bytes;
   };
   const auto here = static_cast<std::int64_t>(prepared_case.data.trajectories());
-  const auto of_all = in_order_of_ranks(all.ranks(), of_rank{here, before, peak_memory()});
+  const auto of_all = all_gather(all.ranks(), of_rank{here, before, peak_memory()});
   for (std::size_t r = 0; r < of_all.size(); ++r) {
     print_row({{"what", "memory"},
                {"ranks", all.size()},

@@ -46,7 +46,7 @@ void measure_reductions() {
   const bool has_cores = size_of_job() <= static_cast<int>(std::thread::hardware_concurrency());
   for (int round = 0; round < 5; ++round) {
     for (const Eigen::Index numbers : {6, 66}) {  // of 2 and of 10 parameters
-      all.ranks().total(0);
+      all.ranks().sum(0);
       measure(all, numbers, has_cores ? 5000 : 50);
     }
   }

@@ -102,7 +102,7 @@ void race_kernel(const std::deque<first_ranks>& all, int rounds) {
     const std::int64_t share = size.trajectories * size.steps / size.who->size();
     runners.push_back({row_of("kernel", size), size.who, [share, who = size.who] {
                          const std::uint64_t last = mixed(share);
-                         who->ranks().total(static_cast<std::int64_t>(last % 2));
+                         who->ranks().sum(static_cast<std::int64_t>(last % 2));
                        }});
   }
   take_turns(runners, rounds);

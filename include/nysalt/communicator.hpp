@@ -29,15 +29,16 @@ class communicator {
   /// Waits for the next message of rank `from`, as long as `message` is.
   virtual void receive(std::span<std::byte> message, int from) const = 0;
 
-  /// All get the message of one rank.
+  /// Copies the message of one rank to all.
   virtual void broadcast(std::span<std::byte> message, int from) const = 0;
   /// Rank r has bytes first_of[r] .. first_of[r + 1] - 1 of `all`; all get the rest.
-  virtual void gather(std::span<std::byte> all, std::span<const std::size_t> first_of) const = 0;
-  virtual std::int64_t least(std::int64_t value) const = 0;  ///< the least of all ranks' values
-  virtual std::int64_t total(std::int64_t value) const = 0;  ///< the sum of all ranks' values
-  /// All wait until all are there. The other calls may burn their processor while they wait, as what comes
-  /// soon is there sooner then; this one leaves it to those that work, and takes some milliseconds.
-  virtual void meet() const = 0;
+  virtual void all_gather(std::span<std::byte> all, std::span<const std::size_t> first_of) const = 0;
+  virtual std::int64_t minimum(std::int64_t value) const = 0;  ///< the least of the values of all ranks
+  virtual std::int64_t sum(std::int64_t value) const = 0;      ///< the sum of the values of all ranks
+  /// Waits until all ranks have called barrier(). The other calls may burn their processor while they wait,
+  /// as what comes soon is there sooner then; this one leaves it to those that work, and takes some
+  /// milliseconds.
+  virtual void barrier() const = 0;
 
   bool is_first() const { return rank() == 0; }   ///< whether this is rank 0
   bool is_single() const { return size() == 1; }  ///< whether there are no others
@@ -62,35 +63,35 @@ void broadcast(const communicator& ranks, List& values, int from = 0) {
 /// Rank r has items first_of[r] .. first_of[r + 1] - 1 of `all`; all get the rest.
 template <class Item>
   requires std::is_trivially_copyable_v<Item>
-void gather_items(const communicator& ranks, std::vector<Item>& all, std::vector<std::size_t> first_of) {
+void all_gather_items(const communicator& ranks, std::vector<Item>& all, std::vector<std::size_t> first_of) {
   for (std::size_t& first : first_of) first *= sizeof(Item);  // now bytes
-  ranks.gather(std::as_writable_bytes(std::span(all)), first_of);
+  ranks.all_gather(std::as_writable_bytes(std::span(all)), first_of);
 }
 
 /// All-gather of one value of each rank.
 template <class T>
   requires std::is_trivially_copyable_v<T>
-std::vector<T> in_order_of_ranks(const communicator& ranks, const T& value) {
+std::vector<T> all_gather(const communicator& ranks, const T& value) {
   std::vector<T> all(static_cast<std::size_t>(ranks.size()));
   std::vector<std::size_t> first_of;
   for (std::size_t r = 0; r <= all.size(); ++r) first_of.push_back(r);
   all[static_cast<std::size_t>(ranks.rank())] = value;
-  gather_items(ranks, all, first_of);
+  all_gather_items(ranks, all, first_of);
   return all;
 }
 
 /// All-gather of lists: the items of rank 0, then those of rank 1, and so on.
 template <class T>
   requires std::is_trivially_copyable_v<T>
-std::vector<T> one_after_the_other(const communicator& ranks, const std::vector<T>& ours) {
+std::vector<T> all_gather(const communicator& ranks, const std::vector<T>& ours) {
   std::vector<std::size_t> first_of{0};
-  for (const std::size_t count : in_order_of_ranks(ranks, ours.size())) {
+  for (const std::size_t count : all_gather(ranks, ours.size())) {
     first_of.push_back(first_of.back() + count);
   }
   std::vector<T> all(first_of.back());
   const std::size_t first = first_of[static_cast<std::size_t>(ranks.rank())];
   std::copy(ours.begin(), ours.end(), all.begin() + static_cast<std::ptrdiff_t>(first));
-  gather_items(ranks, all, first_of);
+  all_gather_items(ranks, all, first_of);
   return all;
 }
 

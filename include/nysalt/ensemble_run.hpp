@@ -77,7 +77,7 @@ class ensemble_run {
     const auto follow = [&](std::int64_t b, int) {
       const std::int64_t first = b * width;
       const auto size = static_cast<int>(std::min<std::int64_t>(width, count_ - first));
-      detail::one_after_the_other<Take> hand_over(take, first_ + first, size, width_of_numbers);
+      detail::take_in_order<Take> hand_over(take, first_ + first, size, width_of_numbers);
       const auto at = static_cast<std::size_t>(b);
       if (!starts_.empty()) detail::observe_starts(starts_[at], size, width_of_numbers, read, hand_over);
       blocks_[at]->go_on(end, every, width_of_numbers, read, hand_over);

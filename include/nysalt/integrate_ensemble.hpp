@@ -123,7 +123,7 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
     std::vector<std::optional<std::int64_t>>& diverged_at;
     std::int64_t place;
     int count;
-    detail::one_after_the_other<Take> take;
+    detail::take_in_order<Take> take;
 
     void end(const lockstep<Stepper, T>& run) {
       for (int k = 0; k < count; ++k) diverged_at[static_cast<std::size_t>(place + k)] = run.diverged_at(k);

@@ -69,7 +69,7 @@ class shard {
     require_length(std::ssize(all), total_);
     std::vector<std::size_t> first_of_rank;
     for (int r = 0; r <= ranks_->size(); ++r) first_of_rank.push_back(static_cast<std::size_t>(first_of(r)));
-    gather_items(*ranks_, all, first_of_rank);
+    all_gather_items(*ranks_, all, first_of_rank);
   }
 
  private:

@@ -60,7 +60,7 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
   using batch = ensemble_run<P, std::remove_const_t<decltype(stepper)>>;
   const std::int64_t samples = longest_segment(all.steps, plan.segment) / plan.every + 1;
   const std::int64_t numbers = samples * std::ssize(plan.observables) + 3 * size(system);
-  const std::int64_t at_a_time = trajectories_at_a_time(numbers, lanes_in<P>, ranks.total(all.threads));
+  const std::int64_t at_a_time = trajectories_at_a_time(numbers, lanes_in<P>, ranks.sum(all.threads));
   std::int64_t first = plan.from.first;
   std::int64_t under_way = std::ssize(plan.from.batch.diverged_at);
   broadcast(ranks, first);

@@ -22,7 +22,7 @@ using state = phase_point<double, Eigen::Dynamic>;
 
 /// The numbers of all ranks, one rank's after the other, at rank 0; elsewhere nothing.
 Eigen::VectorXd gather(const communicator& ranks, const Eigen::VectorXd& ours) {
-  const std::vector<Eigen::Index> sizes = in_order_of_ranks(ranks, ours.size());
+  const std::vector<Eigen::Index> sizes = all_gather(ranks, ours.size());
   const auto bytes = [](double* numbers, Eigen::Index count) {
     return std::as_writable_bytes(std::span(numbers, static_cast<std::size_t>(count)));
   };
@@ -43,7 +43,7 @@ Eigen::VectorXd gather(const communicator& ranks, const Eigen::VectorXd& ours) {
 
 /// Of numbers that rank 0 has, to each rank as many as it asks for, in the order of the ranks.
 Eigen::VectorXd scatter(const communicator& ranks, std::span<const double> all, Eigen::Index ours) {
-  const std::vector<Eigen::Index> sizes = in_order_of_ranks(ranks, ours);
+  const std::vector<Eigen::Index> sizes = all_gather(ranks, ours);
   Eigen::VectorXd result(ours);
   if (!ranks.is_first()) {
     ranks.receive(std::as_writable_bytes(std::span(result.data(), static_cast<std::size_t>(ours))), 0);

@@ -101,7 +101,7 @@ struct distributed_run::parts {
     const auto most =
         std::min<std::int64_t>(window->kicks_of_sweep(), count / std::max<Eigen::Index>(layout.reach, 1));
     kicks_of_sweep = static_cast<int>(
-        among.least(among.is_single() && !layout.is_periodic ? window->kicks_of_sweep() : most));
+        among.minimum(among.is_single() && !layout.is_periodic ? window->kicks_of_sweep() : most));
     const auto numbers = static_cast<Eigen::Index>(layout.components) * count;
     run.state = {{Eigen::VectorXd(numbers), Eigen::VectorXd(numbers)}, Eigen::VectorXd::Zero(numbers)};
   }
@@ -235,12 +235,12 @@ double distributed_run::energy() const {
   parts_->exchange(1, x.q.data(), x.p.data());
   const auto ours =
       parts_->window->energies_of_leaves(x.q.data(), x.p.data(), parts_->left_halo, parts_->right_halo);
-  return tree_sum(one_after_the_other(*parts_->ranks, ours));
+  return tree_sum(all_gather(*parts_->ranks, ours));
 }
 
 bool distributed_run::is_finite() const {
   const bool ours = parts_->run.state.q.allFinite() && parts_->run.state.p.allFinite();
-  return parts_->ranks->least(ours ? 1 : 0) == 1;
+  return parts_->ranks->minimum(ours ? 1 : 0) == 1;
 }
 
 const open_run<double, Eigen::Dynamic>& distributed_run::open() const { return parts_->run; }

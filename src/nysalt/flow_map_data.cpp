@@ -159,9 +159,9 @@ flow_map_data make_some_pairs(const model& system, const initial_states& ensembl
 void add_up(flow_map_data& data) {
   const shard all = data.share();
   if (all.ranks().is_single()) return;
-  data.evaluations = all.ranks().total(data.evaluations);
+  data.evaluations = all.ranks().sum(data.evaluations);
   if (!data.energies) return;
-  for (const energy_range& seen : in_order_of_ranks(all.ranks(), *data.energies)) {
+  for (const energy_range& seen : all_gather(all.ranks(), *data.energies)) {
     if (seen.low > seen.high) continue;  // a rank without trajectories
     data.energies->include(seen.low);
     data.energies->include(seen.high);

@@ -31,8 +31,8 @@ std::span<std::byte> bytes_of(auto& values) { return std::as_writable_bytes(std:
 BOOST_AUTO_TEST_CASE(there_are_three_ranks) {
   const mpi_communicator ranks;
   BOOST_TEST(ranks.size() == 3);
-  BOOST_TEST(ranks.total(ranks.rank()) == 3);
-  BOOST_TEST(ranks.least(10 - ranks.rank()) == 8);
+  BOOST_TEST(ranks.sum(ranks.rank()) == 3);
+  BOOST_TEST(ranks.minimum(10 - ranks.rank()) == 8);
 }
 
 BOOST_AUTO_TEST_CASE(messages_arrive_in_order_and_do_not_mix_with_those_of_others) {
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(long_messages_go_in_pieces) {
   if (ranks.rank() == 0) ranks.receive(bytes_of(again), 1);
   BOOST_TEST((ranks.rank() != 0 || again == numbers));
   const std::vector<int> ours(500, ranks.rank());
-  const auto all = one_after_the_other(ranks, ours);
+  const auto all = all_gather(ranks, ours);
   BOOST_TEST(std::accumulate(all.begin(), all.end(), 0) == 500 * 3);
   BOOST_TEST(all[1000] == 2);
 }
@@ -81,8 +81,8 @@ BOOST_AUTO_TEST_CASE(all_get_what_one_tells_and_what_each_has) {
   broadcast(ranks, text, 2);
   BOOST_TEST(text == "from the last");
   const std::vector<int> ours(static_cast<std::size_t>(ranks.rank()), ranks.rank());  // none, one, two
-  BOOST_TEST((one_after_the_other(ranks, ours) == std::vector<int>{1, 2, 2}));
-  BOOST_TEST((in_order_of_ranks(ranks, 10 * ranks.rank()) == std::vector<int>{0, 10, 20}));
+  BOOST_TEST((all_gather(ranks, ours) == std::vector<int>{1, 2, 2}));
+  BOOST_TEST((all_gather(ranks, 10 * ranks.rank()) == std::vector<int>{0, 10, 20}));
 }
 
 BOOST_AUTO_TEST_CASE(a_sum_has_the_bits_of_one_process) {

@@ -31,7 +31,7 @@ std::vector<double> halves(const counter_noise& source, const noise_place& at) {
 }  // namespace
 
 static_assert(NoiseSource<counter_noise> && NoiseSource<no_noise>);
-static_assert(counter_noise::draws_freely && !no_noise::draws_freely);
+static_assert(counter_noise::is_memoryless && !no_noise::is_memoryless);
 
 BOOST_AUTO_TEST_CASE(the_numbers_of_a_place_are_a_function_of_it) {
   const noise_place here{5, 7, 1};

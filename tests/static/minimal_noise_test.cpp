@@ -23,7 +23,7 @@ static_assert(nysalt::HasBath<nysalt::in_bath<quartic_well>>);  // the same, of 
 // [noise]
 /// The mirror image of another noise. Means over both paths of a pair err less than over two others.
 struct antithetic {
-  static constexpr bool draws_freely = true;
+  static constexpr bool is_memoryless = true;
   nysalt::counter_noise plain;
 
   template <class T, int N>

@@ -46,7 +46,7 @@ inline Eigen::Vector2d coordinates_of(const phase_point<double, 1>& x) { return 
 
 /// The number 1 for one letter O of a step, 0 for the others.
 struct one_at {
-  static constexpr bool draws_freely = false;
+  static constexpr bool is_memoryless = false;
   int flow;
   template <class T, int N>
   void normals(const noise_place& at, vector<T, N>& xi) const {

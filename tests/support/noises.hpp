@@ -14,7 +14,7 @@ namespace nysalt::test {
 template <bool DrawsFreely>
 class lifted_noise {
  public:
-  static constexpr bool draws_freely = DrawsFreely;
+  static constexpr bool is_memoryless = DrawsFreely;
   explicit lifted_noise(std::uint64_t seed) : source_(seed) {}
 
   template <class T, int N>
@@ -55,7 +55,7 @@ struct drawn_noise {
 template <bool DrawsFreely>
 class noted_noise {
  public:
-  static constexpr bool draws_freely = DrawsFreely;
+  static constexpr bool is_memoryless = DrawsFreely;
   explicit noted_noise(drawn_noise& notes) : notes_(&notes), source_(1) {}
 
   template <class T, int N>

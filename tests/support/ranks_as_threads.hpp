@@ -75,7 +75,7 @@ class thread_communicator final : public communicator {
     }
     if (rank_ != from) between_->take(from, rank_, message);
   }
-  void gather(std::span<std::byte> all, std::span<const std::size_t> first_of) const override {
+  void all_gather(std::span<std::byte> all, std::span<const std::size_t> first_of) const override {
     ++seen_.together;
     seen_.bytes += std::ssize(all);
     const auto part = [&](int r) {
@@ -89,14 +89,14 @@ class thread_communicator final : public communicator {
       if (r != rank_) between_->take(r, rank_, part(r));
     }
   }
-  std::int64_t least(std::int64_t value) const override { return std::ranges::min(values_of_all(value)); }
-  std::int64_t total(std::int64_t value) const override {
+  std::int64_t minimum(std::int64_t value) const override { return std::ranges::min(values_of_all(value)); }
+  std::int64_t sum(std::int64_t value) const override {
     std::int64_t sum = 0;
     for (const std::int64_t term : values_of_all(value)) sum += term;
     return sum;
   }
 
-  void meet() const override { total(0); }
+  void barrier() const override { sum(0); }
 
   const traffic& seen() const { return seen_; }
 

@@ -20,7 +20,7 @@ bool same_bits(const state& x, const state& y) { return x.q == y.q && x.p == y.p
 
 /// No random number may be drawn.
 struct unasked {
-  static constexpr bool draws_freely = true;
+  static constexpr bool is_memoryless = true;
   template <class T, int N>
   void normals(const noise_place&, vector<T, N>&) const {
     throw std::logic_error("a number was drawn");

@@ -63,7 +63,7 @@ double off(const Method auto& method, const sampled& run) {
 
 /// Numbers that are too large by a part of them.
 struct too_loud {
-  static constexpr bool draws_freely = true;
+  static constexpr bool is_memoryless = true;
   counter_noise source;
   double by;
   template <class T, int N>

@@ -54,7 +54,7 @@ class mpi_communicator final : public communicator {
     in_pieces(message, [&](auto piece, int length) { MPI_Bcast(piece, length, MPI_BYTE, from, ranks_); });
   }
 
-  void gather(std::span<std::byte> all, std::span<const std::size_t> first_of) const override {
+  void all_gather(std::span<std::byte> all, std::span<const std::size_t> first_of) const override {
     if (all.size() > longest_) {
       for (int r = 0; r < size_; ++r) {
         const auto at = static_cast<std::size_t>(r);
@@ -72,10 +72,10 @@ class mpi_communicator final : public communicator {
                    ranks_);
   }
 
-  std::int64_t least(std::int64_t value) const override { return reduced(value, MPI_MIN); }
-  std::int64_t total(std::int64_t value) const override { return reduced(value, MPI_SUM); }
+  std::int64_t minimum(std::int64_t value) const override { return reduced(value, MPI_MIN); }
+  std::int64_t sum(std::int64_t value) const override { return reduced(value, MPI_SUM); }
 
-  void meet() const override {
+  void barrier() const override {
     MPI_Request others;
     MPI_Ibarrier(ranks_, &others);
     int all_there = 0;

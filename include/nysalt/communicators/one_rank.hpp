@@ -5,7 +5,7 @@
 
 namespace nysalt {
 
-/// A process by itself: nothing passes.
+/// The communicator of a single process: no messages.
 class lone_communicator final : public communicator {
  public:
   int rank() const override { return 0; }
@@ -13,10 +13,10 @@ class lone_communicator final : public communicator {
   void send(std::span<const std::byte>, int) const override {}
   void receive(std::span<std::byte>, int) const override {}
   void broadcast(std::span<std::byte>, int) const override {}
-  void gather(std::span<std::byte>, std::span<const std::size_t>) const override {}
-  std::int64_t least(std::int64_t value) const override { return value; }
-  std::int64_t total(std::int64_t value) const override { return value; }
-  void meet() const override {}
+  void all_gather(std::span<std::byte>, std::span<const std::size_t>) const override {}
+  std::int64_t minimum(std::int64_t value) const override { return value; }
+  std::int64_t sum(std::int64_t value) const override { return value; }
+  void barrier() const override {}
 };
 
 inline const lone_communicator one_rank;  ///< default communicator of all options

@@ -162,9 +162,9 @@ void observe_starts(const phase_point<T, N>& starts, int count, std::size_t widt
 /// What was read of trajectories first, first + 1, ... side by side, handed to take(m, n, numbers) of one
 /// after the other, in doubles: only of those that are good.
 template <class Take>
-class one_after_the_other {
+class take_in_order {
  public:
-  one_after_the_other(const Take& take, std::int64_t first, int count, std::size_t width)
+  take_in_order(const Take& take, std::int64_t first, int count, std::size_t width)
       : take_(&take), first_(first), count_(count), of_one_(width) {}
 
   template <class T>

@@ -77,7 +77,7 @@ class merged_half_steps {
   void cross(const S& system, auto& cursor, flow_state<T, S::dimension>& x) const {
     if (cursor.step == 0) return begin(system, cursor, x);
     if (!cursor.bath_is_warm) return ornstein_uhlenbeck::damp(system, both_.decay, x);
-    if constexpr (draws_freely<decltype(*cursor.source)>) {
+    if constexpr (is_memoryless<decltype(*cursor.source)>) {
       ornstein_uhlenbeck::apply(system, both_, cursor.draw(cursor.step, 0), x);
     } else {
       end(system, cursor, x);
@@ -90,7 +90,7 @@ class merged_half_steps {
   void end(const S& system, auto& cursor, flow_state<T, S::dimension>& x) const {
     if (cursor.step == 0) return;
     if (!cursor.bath_is_warm) return ornstein_uhlenbeck::damp(system, end_.decay, x);
-    if constexpr (draws_freely<decltype(*cursor.source)>) {
+    if constexpr (is_memoryless<decltype(*cursor.source)>) {
       ornstein_uhlenbeck::apply(system, end_, half(cursor, u_, v_), x);
     } else {
       ornstein_uhlenbeck::apply(system, end_, cursor.draw(cursor.step - 1, cursor.letters - 1), x);
@@ -101,7 +101,7 @@ class merged_half_steps {
   template <System S, Scalar T>
   void begin(const S& system, auto& cursor, flow_state<T, S::dimension>& x) const {
     if (!cursor.bath_is_warm) return ornstein_uhlenbeck::damp(system, begin_.decay, x);
-    if constexpr (draws_freely<decltype(*cursor.source)>) {
+    if constexpr (is_memoryless<decltype(*cursor.source)>) {
       ornstein_uhlenbeck::apply(system, begin_, half(cursor, v_, -u_), x);
     } else {
       ornstein_uhlenbeck::apply(system, begin_, cursor.draw(cursor.step, 0), x);
@@ -110,7 +110,7 @@ class merged_half_steps {
 
  private:
   template <class Source>
-  static constexpr bool draws_freely = std::remove_reference_t<Source>::draws_freely;
+  static constexpr bool is_memoryless = std::remove_reference_t<Source>::is_memoryless;
 
   /// of_xi xi + of_zeta zeta
   static const auto& half(auto& cursor, const C& of_xi, const C& of_zeta) {

@@ -29,7 +29,7 @@ inline std::optional<std::int64_t> whole_steps(double t, double step, std::int64
 /// A noise source that sums the noise it returns, over each part of a time.
 template <class T, int N>
 struct summing_noise {
-  static constexpr bool draws_freely = false;
+  static constexpr bool is_memoryless = false;
   const finer_noise* path;
   const coarse_graining* coarse;
   vector<T, N>* const* sum;

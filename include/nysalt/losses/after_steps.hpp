@@ -79,7 +79,7 @@ class after_steps {
                    "after_steps<double>, and an error over double",
                    describe(system)));
     }
-    const std::int64_t windows = data.share().ranks().total(std::ssize(starts_.pairs));
+    const std::int64_t windows = data.share().ranks().sum(std::ssize(starts_.pairs));
     if (windows == 0) {
       throw std::invalid_argument(
           sentence("after_steps: trajectories must have at least the {} steps of the loss; take a "

@@ -40,8 +40,8 @@ struct windows_in_lanes {
 /// entries.
 template <Scalar R>
 struct noise_of_entries {
-  static constexpr int N = Eigen::Dynamic;     ///< the dimension is known at run time
-  static constexpr bool draws_freely = false;  ///< the numbers are those of the data
+  static constexpr int N = Eigen::Dynamic;      ///< the dimension is known at run time
+  static constexpr bool is_memoryless = false;  ///< the numbers are those of the data
   /// Entry m has the noise of trajectory m.
   const std::vector<typename windows_in_lanes<R>::entry>* entries = nullptr;
   std::int64_t letters = 0;  ///< letters O of a step

@@ -18,7 +18,7 @@ namespace nysalt {
 template <class T, int N>
 class along_path {
  public:
-  static constexpr bool draws_freely = false;
+  static constexpr bool is_memoryless = false;
 
   /// A path for a word whose letters O cover `intervals` of a step. Throws std::invalid_argument unless the
   /// parts of a step are whole intervals of the path.

@@ -12,7 +12,7 @@ namespace nysalt {
 /// numbers at the same places, for any lanes, threads and order.
 class counter_noise {
  public:
-  static constexpr bool draws_freely = true;
+  static constexpr bool is_memoryless = true;
 
   /// `purpose` keeps it apart from all other noise of the same seed.
   explicit counter_noise(std::uint64_t seed, noise_purpose purpose = noise_purpose::bath)

@@ -14,7 +14,7 @@ namespace nysalt {
 /// Of words with one letter O.
 class finer_noise {
  public:
-  static constexpr bool draws_freely = false;
+  static constexpr bool is_memoryless = false;
 
   /// Noise of that seed for steps that were halved so often. `damping` is gamma times the step that is not
   /// halved.

@@ -8,7 +8,7 @@ namespace nysalt {
 /// A noise source for runs without noise: no letter O, or a bath with sigma = 0. A stepper refuses it
 /// otherwise.
 struct no_noise {
-  static constexpr bool draws_freely = false;
+  static constexpr bool is_memoryless = false;
 
   template <class T, int N>
   void normals(const noise_place&, vector<T, N>&) const {}

@@ -75,7 +75,7 @@ void gathering::gather(std::vector<Item>& all, std::size_t items, std::int64_t t
     const std::int64_t first = (first_of(r) + trajectories_of_item - 1) / trajectories_of_item;
     first_of_rank.push_back(static_cast<std::size_t>(first) * items);
   }
-  gather_items(*ranks_, all, first_of_rank);
+  all_gather_items(*ranks_, all, first_of_rank);
 }
 
 void gathering::gather_histograms() {

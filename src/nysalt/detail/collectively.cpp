@@ -48,7 +48,7 @@ void collectively(const communicator& ranks, const std::function<void()>& work) 
   } catch (...) {
     thrown = std::current_exception();
   }
-  const auto lowest = static_cast<int>(ranks.least(thrown ? ranks.rank() : ranks.size()));
+  const auto lowest = static_cast<int>(ranks.minimum(thrown ? ranks.rank() : ranks.size()));
   if (lowest == ranks.size()) return;
   std::string text;
   auto kind = failure::other;
@@ -64,7 +64,7 @@ void collectively(const communicator& ranks, const std::function<void()>& work) 
 void on_first(const communicator& ranks, const std::function<void()>& work) {
   struct meeting {
     const communicator& ranks;
-    ~meeting() { ranks.meet(); }  // whether or not the work succeeds
+    ~meeting() { ranks.barrier(); }  // whether or not the work succeeds
   };
   collectively(ranks, [&] {
     const meeting at_end{ranks};

@@ -36,7 +36,7 @@ struct pinned_oscillators_in_bath : pinned_oscillators {
 
 /// sin(1), sin(2), ... in the order in which letters O draw.
 struct sines {
-  static constexpr bool draws_freely = false;
+  static constexpr bool is_memoryless = false;
   std::int64_t letters;  ///< O, in a step
 
   template <class T, int N>

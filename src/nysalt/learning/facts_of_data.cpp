@@ -31,7 +31,7 @@ double error_of_reference(const flow_map_data& data, const metric& measure) {
     measure.residual(finish.q, finish.p, data.finish[pair], r.data());
     for (const double x : r) of_trajectory += x * x;
   }
-  const auto checks = data.share().ranks().total(std::ssize(data.finer));
+  const auto checks = data.share().ranks().sum(std::ssize(data.finer));
   const double difference = std::sqrt(data.share().sum(squares) / static_cast<double>(checks));
   return data.noise_parts > 0 ? error_over_difference * difference : difference;
 }
@@ -41,7 +41,7 @@ int shortest_of(const flow_map_data& data) {
   for (std::size_t m = 0; m < data.trajectories(); ++m) {
     least = std::min(least, data.first_of[m + 1] - data.first_of[m]);
   }
-  const auto of_all = data.share().ranks().least(static_cast<std::int64_t>(least));
+  const auto of_all = data.share().ranks().minimum(static_cast<std::int64_t>(least));
   return static_cast<int>(std::max<std::int64_t>(of_all, 1));
 }
 
@@ -49,7 +49,7 @@ Eigen::VectorXd motion_in(const flow_map_data& data, const metric& measure, cons
   const auto last = static_cast<std::size_t>(how.steps.back());
   const window_starts starts(data, last, static_cast<std::size_t>(how.apart));
   const double terms =
-      static_cast<double>(data.share().ranks().total(std::ssize(starts.pairs)) * std::ssize(how.steps));
+      static_cast<double>(data.share().ranks().sum(std::ssize(starts.pairs)) * std::ssize(how.steps));
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(measure.residuals());
   std::vector<Eigen::VectorXd> squares(data.trajectories(), zero);
   Eigen::VectorXd r = zero;

@@ -70,7 +70,7 @@ void put_losses(learning_problem& problem, const source_of_losses& from, const r
                                                             : held.value;
   const std::int64_t of_data = data.evaluations + from.held_out.evaluations;
   problem.evaluations = [&ranks = data.share().ranks(), of_data, passes] {
-    return of_data + ranks.total(passes());
+    return of_data + ranks.sum(passes());
   };
   problem.rival = [rival, held](const tabulated& method) { return rival(method, held); };
   problem.facts.loss_steps = stages.back().steps.back();

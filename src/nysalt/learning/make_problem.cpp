@@ -184,7 +184,7 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
   facts.samples = data.all_pairs();
   facts.trajectories = static_cast<std::size_t>(data.share().total());
   facts.held_out_samples = held_out.all_pairs();
-  facts.reference_checked = ranks.total(std::ssize(data.finer)) > 0;
+  facts.reference_checked = ranks.sum(std::ssize(data.finer)) > 0;
   if (facts.reference_checked) facts.reference_error = detail::error_of_reference(data, *measure);
   facts.data_seconds = data.seconds + held_out.seconds;
   detail::put_losses(problem, from, rival, at_end, std::numeric_limits<int>::max(),

@@ -26,7 +26,7 @@ phase_points states_of(const phase_points& mine, const flow_map_data& data, Eige
     numbers.insert(numbers.end(), x.q.begin(), x.q.end());
     numbers.insert(numbers.end(), x.p.begin(), x.p.end());
   }
-  numbers = one_after_the_other(data.share().ranks(), numbers);
+  numbers = all_gather(data.share().ranks(), numbers);
   phase_points result(pairs.size(), dimension);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const double* q = numbers.data() + 2 * size * k;
@@ -64,7 +64,7 @@ std::vector<std::size_t> stiffest_pairs(const model& system, const flow_map_data
       scored.push_back(scores[static_cast<std::size_t>(k)].first);
       scored.push_back(static_cast<double>(scores[static_cast<std::size_t>(k)].second));
     }
-    scored = one_after_the_other(data.share().ranks(), scored);
+    scored = all_gather(data.share().ranks(), scored);
   }
   std::vector<std::pair<double, std::size_t>> all;
   for (std::size_t k = 0; k + 1 < scored.size(); k += 2) {

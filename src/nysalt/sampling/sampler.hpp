@@ -238,7 +238,7 @@ class sampler {
     for (const double x : {result_.step, steps_, steps_of_burn_in_}) shared.put(x);
     for (const double x : tuned_ ? tuned_->saved() : dual_averaging::memory{}) shared.put(x);
     for (const double x : result_.deviations) shared.put(x);
-    gather_items(*options_.ranks, result.numbers, first_of_rank);
+    all_gather_items(*options_.ranks, result.numbers, first_of_rank);
     return result;
   }
 
