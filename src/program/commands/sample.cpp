@@ -300,15 +300,8 @@ int sample(const sample_command& command, const common_settings& common) {
   }
   line.part("sampling");
   options.progress = line.counter(command.chains * (command.burn_in + command.draws));
-  hmc_result found;
-  try {
-    found = hmc(system->definition().system, method, system->prepared_starts(), options,
-                [&](const hmc_draw& draw) { draws.take(draw); });
-  } catch (const std::invalid_argument& problem) {
-    refuse("{}", problem.what());
-  } catch (const std::runtime_error& problem) {
-    refuse("{}", problem.what());
-  }
+  const hmc_result found = hmc(system->definition().system, method, system->prepared_starts(), options,
+                               [&](const hmc_draw& draw) { draws.take(draw); });
   line.clear();
   draws.gather(all_ranks());
 

@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSL-1.0
+"""Messages of exceptions, collected from the sources: messages.py --check | --update.
+
+docs/run-time-messages.md lists the text of every throw and refusal in include, src and python, by form. --update writes
+the lists, --check says whether they differ from the sources, and which messages have no form. A `{}` is a value.
+"""
+import argparse
+import re
+import sys
+from pathlib import Path
+
+root = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(root / "tests" / "docs"))
+from words import parts_of_c
+
+page_name = "docs/run-time-messages.md"
+suffixes = (".hpp", ".cpp")
+
+# A call that ends in an exception: throw TYPE(...), and our functions that throw what they are given.
+call = re.compile(r"\bthrow\s+[\w:]+[({]|\b(?:refuse\w*|require|fail\w*|complain)\(")
+
+forms = {
+    "value": re.compile(r"\bmust\b"),
+    "unknown": re.compile(r"^(?:\{\}: |[\w ,-]+: )?unknown \w[\w ]* '?\{\}'?"),
+    "operation": re.compile(r"\bcannot (?!be\b)[a-z]+ "),
+}
+
+
+def end_of_call(code, start):
+    """Index behind the bracket that closes the one before start; brackets in texts and comments do not count."""
+    depth, i = 1, start
+    token = re.compile(r'"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)+\'|//[^\n]*|[(){}]')
+    while depth:
+        found = token.search(code, i)
+        if not found:
+            return len(code)
+        i = found.end()
+        depth += {"(": 1, "{": 1, ")": -1, "}": -1}.get(found[0], 0)
+    return i
+
+
+def thrown(code):
+    """[(line, text)]: the longest text of each call that ends in an exception; texts of one word are keys."""
+    found = []
+    code = re.sub(r"(?m)^ *//.*", "", code)
+    for match in call.finditer(code):
+        body = code[match.end():end_of_call(code, match.end()) - 1]
+        texts = [text for _, kind, text in parts_of_c(body) if kind == "text" and " " in text.strip()]
+        if texts:
+            found.append((code.count("\n", 0, match.start()) + 1, max(texts, key=len)))
+    return found
+
+
+def messages(folder):
+    """{text: name of the first file with it} of the sources below a folder."""
+    found = {}
+    for top in ("include", "src", "python"):
+        for path in sorted((folder / top).rglob("*")):
+            if path.suffix in suffixes:
+                for _, text in thrown(path.read_text()):
+                    found.setdefault(text, path.relative_to(folder).as_posix())
+    return found
+
+
+def form_of(text):
+    """value, unknown or operation; None for a text without a form."""
+    return next((name for name, form in forms.items() if form.search(text)), None)
+
+
+def area_of(name):
+    """The part of the project that a message comes from, as a heading."""
+    if name.startswith(("include/", "src/nysalt/")):
+        return "The library"
+    return "The Python module" if name.startswith("python/") else "The program"
+
+
+headings = {"value": "a value that must meet a condition", "unknown": "names that are not known",
+            "operation": "what failed for a reason outside the arguments"}
+intro = """# Messages of exceptions
+
+What the library throws and the program refuses with exit code 2 or 4, by part and form, so that the words of a message can
+be searched for here. `{}` is a value. `docs/site/messages.py` collected this page from the sources; a test compares both.
+What the compiler says is on [another page](messages.md).
+
+A message has one of three forms:
+
+1. `WHO: PARAMETER must CONDITION, got VALUE; REMEDY`. WHO is the function, option, file or object; the remedy is left out
+   where the condition says what to do.
+2. `unknown KIND 'NAME': CHOICES`
+3. `cannot VERB OBJECT: REASON; REMEDY`
+"""
+
+
+def page_of(found):
+    lines = [intro]
+    for area in ("The library", "The program", "The Python module"):
+        for form, heading in headings.items():
+            texts = sorted((text for text, name in found.items() if area_of(name) == area and form_of(text) == form),
+                           key=lambda text: (re.sub(r"\W+", " ", text).strip().lower(), text))
+            if texts:
+                lines.append(f"## {area}: {heading}\n")
+                lines += [f"- `` {' '.join(text.split())} ``" for text in texts]
+                lines.append("")
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Messages of exceptions, collected from the sources.")
+    mode = parser.add_mutually_exclusive_group(required=True)
+    mode.add_argument("--check", action="store_true")
+    mode.add_argument("--update", action="store_true")
+    arguments = parser.parse_args()
+    found = messages(root)
+    page = root / page_name
+    if arguments.update:
+        page.write_text(page_of(found))
+    formless = [f"{name}: \"{text}\": write `WHO: PARAMETER must CONDITION, got VALUE; REMEDY`"
+                for text, name in sorted(found.items()) if form_of(text) is None]
+    outdated = [] if page.is_file() and page.read_text() == page_of(found) else [
+        f"{page_name} differs from the sources: docs/site/messages.py --update"]
+    print("\n".join(formless + outdated), file=sys.stderr)
+    return 1 if formless or outdated else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
