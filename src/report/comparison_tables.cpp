@@ -227,6 +227,7 @@ std::string readable(const comparison& all) {
   if (!options.prices.empty()) text += sentence_of_prices(options.prices) + "\n";
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     text += fmt::format("\n{}\n\n", quantity(all, m));
+    if (const std::string verdict = plain_verdict(all, m); !verdict.empty()) text += verdict + "\n\n";
     if (const table against = baselines_of(all, m); !against.empty()) text += against.text() + "\n";
     text += rows_of(all, m).text();
     for (const auto& sentence : meanings_of_marks(all, m)) text += sentence + "\n";

@@ -245,6 +245,7 @@ class fpu_chain {
         const Eigen::Index i = first + n;
         take(i, T((q(1, i) - q(0, i)) * k), soft[n], right[n]);
       }
+      NYSALT_END_OF_ITERATIONS
     }
   }
 

@@ -163,6 +163,7 @@ class phi4_lattice {
     const T* right = detail::as_another_array(here + 1);
     NYSALT_INDEPENDENT_ITERATIONS
     for (Eigen::Index k = 1; k < last; ++k) one(k, left[k], right[k]);
+    NYSALT_END_OF_ITERATIONS
     one(last, here[last - 1], here[0]);
   }
 
