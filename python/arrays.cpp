@@ -37,7 +37,7 @@ std::span<double> writable(const py::handle& given, const std::string& name,
   if ((array.flags() & aligned) == 0) {
     refuse("{} must lie where a float64 may, at a multiple of its size", name);
   }
-  if (!array.writeable()) refuse("{} is read-only and cannot be filled", name);
+  if (!array.writeable()) refuse("{} must be writable to be filled, got a read-only array", name);
   return {static_cast<double*>(array.mutable_data()), static_cast<std::size_t>(array.size())};
 }
 

@@ -58,17 +58,17 @@ CASES = [
     (lambda: run(out=np.zeros((2, 11, 1), np.float32)), "out must hold float64 to be filled, it holds float32"),
     (lambda: run(out=np.zeros((2, 11))), r"out must have the shape \(2, 11, 1\), it has \(2, 11\)"),
     (lambda: run(out=np.zeros((1, 11, 2)).T), "out must lie one row after the other to be filled"),
-    (lambda: run(out=read_only((2, 11, 1))), "out is read-only and cannot be filled"),
+    (lambda: run(out=read_only((2, 11, 1))), "out must be writable to be filled, got a read-only array"),
     (lambda: integrate(q=np.zeros((2, 5))), r"q must have the shape \(6,\) or \(trajectories, 6\), it has \(2, 5\)"),
     (lambda: integrate(p=np.zeros(6)), r"p must have the shape of q, \(2, 6\), it has \(6,\)"),
     (lambda: integrate(steps=-1), "steps must not be negative, got -1"),
     (lambda: integrate(steps=1.5), "steps must be a whole number, got 1.5"),
-    (lambda: integrate(q=np.full((2, 6), np.inf)), "the state of trajectory 0 is not finite: q1 is inf"),
+    (lambda: integrate(q=np.full((2, 6), np.inf)), "the state of trajectory 0 must be finite, got q1 = inf"),
     (lambda: integrate(**out(q=np.zeros((2, 6), int))), "q of out must hold float64 to be filled, it holds int64"),
-    (lambda: integrate(**out(p=read_only((2, 6)))), "p of out is read-only"),
+    (lambda: integrate(**out(p=read_only((2, 6)))), "p of out must be writable"),
     (lambda: integrate(**out(q=np.zeros((2, 12))[:, ::2])), "q of out must lie one row after the other"),
-    (lambda: integrate(**out(SHARED[:2], SHARED[1:])), "q and p of out share memory: give two arrays"),
-    (lambda: integrate(q=SHARED[:2], **out(q=SHARED[1:])), "out shares memory with q or p otherwise"),
+    (lambda: integrate(**out(SHARED[:2], SHARED[1:])), "q and p of out must not share memory; give two arrays"),
+    (lambda: integrate(q=SHARED[:2], **out(q=SHARED[1:])), "out must be q and p themselves or share no memory"),
     (lambda: nysalt.compare(PENDULUM, "verlet", []), "steps is needed"),
     (lambda: nysalt.compare(PENDULUM, ["verlet", "verlet"], 0.1), "methods names verlet twice"),
     (lambda: nysalt.compare(PENDULUM, "verlet", 0.1, metric="paths"), "unknown metric 'paths'"),
@@ -154,7 +154,7 @@ def test_files_that_cannot_be(tmp_path):
 
 def test_two_methods_of_one_name_are_told_apart():
     schemes = [nysalt.learn(PENDULUM, "nystrom", step=0.2, trajectories=5, horizon=2, seed=seed) for seed in (1, 2)]
-    with pytest.raises(ValueError, match="two methods are named scheme:nystrom"):
+    with pytest.raises(ValueError, match="methods must have different names, got scheme:nystrom twice"):
         nysalt.compare(PENDULUM, schemes, 0.2, trajectories=4)
     schemes[1].name = "the second"
     found = nysalt.compare(PENDULUM, schemes, 0.2, trajectories=4, force=True)
