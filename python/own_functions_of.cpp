@@ -49,7 +49,7 @@ void put(const py::handle& found, const std::string& what, const std::vector<std
   if (found.is_none()) refuse("{} must return numbers, got None; end it with a return", what);
   const numbers_array numbers = numbers_of(found, what);
   if (shape_of(numbers) != wanted) {
-    refuse("{} must have the shape {}, it has {}", what, shape_text(wanted), shape_text(shape_of(numbers)));
+    refuse("{} must have the shape {}, got {}", what, shape_text(wanted), shape_text(shape_of(numbers)));
   }
   std::ranges::copy(numbers_in(numbers), to.begin());
 }
@@ -62,7 +62,7 @@ double number_in(const py::object& found) {
   if (found.is_none()) refuse("potential(q) must return a number, got None; end it with a return");
   const numbers_array numbers = numbers_of(found, "potential(q)");
   if (numbers.size() == 1) return numbers_in(numbers).front();
-  refuse("potential(q) must be one number, it has the shape {}", shape_text(shape_of(numbers)));
+  refuse("potential(q) must be one number, got the shape {}", shape_text(shape_of(numbers)));
 }
 
 std::string name_in(const argument_reader& arguments) {

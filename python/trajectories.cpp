@@ -131,7 +131,7 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
   const auto shape = shape_of(q);
   const std::int64_t count = states_in(system, shape, "q");
   if (shape_of(p) != shape) {
-    refuse("p must have the shape of q, {}, it has {}", shape_text(shape), shape_text(shape_of(p)));
+    refuse("p must have the shape of q, {}, got {}", shape_text(shape), shape_text(shape_of(p)));
   }
   require_finite(numbers_in(q), system.model->dimension(), "q");
   require_finite(numbers_in(p), system.model->dimension(), "p");

@@ -175,7 +175,7 @@ class run_time_word {
     }
     if (!are_in_turn) {
       throw std::invalid_argument(
-          sentence("the word {} has the processor {}: its letters must be A and B in turn, as in BABA",
+          sentence("the word {}: the letters of its processor must be A and B in turn, as in BABA, got {}",
                    letters_, letters));
     }
     if (stochastic_letters > 0) {
@@ -186,7 +186,7 @@ class run_time_word {
     }
     if (rotates_) {
       throw std::invalid_argument(sentence(
-          "the word {} has a processor: its kernel must be of the letters A, B, D and G, as the letters A "
+          "the word {}: the kernel of a processor must be of the letters A, B, D and G, as the letters A "
           "and B of a processor do not mix with R, S and H; take another kernel",
           letters_));
     }

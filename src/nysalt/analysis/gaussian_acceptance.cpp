@@ -46,7 +46,7 @@ double gaussian_step(const tabulated& method, std::span<const double> frequencie
   const double most = energy_error_at(acceptance);
   const double fastest = frequencies.empty() ? 0.0 : *std::ranges::max_element(frequencies);
   if (!(fastest > 0.0)) {
-    throw std::invalid_argument("gaussian_step: a frequency must be positive, and none is");
+    throw std::invalid_argument("gaussian_step: a frequency must be positive, got none");
   }
   const auto holds = [&](double step) { return gaussian_energy_error(method, frequencies, step) <= most; };
   constexpr double growth = 1.02;

@@ -138,7 +138,7 @@ void require_sound(const run_time_family& family, const fit_options& options) {
   if ((options.start && options.start->size() != family.parameters()) ||
       (!options.fixed.empty() && options.fixed.size() != count)) {
     throw std::invalid_argument(fmt::format(
-        "learn: {} has {} parameters, start and fixed values must be as many", family.name, count));
+        "learn: start and fixed values must be {}, one for each parameter of {}", count, family.name));
   }
   for (const auto& start : options.further_starts) {
     if (start.theta.size() == family.parameters() && !start.theta.allFinite()) {
