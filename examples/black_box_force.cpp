@@ -78,4 +78,4 @@ int main() {
 // aba4     error of the state after 80 evaluations: 5.0e-04 +- 6e-05
 // pefrl    error of the state after 80 evaluations: 1.5e-03 +- 1e-04
 // verlet   error of the state after 80 evaluations: 2.2e-02 +- 1e-03
-// learn: the force is not -grad V: coordinate 3 is off by 2.00e+00 of the largest force; check its sign and formula (system morse_chain(10, 1)); mend it, or learn with check_force = false
+// cannot learn on morse_chain(10, 1): the force is not -grad V: coordinate 3 is off by 2.00e+00 of the largest force; check its sign and formula; mend the system, or learn with check_force = false

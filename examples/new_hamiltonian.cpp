@@ -68,6 +68,7 @@ int main() {
   }
 }
 
+// clang-format off
 // Expected output:
 // check: the force is -grad V
 // b1 = 0.4939, beta1 = 0.3873, usable: yes
@@ -78,4 +79,4 @@ int main() {
 // mclachlan2       largest relative energy error over 1000 units of time: 2.4e-02
 // verlet_2x        largest relative energy error over 1000 units of time: 5.2e-02
 //
-// learned:nystrom was learned at the step 0.4 and cannot run at 0.8; learn it there, or use anywhere()
+// learned:nystrom must run at the step 0.4, at which it was learned, got 0.8; learn it there, or use anywhere()

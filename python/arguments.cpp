@@ -225,7 +225,7 @@ program::learn_command learn_of(const argument_reader& arguments, const program:
   arguments.take("steps", command.steps);
   arguments.take("enough", command.enough);
   if (command.enough && arguments.has("trajectories")) {
-    refuse("enough finds how many trajectories it takes: leave trajectories away");
+    refuse("enough must come without trajectories, as it finds how many it takes; leave trajectories away");
   }
   return command;
 }

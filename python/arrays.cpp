@@ -25,19 +25,18 @@ std::span<double> writable(const py::handle& given, const std::string& name,
   }
   auto array = py::reinterpret_borrow<py::array>(given);
   if (!py::isinstance<py::array_t<double>>(given)) {
-    refuse("{} must hold float64 to be filled, it holds {}", name,
-           py::str(array.dtype()).cast<std::string>());
+    refuse("{} must hold float64 to be filled, got {}", name, py::str(array.dtype()).cast<std::string>());
   }
   if (shape_of(array) != shape) {
-    refuse("{} must have the shape {}, it has {}", name, shape_text(shape), shape_text(shape_of(array)));
+    refuse("{} must have the shape {}, got {}", name, shape_text(shape), shape_text(shape_of(array)));
   }
   if ((array.flags() & py::array::c_style) == 0) {
-    refuse("{} must lie one row after the other to be filled: np.ascontiguousarray makes such a copy", name);
+    refuse("{} must lie one row after the other to be filled; take a copy by np.ascontiguousarray", name);
   }
   if ((array.flags() & aligned) == 0) {
     refuse("{} must lie where a float64 may, at a multiple of its size", name);
   }
-  if (!array.writeable()) refuse("{} is read-only and cannot be filled", name);
+  if (!array.writeable()) refuse("{} must be writable to be filled, got a read-only array", name);
   return {static_cast<double*>(array.mutable_data()), static_cast<std::size_t>(array.size())};
 }
 
@@ -66,7 +65,7 @@ numbers_array numbers_of(const py::handle& given, const std::string& name) {
   const auto array = py::array::ensure(given);
   if (!array) refuse("{} must hold real numbers, got {}", name, Py_TYPE(given.ptr())->tp_name);
   const bool is_real = std::string("biuf").find(array.dtype().kind()) != std::string::npos;
-  if (!is_real) refuse("{} must hold real numbers, it holds {}", name, what_it_holds(array));
+  if (!is_real) refuse("{} must hold real numbers, got {}", name, what_it_holds(array));
   return numbers_array(array);
 }
 

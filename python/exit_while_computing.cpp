@@ -32,7 +32,8 @@ void leave_from_computations() {
   // constructed during a call. Hence this late, when Python has ended.
   const auto register_the_last = [] { on_exit(leave, nullptr); };  // glibc's: atexit passes no status
   if (Py_AtExit(register_the_last) != 0) {
-    throw pybind11::import_error("Python takes no more functions for its end (Py_AtExit)");
+    throw pybind11::import_error(
+        "cannot load nysalt: Python takes no more functions for its end (Py_AtExit)");
   }
 }
 

@@ -16,7 +16,7 @@ using program::refuse;
 namespace {
 
 py::object function_in(const argument_reader& arguments, const char* name, const char* what) {
-  if (!arguments.has(name)) refuse("a Hamiltonian needs {}: give {}", what, name);
+  if (!arguments.has(name)) refuse("a Hamiltonian must have {}, got none; give {}", what, name);
   py::object function = arguments[name];
   if (PyCallable_Check(function.ptr()) == 0) {
     refuse("{} must be a function, got {}", name, shown(function));
@@ -26,7 +26,10 @@ py::object function_in(const argument_reader& arguments, const char* name, const
 
 /// Throws what the function raises, and refusal where its system was collected.
 py::object answer(const py::object& function, const py::tuple& arguments) {
-  if (!function) refuse("this Hamiltonian is gone: it was in a cycle of references that nothing else held");
+  if (!function)
+    refuse(
+        "cannot call this Hamiltonian: it is gone, as it was in a cycle of references that nothing else "
+        "held; keep a reference to it");
   return called(function, arguments);
 }
 
@@ -43,10 +46,10 @@ py::array_t<double> rows(std::span<const double> q, std::int64_t count) {
 
 void put(const py::handle& found, const std::string& what, const std::vector<std::int64_t>& wanted,
          std::span<double> to) {
-  if (found.is_none()) refuse("{} returned None: does it lack a return?", what);
+  if (found.is_none()) refuse("{} must return numbers, got None; end it with a return", what);
   const numbers_array numbers = numbers_of(found, what);
   if (shape_of(numbers) != wanted) {
-    refuse("{} must have the shape {}, it has {}", what, shape_text(wanted), shape_text(shape_of(numbers)));
+    refuse("{} must have the shape {}, got {}", what, shape_text(wanted), shape_text(shape_of(numbers)));
   }
   std::ranges::copy(numbers_in(numbers), to.begin());
 }
@@ -56,16 +59,16 @@ void put(const py::handle& found, const std::string& what, std::span<double> to)
 
 double number_in(const py::object& found) {
   if (PyFloat_Check(found.ptr()) != 0) return PyFloat_AS_DOUBLE(found.ptr());
-  if (found.is_none()) refuse("potential(q) returned None: does it lack a return?");
+  if (found.is_none()) refuse("potential(q) must return a number, got None; end it with a return");
   const numbers_array numbers = numbers_of(found, "potential(q)");
   if (numbers.size() == 1) return numbers_in(numbers).front();
-  refuse("potential(q) must be one number, it has the shape {}", shape_text(shape_of(numbers)));
+  refuse("potential(q) must be one number, got the shape {}", shape_text(shape_of(numbers)));
 }
 
 std::string name_in(const argument_reader& arguments) {
   std::string name;
   arguments.take("name", name);
-  if (name.empty()) refuse("a Hamiltonian needs a name, by which schemes know it");
+  if (name.empty()) refuse("a Hamiltonian must have a name, by which schemes know it, got none");
   if (arguments["name"].attr("isprintable")().cast<bool>()) return name;
   refuse("the name of a Hamiltonian must be one line that can be printed, got {}", shown(arguments["name"]));
 }
@@ -130,7 +133,7 @@ own_functions own_functions_of(const argument_reader& arguments, std::shared_ptr
   kept = std::make_shared<functions_of_python>();
   kept->potential = function_in(arguments, "potential", "V");
   kept->force = function_in(arguments, "force", "-grad V");
-  kept->starts = function_in(arguments, "starts", "to know where trajectories start");
+  kept->starts = function_in(arguments, "starts", "starts of trajectories");
   bool is_batched = false;
   arguments.take("batched", is_batched);
   if (is_batched) {

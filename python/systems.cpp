@@ -23,7 +23,7 @@ std::int64_t states_in(const held_system& system, const std::vector<std::int64_t
   const std::int64_t n = system.model->dimension();
   if (shape == std::vector<std::int64_t>{n}) return 1;
   if (shape.size() == 2 && shape[0] >= 1 && shape[1] == n) return shape[0];
-  refuse("{} must have the shape ({},) or (trajectories, {}), it has {}", name, n, n, shape_text(shape));
+  refuse("{} must have the shape ({},) or (trajectories, {}), got {}", name, n, n, shape_text(shape));
 }
 
 namespace {
@@ -74,7 +74,7 @@ py::object energy(const held_system& system, const py::object& of_q, const py::o
   const numbers_array p = numbers_of(of_p, "p");
   const auto count = static_cast<std::size_t>(states_in(system, shape_of(q), "q"));
   if (shape_of(p) != shape_of(q)) {
-    refuse("p must have the shape of q, {}, it has {}", shape_text(shape_of(q)), shape_text(shape_of(p)));
+    refuse("p must have the shape of q, {}, got {}", shape_text(shape_of(q)), shape_text(shape_of(p)));
   }
   py::array_t<double> result(static_cast<py::ssize_t>(count));
   double* to = result.mutable_data();

@@ -101,7 +101,7 @@ void require_finite(std::span<const double> all, std::int64_t dimension, const c
   for (std::int64_t i = 0; i < std::ssize(all); ++i) {
     const double one = all[static_cast<std::size_t>(i)];
     if (std::isfinite(one)) continue;
-    refuse("the state of trajectory {} is not finite: {}{} is {}", i / dimension, name, i % dimension + 1,
+    refuse("the state of trajectory {} must be finite, got {}{} = {}", i / dimension, name, i % dimension + 1,
            one);
   }
 }
@@ -131,17 +131,17 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
   const auto shape = shape_of(q);
   const std::int64_t count = states_in(system, shape, "q");
   if (shape_of(p) != shape) {
-    refuse("p must have the shape of q, {}, it has {}", shape_text(shape), shape_text(shape_of(p)));
+    refuse("p must have the shape of q, {}, got {}", shape_text(shape), shape_text(shape_of(p)));
   }
   require_finite(numbers_in(q), system.model->dimension(), "q");
   require_finite(numbers_in(p), system.model->dimension(), "p");
   const auto [to_q, to_p] = pair_to_fill(out, shape);
   const std::span<double> all_q = writable(to_q, "q of out", shape);
   const std::span<double> all_p = writable(to_p, "p of out", shape);
-  if (overlap(all_q, all_p)) refuse("q and p of out share memory: give two arrays");
+  if (overlap(all_q, all_p)) refuse("q and p of out must not share memory; give two arrays");
   if (overlap(all_q, numbers_in(p)) || overlap(all_p, numbers_in(q)) || lies_across(all_q, numbers_in(q)) ||
       lies_across(all_p, numbers_in(p))) {
-    refuse("out shares memory with q or p otherwise than being these themselves: give other arrays");
+    refuse("out must be q and p themselves or share no memory with them; give other arrays");
   }
   std::vector<std::string> warnings;
   compute(system.calls_python(), [&] {

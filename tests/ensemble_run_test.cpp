@@ -124,8 +124,9 @@ BOOST_AUTO_TEST_CASE(of_other_trajectories_it_is_refused) {
   using run = ensemble_run<double, std::remove_const_t<decltype(stepper)>>;
   const saved_runs saved = run(stepper, starts, 1, 0, 5).save();
   BOOST_TEST(saved.numbers.size() == 5U * 3U * 2U);
-  BOOST_TEST(refuses<std::invalid_argument>([&] { run(stepper, starts, 1, 0, 6, saved); },
-                                            {"30 numbers of 5 trajectories", "36 numbers of 6 are needed"}));
+  BOOST_TEST(
+      refuses<std::invalid_argument>([&] { run(stepper, starts, 1, 0, 6, saved); },
+                                     {"must hold 36 numbers of 6 trajectories", "got 30 numbers of 5"}));
   BOOST_TEST(refuses<std::invalid_argument>([&] { run(stepper, starts, 1, 0, 0); },
                                             {"trajectories must be >= 1", "trajectories 0"}));
 }

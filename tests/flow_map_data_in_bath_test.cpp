@@ -187,7 +187,7 @@ BOOST_AUTO_TEST_CASE(noise_that_cannot_be_had_is_refused) {
   };
   BOOST_TEST(refused(without_bath, fine_steps<>(fine), 1, {"srkn11b", "must have noise", "take fine_paths"}));
   BOOST_TEST(!refused(without_bath, fine_steps<>(fine), 0, {}));
-  BOOST_TEST(refused(chain, fine_steps<>(fine), 0, {"bath(friction=2, sigma=0.3)", "no letter O"}));
+  BOOST_TEST(refused(chain, fine_steps<>(fine), 0, {"bath(friction=2, sigma=0.3)", "must have a letter O"}));
   BOOST_TEST(refused(chain, fine_steps<>(fine), 1, {"must have noise", "take fine_paths"}));
   BOOST_TEST(refused(chain, fine_paths(fine), 5, {"0.012 in the 5 equal parts", "fine step 0.001"}));
   BOOST_TEST(refused(chain, fine_paths(fine), -1, {"noise_parts must be >= 0, got -1"}));
@@ -248,6 +248,6 @@ BOOST_AUTO_TEST_CASE(noise_that_is_not_whole_is_refused) {
   BOOST_TEST(refused([](auto& d) { d.noise_parts = 1; }, {"in 1 parts that hold 20"}));
   BOOST_TEST(refused([](auto& d) { d.noise_parts = -2; }, {"in -2 parts"}));
   BOOST_TEST(refused([](auto& d) { d.noise[13][2] = NAN; },
-                     {"not finite", "coordinate 3 of noise 13 is nan", "in pair 6 of trajectory 1"}));
+                     {"must be finite", "coordinate 3 of noise 13 = nan", "in pair 6 of trajectory 1"}));
   BOOST_TEST(refuses<wrong>([&] { require_valid(whole, without_bath); }, {"in bath(friction=2"}));
 }

@@ -88,8 +88,8 @@ BOOST_AUTO_TEST_CASE(what_holds_no_step_is_refused) {
   const auto refused = [](const data_options& options, std::initializer_list<std::string_view> words) {
     return refuses<wrong>([&] { made(options); }, words);
   };
-  BOOST_TEST(refused({.step = 0.02, .horizon = 0.01}, {"no step of 0.02"}));
-  BOOST_TEST(refused({.step = 0.02, .trajectories = 0}, {"0 trajectories"}));
+  BOOST_TEST(refused({.step = 0.02, .horizon = 0.01}, {"at least a step", "over 0.01 with the step 0.02"}));
+  BOOST_TEST(refused({.step = 0.02, .trajectories = 0}, {"trajectories must be at least 1", "got 0"}));
   BOOST_TEST(refused({.step = -0.02}, {"positive", "-0.02"}));
   BOOST_TEST(refused({.step = nan}, {"positive"}));
   BOOST_TEST(refused({.step = 0.02, .horizon = nan}, {"finite"}));
@@ -113,9 +113,9 @@ BOOST_AUTO_TEST_CASE(data_that_are_not_whole_are_refused_with_the_pair) {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   BOOST_TEST(refused([=](auto& d) { d.finish[3].q[1] = nan; },
-                     {"not finite", "q2 is nan", "finish of pair 3", "trajectory 0"}));
+                     {"must be finite: q2 is nan", "finish of pair 3", "trajectory 0"}));
   BOOST_TEST(refused([](auto& d) { d.start[7].p[0] = -std::numeric_limits<double>::infinity(); },
-                     {"not finite", "p1 is -inf", "start of pair 7", "trajectory 1"}));
+                     {"must be finite: p1 is -inf", "start of pair 7", "trajectory 1"}));
   BOOST_TEST(refused([=](auto& d) { d.finer[1].second.p[5] = nan; },
                      {"p6 is nan", fmt::format("finer finish of pair {}", whole.finer[1].first)}));
   BOOST_TEST(refused([](auto& d) { d.finer[0].first = 10; }, {"must be whole", "pair 10 of 10"}));
@@ -209,7 +209,7 @@ BOOST_AUTO_TEST_CASE(a_reference_that_diverges_is_told_with_the_lowest_trajector
   };
   for (const int threads : {1, 2, 5}) {
     BOOST_TEST(refuses<std::runtime_error>([&] { make(40, threads); },
-                                           {"trajectory 25 ", "at step 10 (q1 is ", "srkn11b", "diverged"}));
+                                           {"trajectory 25 ", "srkn11b", "diverged at step 10: q1 is "}));
     BOOST_TEST(make(25, threads).pairs() == 250U);
   }
   // Whatever is thrown: of the starts that the list does not hold, the first.

@@ -113,5 +113,5 @@ BOOST_AUTO_TEST_CASE(an_ensemble_by_its_method_needs_a_source_of_noise) {
   const auto first = [](const auto& x) { return x.p[0]; };
   BOOST_TEST(refuses<std::invalid_argument>(
       [&] { integrate_ensemble(galaxy, baoab(), 0.1, law, {.trajectories = 2}, first, no_observer); },
-      {"noisy", "counter_noise"}));
+      {"source of noise", "counter_noise"}));
 }

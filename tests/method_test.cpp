@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(it_knows_the_energies_that_it_has_seen) {
 BOOST_AUTO_TEST_CASE(it_refuses_a_foreign_step) {
   for (const double step : {0.01, 0.0200001, -0.02}) {
     BOOST_TEST(refuses<wrong>([&] { make_stepper(learned_for, tuned, step); },
-                              {"learned:nystrom", "learned at the step 0.02", "anywhere()"}));
+                              {"learned:nystrom", "must run at the step 0.02", "anywhere()"}));
   }
   BOOST_CHECK_THROW(make_stepper(learned_for, tuned, std::numeric_limits<double>::quiet_NaN()), wrong);
 }
@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(it_refuses_a_foreign_system) {
   const pendulum other;
   const auto refused = [](const auto& system) {
     return refuses<wrong>([&] { make_stepper(system, tuned, 0.02); },
-                          {"learned for fpu_chain(pairs=3, omega=50)", describe(system), "anywhere()"});
+                          {"must run on fpu_chain(pairs=3, omega=50)", describe(system), "anywhere()"});
   };
   BOOST_TEST(refused(stiffer));
   BOOST_TEST(refused(longer));

@@ -58,8 +58,10 @@ std::set<place> different(const std::vector<noise_place>& places) {
 BOOST_AUTO_TEST_CASE(a_noisy_bath_needs_a_source_of_noise) {
   for (const auto& system : {warm, heated}) {
     const auto description = system.bath().description();
-    BOOST_TEST(refused(system, baoab(), 0.1, no_noise(), {description, "noisy", "counter_noise(seed)"}));
-    BOOST_TEST(refused(system, tabulated(obabo{}), 0.1, no_noise(), {description, "noisy"}));
+    BOOST_TEST(refused(system, baoab(), 0.1, no_noise(),
+                       {description, "must have a source of noise", "counter_noise(seed)"}));
+    BOOST_TEST(
+        refused(system, tabulated(obabo{}), 0.1, no_noise(), {description, "must have a source of noise"}));
     BOOST_TEST(made(system, baoab(), 0.1, counter_noise(1)));
   }
   for (const auto& system : {cold, trivial}) {
@@ -72,11 +74,11 @@ BOOST_AUTO_TEST_CASE(a_noisy_bath_needs_a_source_of_noise) {
 BOOST_AUTO_TEST_CASE(a_bath_that_acts_needs_a_letter_of_the_word) {
   for (const auto& system : {warm, heated, cold}) {
     const auto description = system.bath().description();
-    BOOST_TEST(
-        refused(system, verlet(), 0.1, counter_noise(1), {description, "BAB", "no letter O", "thermostat"}));
-    BOOST_TEST(
-        refused(system, tabulated(verlet{}), 0.1, counter_noise(1), {description, "BAB", "no letter O"}));
-    BOOST_TEST(refused(system, verlet(), 0.1, no_noise(), {"no letter O"}));
+    BOOST_TEST(refused(system, verlet(), 0.1, counter_noise(1),
+                       {description, "BAB", "must have a letter O", "thermostat"}));
+    BOOST_TEST(refused(system, tabulated(verlet{}), 0.1, counter_noise(1),
+                       {description, "BAB", "must have a letter O"}));
+    BOOST_TEST(refused(system, verlet(), 0.1, no_noise(), {"must have a letter O"}));
   }
   BOOST_TEST(made(trivial, verlet(), 0.1));
   BOOST_TEST(made(trivial, tabulated(verlet{}), 0.1));

@@ -147,9 +147,9 @@ class ensemble_run {
     const auto count = static_cast<std::size_t>(std::max<std::int64_t>(count_, 0));
     if (saved.diverged_at.size() != count || saved.numbers.size() != each * count || saved.step < 0) {
       throw std::invalid_argument(
-          sentence("ensemble_run: {} numbers of {} trajectories at step {} were saved, and {} numbers of "
-                   "{} are needed",
-                   saved.numbers.size(), saved.diverged_at.size(), saved.step, each * count, count));
+          sentence("ensemble_run: saved runs must hold {} numbers of {} trajectories at a step >= 0, got {} "
+                   "numbers of {} at step {}",
+                   each * count, count, saved.numbers.size(), saved.diverged_at.size(), saved.step));
     }
     step_ = saved.step;
   }

@@ -139,10 +139,10 @@ inline run_time_word thermostatted(const run_time_word& w, placement where) {
     throw std::invalid_argument(sentence("thermostat: the word must have no letters O, got {}", letters));
   }
   if (w.is_processed()) {
-    throw std::invalid_argument(sentence(
-        "the word {} has a processor, which a bath cannot have: a kernel that is made for a processor "
-        "gives modes another temperature; take a word without one",
-        letters));
+    throw std::invalid_argument(
+        sentence("thermostat: the word in a bath must have no processor, got {}; take one without, as a "
+                 "kernel that is made for a processor gives modes another temperature",
+                 letters));
   }
   const std::string o(1, ornstein_uhlenbeck::letter);
   if (where == placement::end) return w.with_letters(letters + o);

@@ -103,14 +103,14 @@ class tuned_method {
   /// (to 1e-9 relative, as steps are typed in decimals) or for another system.
   void require_validity(const std::string& system, double step) const {
     if (std::abs(step - step_) > 1e-9 * std::abs(step_)) {
-      throw std::invalid_argument(
-          sentence("{} was learned at the step {} and cannot run at {}; learn it there, or use anywhere()",
-                   name(), step_, step));
+      throw std::invalid_argument(sentence(
+          "{} must run at the step {}, at which it was learned, got {}; learn it there, or use anywhere()",
+          name(), step_, step));
     }
     if (system != system_) {
       throw std::invalid_argument(
-          sentence("{} was learned for {} and cannot run {}; learn it there, or use anywhere()", name(),
-                   system_, system));
+          sentence("{} must run on {}, for which it was learned, got {}; learn it there, or use anywhere()",
+                   name(), system_, system));
     }
   }
 
@@ -135,8 +135,8 @@ stepper<S, typename M::word, double, Noise> make_stepper(const S& system, const 
   if (method.requires_quadratic_kinetic &&
       !has_quadratic_kinetic(system)) {  // known before only of a type-level method
     throw std::invalid_argument(
-        sentence("the order of {} needs a quadratic kinetic energy, but {} has one of its own", method.name(),
-                 describe(system)));
+        sentence("{}: the kinetic energy must be quadratic for the order of the method, got that of {}",
+                 method.name(), describe(system)));
   }
   return {system, word_of(method), method.coefficients(), step, noise};
 }

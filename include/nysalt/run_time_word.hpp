@@ -86,11 +86,11 @@ class run_time_word {
       const auto letters_of = [](splitting of_h) {
         return listed([=](auto flow) { return flow.splits == of_h; });
       };
-      throw std::invalid_argument(sentence(
-          "the word {} mixes letters: {} split H into K and V, and {} into its quadratic part and the "
-          "rest; take those of one splitting",
-          letters_, letters_of(splitting::kinetic_and_potential),
-          letters_of(splitting::quadratic_part_and_rest)));
+      throw std::invalid_argument(
+          sentence("the word {}: letters must be of one splitting, either {} of H into K and V or {} of H "
+                   "into its quadratic part and the rest",
+                   letters_, letters_of(splitting::kinetic_and_potential),
+                   letters_of(splitting::quadratic_part_and_rest)));
     }
     merges = length > 1 && letters_.front() == letters_[length - 1] && additive;
     merges_half_steps = length > 1 && is_of_bath.front() && is_of_bath.back();
@@ -175,18 +175,18 @@ class run_time_word {
     }
     if (!are_in_turn) {
       throw std::invalid_argument(
-          sentence("the word {} has the processor {}: its letters must be A and B in turn, as in BABA",
+          sentence("the word {}: the letters of its processor must be A and B in turn, as in BABA, got {}",
                    letters_, letters));
     }
     if (stochastic_letters > 0) {
-      throw std::invalid_argument(sentence(
-          "the word {} has letters O and a processor: a kernel that is made for a processor gives the "
-          "modes another temperature; leave one of them away",
-          letters_));
+      throw std::invalid_argument(
+          sentence("the word {} must not have both letters O and a processor; leave one of them away, as a "
+                   "kernel that is made for a processor gives the modes another temperature",
+                   letters_));
     }
     if (rotates_) {
       throw std::invalid_argument(sentence(
-          "the word {} has a processor: its kernel must be of the letters A, B, D and G, as the letters A "
+          "the word {}: the kernel of a processor must be of the letters A, B, D and G, as the letters A "
           "and B of a processor do not mix with R, S and H; take another kernel",
           letters_));
     }

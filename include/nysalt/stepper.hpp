@@ -321,13 +321,14 @@ class stepper {
     if constexpr (HasBath<S>) {
       if (stochastic_letters_ == 0) {
         throw std::invalid_argument(
-            sentence("the system is in a {}, but the word {} has no letter O: thermostat it, or step the "
-                     "system without bath",
+            sentence("the word for a system in a {} must have a letter O, got {}; thermostat the word, or "
+                     "step the system without bath",
                      system_->bath().description(), letters));
       }
       if (std::is_same_v<Noise, no_noise> && system_->bath().sigma() > 0.0) {
         throw std::invalid_argument(
-            sentence("the {} is noisy: give the stepper a source of noise, such as counter_noise(seed)",
+            sentence("the stepper must have a source of noise for the {}, got none; give one, such as "
+                     "counter_noise(seed)",
                      system_->bath().description()));
       }
     }

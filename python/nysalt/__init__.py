@@ -269,7 +269,8 @@ class Scheme(_FromFile):
     def save(self, path: Union[str, "_os.PathLike[str]"], *, force: bool = False) -> None:
         """Writes the scheme file, whole or not at all; one that is not usable only with force=True."""
         if not self.usable and not force:
-            raise ValueError(f"the fit is not usable: {self.reason}; force=True saves it all the same")
+            raise ValueError(f"cannot save the fit: it is not usable ({self.reason}); "
+                             "take force=True to save it all the same")
         _nysalt.save(_os.fspath(path), self._text)
 
 
@@ -324,7 +325,8 @@ def _held_by_name(given: Iterable[Method]) -> Tuple[List[Any], Dict[str, str]]:
         if not isinstance(one, _FromFile):
             continue
         if held.get(one.name, one._text) != one._text:
-            raise ValueError(f"two methods are named {one.name}: give one another name, scheme.name = ...")
+            raise ValueError(f"methods must have different names, got {one.name} twice; "
+                             "give one another name, scheme.name = ...")
         held[one.name] = one._text
     return [one.name if isinstance(one, _FromFile) else one for one in given], held
 
@@ -357,7 +359,7 @@ class Run:
 
     def __getitem__(self, observable: str) -> np.ndarray:
         if observable not in self.observables:
-            raise KeyError(f"{observable} was not sampled: {', '.join(self.observables)} were")
+            raise KeyError(f"unknown observable '{observable}': it is one of {', '.join(self.observables)}")
         return self.values[:, :, self.observables.index(observable)]
 
     def __repr__(self) -> str:

@@ -42,7 +42,7 @@ namespace {
 
 [[noreturn]] void failed_to_write(const std::filesystem::path& file) {
   throw write_failure(
-      fmt::format("cannot write {}: is the folder there, writable, and not full?", file.string()));
+      fmt::format("cannot write {}: the folder is not there, not writable, or full", file.string()));
 }
 
 /// Whether the name is still that of the open file.

@@ -93,8 +93,9 @@ std::int64_t follow_reference(const model& system, const initial_states& ensembl
     const std::size_t step = *lost[static_cast<std::size_t>(k)];
     const state last = std::as_const(data.finish)[data.first_of[place(k)] + step - 1];
     throw std::runtime_error(
-        fmt::format("flow_map_data: trajectory {} is not finite at step {} ({}): the reference ({}) diverged",
-                    number + k, step, not_finite_in(last), reference.description()));
+        fmt::format("flow_map_data: trajectory {} of the reference ({}) must be finite, got one that "
+                    "diverged at step {}: {}",
+                    number + k, reference.description(), step, not_finite_in(last)));
   }
   return evaluations;
 }
@@ -196,10 +197,10 @@ std::int64_t steps_of_each(const data_options& options, Eigen::Index dimension) 
   }
   const double steps = std::floor(options.horizon / options.step + 1e-9);
   if (!(steps >= 1.0) || options.trajectories < 1 || options.first < 0) {
-    throw std::invalid_argument(fmt::format(
-        "flow_map_data: {} trajectories from number {} over {} hold no step of {}; at least one of each is "
-        "needed",
-        options.trajectories, options.first, options.horizon, options.step));
+    throw std::invalid_argument(
+        fmt::format("flow_map_data: trajectories must be at least 1, first at least 0 and the horizon at "
+                    "least a step, got {} from number {} over {} with the step {}",
+                    options.trajectories, options.first, options.horizon, options.step));
   }
   if (options.noise_parts < 0) {
     throw std::invalid_argument(
@@ -207,9 +208,10 @@ std::int64_t steps_of_each(const data_options& options, Eigen::Index dimension) 
   }
   if (options.trajectories / options.ranks->size() >
       static_cast<std::int64_t>(numbers_in_memory / numbers_of_trajectory(options, steps, dimension))) {
-    throw std::invalid_argument(fmt::format(
-        "flow_map_data: {} trajectories of {} steps do not fit into memory; take fewer or a shorter horizon",
-        options.trajectories, steps));
+    throw std::invalid_argument(
+        fmt::format("flow_map_data: the data must fit into memory, got {} trajectories of {} steps; take "
+                    "fewer or a shorter horizon",
+                    options.trajectories, steps));
   }
   return static_cast<std::int64_t>(steps);
 }

@@ -141,7 +141,7 @@ run_time_family processed(const run_time_family& kernel, int pairs) {
   }
   if (!kernel.symmetric) {
     throw std::invalid_argument(
-        sentence("{}: the kernel of a processed word must be symmetric, and {} is not; take another family",
+        sentence("{}: the kernel of a processed word must be symmetric, got {}; take another family",
                  kernel.name, kernel.letters.letters()));
   }
   run_time_family result = kernel;

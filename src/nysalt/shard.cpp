@@ -25,8 +25,10 @@ std::int64_t shard::first_of(int rank) const {
 
 void shard::require_length(std::int64_t length, std::int64_t wanted) {
   if (length == wanted) return;
-  throw std::invalid_argument(fmt::format(
-      "shard: {} items, where there are {} trajectories; each rank brings its own to a sum", length, wanted));
+  throw std::invalid_argument(
+      fmt::format("shard: items must be as many as trajectories of the rank, which brings its own to a sum, "
+                  "got {} for {}",
+                  length, wanted));
 }
 
 }  // namespace nysalt

@@ -53,7 +53,7 @@ double parameter_values::real(std::string_view name) const { return as_real((*th
 
 void detail::refuse_bath(const std::string& system) {
   throw std::invalid_argument(
-      sentence("{}: a bath acts on systems whose kinetic energy is a sum of p_i^2/(2 m_i)", system));
+      sentence("{}: the kinetic energy must be a sum of p_i^2/(2 m_i) for a bath", system));
 }
 
 }  // namespace nysalt

@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_proposal_is_refused) {
   const trajectory_options options{.step = 0.01, .steps = 5, .trajectories = 3};
   const member<aba3_free> one_way(aba3_free::start());
   BOOST_TEST(refuses<refusal>([&] { acceptance(chain, one_way, law, options); },
-                              {"aba3_free", "not reversible", "symmetric"}));
+                              {"aba3_free", "must be reversible", "symmetric"}));
   const in_bath<fpu_chain<3>> warm(chain, bath::of_temperature(1.0, 1.0));
   BOOST_TEST(refuses<refusal>([&] { acceptance(warm, verlet(), law, options); }, {"bath"}));
   const in_bath<fpu_chain<3>> at_rest(chain, bath::of_sigma(0.0, 0.0));
@@ -195,5 +195,5 @@ BOOST_AUTO_TEST_CASE(what_is_no_proposal_is_refused) {
                                 {"kT", "positive"}));
   }
   BOOST_TEST(refuses<refusal>([&] { acceptance(chain, verlet(), law, {.step = 0.01, .steps = 0}); },
-                              {"0 steps", "at least one"}));
+                              {"0 steps", "at least 1"}));
 }

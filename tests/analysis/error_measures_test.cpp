@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(the_relative_error_is_relative_to_the_observable_at_each_ti
   BOOST_TEST(error_of(position, at(1.25, 7.0), at(1.0, 2.0)) == 0.0625);
   BOOST_TEST(error_of(position, at(-2.0, 0.0), at(-1.0, 0.0)) == 1.0);
   BOOST_TEST(error_of(position, at(1.0, 7.0), at(1.0, 2.0)) == 0.0);
-  BOOST_TEST(has_no_scale(position, at(0.0, 1.0), {"relative error", "which is 0", "another observable"}));
+  BOOST_TEST(has_no_scale(position, at(0.0, 1.0), {"relative error", "must not be 0", "another observable"}));
   BOOST_TEST(!has_no_scale(position, at(-1.0, 0.0), {}));
 }
 

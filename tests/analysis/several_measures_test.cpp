@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(a_measure_in_trouble_is_named) {
   };
   BOOST_CHECK_NO_THROW(judge(energy_measure(chain)));
   const auto nothing = path_measure(chain, [](const state&) { return 0.0; });
-  BOOST_TEST(refuses<std::invalid_argument>([&] { judge(nothing); }, {"path error", "which is 0"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { judge(nothing); }, {"path error", "must not be 0"}));
   const auto no_number = path_measure(chain, [](const state&) { return NAN; });
   BOOST_TEST(
       refuses<std::runtime_error>([&] { judge(no_number); }, {"trajectory 0 ", "path error", "step 1"}));

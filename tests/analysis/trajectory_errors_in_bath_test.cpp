@@ -225,8 +225,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
   BOOST_TEST(refused(all, 0.06, {"0.12 in the 6 equal parts", "fine step 0.06"}));
   BOOST_TEST(refused({by_thirds}, 0.03, {"0.12 in the 3 equal parts", "fine step 0.03"}));
   BOOST_TEST(!refused({by_baoab, by_halves}, 0.06, {}));
-  BOOST_TEST(refused({by_baoab, tabulated(verlet())}, 0.06, {"BAB has no letter O"}));
-  BOOST_TEST(refused({tabulated(verlet())}, 0.06, {"BAB has no letter O"}));
+  BOOST_TEST(refused({by_baoab, tabulated(verlet())}, 0.06, {"must have a letter O, got BAB"}));
+  BOOST_TEST(refused({tabulated(verlet())}, 0.06, {"must have a letter O, got BAB"}));
   const tabulated half("half", run_time_word("ABOBA"), {0.5, 0.5, 0.5, 0.5, 0.5}, {});
   BOOST_TEST(refused({half}, 0.06, {"ABOBA must cover one step", "got 0.5"}));
   const tabulated back("back", run_time_word("OABOBAO"), {1.0, 0.5, 0.5, -1.0, 0.5, 0.5, 1.0}, {});

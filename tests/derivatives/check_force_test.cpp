@@ -357,7 +357,7 @@ BOOST_AUTO_TEST_CASE(there_must_be_points_and_they_must_fit) {
       refuses<wrong>([] { check_force(twisted{1.0}, {}); }, {"check_force", "points must be one or more"}));
   const std::vector<Eigen::VectorXd> points{Eigen::VectorXd::Ones(3), Eigen::VectorXd::Ones(2)};
   BOOST_TEST(refuses<wrong>([&] { check_force(dynamic_potential(), points); },
-                            {"point 2 has 2 coordinates, the system 3"}));
+                            {"point 2 must have 3 coordinates", "got 2"}));
   const vector<double, 2> q(0.1, 0.2);
   BOOST_TEST(refuses<wrong>([&] { check_force(twisted(), {q, q}, {q}); }, {"2 points with 1 momenta"}));
 }

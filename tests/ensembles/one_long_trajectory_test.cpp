@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   BOOST_TEST(refused({.most_states = 100'001}));
   BOOST_TEST(refuses<wrong>(
       [] { one_long_trajectory(in_a_bath, law, {.length = 0.1, .burn_in = 0.09, .step = 0.04}); },
-      {"leaves no state"}));
+      {"must leave a state"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_trajectory_that_diverges_is_refused) {

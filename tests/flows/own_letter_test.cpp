@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(what_a_file_states_of_a_letter_is_read_and_not_stepped) {
   BOOST_TEST(word.merges);
   const tabulated method("stated", word, std::vector<double>{0.3, 0.5, 0.4, 0.5, 0.3}, {2, true, false});
   BOOST_TEST(refuses<std::invalid_argument>([&] { make_stepper(system, method, 0.1); },
-                                            {"of henon_heiles() is known by name only"}));
+                                            {"of henon_heiles() must come with the system"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_bound_word_steps_its_system_alone) {
@@ -197,9 +197,9 @@ struct other_drift : my_drift {};
 
 BOOST_AUTO_TEST_CASE(two_letters_of_one_name_are_refused) {
   using W = word<my_drift, my_kick, other_drift>;
-  BOOST_TEST(refuses<std::invalid_argument>(
-      [] { run_time_word(W{}, henon_heiles()); },
-      {"the word aba has two letters of one's own that are named a; name one of them otherwise"}));
+  BOOST_TEST(refuses<std::invalid_argument>([] { run_time_word(W{}, henon_heiles()); },
+                                            {"the word aba: letters of one's own must have different names, "
+                                             "got a twice; name one of them otherwise"}));
 }
 
 BOOST_AUTO_TEST_CASE(its_action_on_an_oscillator_is_not_guessed) {

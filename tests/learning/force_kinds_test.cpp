@@ -115,8 +115,9 @@ BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused_unless_asked_otherwise) 
   const auto fit = [&](const learn_options<nystrom>& options) {
     return learn(nystrom{}, wrong, data, data_of(2), options);
   };
-  BOOST_TEST(refuses<std::invalid_argument>([&] { fit({}); }, {"learn:", "force_derivative is not f'(q) v",
-                                                               "1.0", "a pendulum", "check_force = false"}));
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] { fit({}); },
+      {"cannot learn on", "force_derivative is not f'(q) v", "1.0", "a pendulum", "check_force = false"}));
   BOOST_TEST(fit({.check_force = false}).summary.usable);
   wrong.strength = 1.0;
   BOOST_TEST(fit({}).summary.usable);

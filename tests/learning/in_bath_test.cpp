@@ -157,8 +157,8 @@ BOOST_AUTO_TEST_CASE(data_that_do_not_fit_the_bath_are_refused) {
   auto without = sets;
   without.held_out.noise.clear();
   without.held_out.noise_parts = 0;
-  BOOST_TEST(refuses<wrong>([&] { fit_to(without); }, {"in 0 parts", "noise_parts = 2"}));
+  BOOST_TEST(refuses<wrong>([&] { fit_to(without); }, {"got 0", "noise_parts = 2"}));
   without.data.noise.clear();
   without.data.noise_parts = 0;
-  BOOST_TEST(refuses<wrong>([&] { fit_to(without); }, {"in 0 parts", "noise_parts = 2"}));
+  BOOST_TEST(refuses<wrong>([&] { fit_to(without); }, {"got 0", "noise_parts = 2"}));
 }

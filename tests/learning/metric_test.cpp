@@ -138,12 +138,12 @@ BOOST_AUTO_TEST_CASE(coordinates_that_do_not_exist_are_refused) {
       make_flow_map_data(swing, swings, fine_steps<>(0.01), {.step = 0.1, .trajectories = 2});
   for (const auto which : {coordinates::modes, coordinates::energy}) {
     BOOST_TEST(refuses<wrong>([&] { metric(swing, of_swing, which); },
-                              {to_string(which), "pendulum()", "no modes()", "use qp"}));
+                              {to_string(which), "pendulum()", "must have modes()", "use qp"}));
   }
   const listed<1> at_rest({{vector<double, 1>(0.0), vector<double, 1>(0.0)}});
   const auto of_nothing =
       make_flow_map_data(swing, at_rest, fine_steps<>(0.01), {.step = 0.1, .trajectories = 1});
-  BOOST_TEST(refuses<wrong>([&] { metric(swing, of_nothing, coordinates::qp); }, {"nothing moves"}));
+  BOOST_TEST(refuses<wrong>([&] { metric(swing, of_nothing, coordinates::qp); }, {"must hold motion"}));
 }
 
 BOOST_AUTO_TEST_CASE(motion_below_rounding_is_none) {

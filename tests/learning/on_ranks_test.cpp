@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(an_own_loss_that_throws_on_one_rank_throws_on_all) {
 
 BOOST_AUTO_TEST_CASE(bad_data_on_one_rank_are_refused_on_all) {
   const std::string words =
-      "the data hold what is not finite: p1 is nan in the finish of pair 352, in trajectory 70";
+      "learn: the finish of pair 352 of the data, in trajectory 70, must be finite: p1 is nan";
   std::mutex guard;
   int refused = 0;
   run_ranks(3, [&](const thread_communicator& ours) {

@@ -190,7 +190,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
     return refuses<wrong>([&] { make_learning_problem(family, galaxy, data, data, options, loss); }, words);
   };
   BOOST_TEST(!refused({}, {}));
-  BOOST_TEST(refused({.loss = loss_named("energy:6")}, {"energy:6", "my state:3", "one loss"}));
+  BOOST_TEST(refused({.loss = loss_named("energy:6")}, {"energy:6", "my state:3", "must be one"}));
   BOOST_TEST(refused({.loss = loss_named("covariance")}, {"covariance", "my state:3"}));
   for (const char* name : {"", "state", "energy", "covariance", "two\nlines"}) {
     loss.name = name;

@@ -312,7 +312,8 @@ BOOST_AUTO_TEST_CASE(without_states_rotations_are_not_watched) {
   BOOST_TEST(guard.admits(impulse, halves, 3.0));
   BOOST_TEST(!guard.admits(verlet_word, verlet_coefficients, 3.0));
   BOOST_TEST(refuses<std::invalid_argument>(
-      [&] { stability_guard(potential_only(), std::vector<phase_point<double, 2>>()); }, {"no states"}));
+      [&] { stability_guard(potential_only(), std::vector<phase_point<double, 2>>()); },
+      {"or states given"}));
 }
 
 // Steps of words without rotations are bounded by the stiff springs all the same.

@@ -207,5 +207,5 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_learned_is_refused_with_the_reason) {
   const listed<dynamic> at_rest({{Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)}});
   const auto nothing =
       make_flow_map_data(oscillator, at_rest, exact_linear(oscillator), {.step = 0.5, .trajectories = 1});
-  BOOST_TEST(refused(oscillator, nothing, nothing, {}, {"nothing moves"}));
+  BOOST_TEST(refused(oscillator, nothing, nothing, {}, {"must hold motion"}));
 }

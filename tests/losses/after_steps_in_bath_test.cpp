@@ -211,13 +211,14 @@ BOOST_AUTO_TEST_CASE(data_without_the_noise_that_is_needed_are_refused) {
   auto without = made<symmetric>(2);
   without.noise.clear();
   without.noise_parts = 0;
-  BOOST_TEST(refused(without, symmetric(), {"in 0 parts", "OABABAO needs it in 2", "noise_parts = 2"}));
-  BOOST_TEST(refused(without, family<placement::end>(), {"in 0 parts", "ABABAO needs it in 1"}));
+  BOOST_TEST(
+      refused(without, symmetric(), {"a multiple of 2 for the word OABABAO", "got 0", "noise_parts = 2"}));
+  BOOST_TEST(refused(without, family<placement::end>(), {"a multiple of 1 for the word ABABAO", "got 0"}));
   const auto thirds = made<family<placement::end>>(3);
-  BOOST_TEST(refused(thirds, symmetric(), {"in 3 parts", "noise_parts = 2"}));
+  BOOST_TEST(refused(thirds, symmetric(), {"got 3", "noise_parts = 2"}));
   BOOST_TEST(!refused(thirds, family<placement::middle>(), {}));
-  BOOST_TEST(refused(made<family<placement::end>>(1), symmetric(), {"in 1 parts", "noise_parts = 2"}));
-  BOOST_TEST(refused(made<symmetric>(2), nystrom(), {"no letter O"}));
+  BOOST_TEST(refused(made<family<placement::end>>(1), symmetric(), {"got 1", "noise_parts = 2"}));
+  BOOST_TEST(refused(made<symmetric>(2), nystrom(), {"must have a letter O"}));
 }
 
 BOOST_AUTO_TEST_CASE(without_sigma_no_noise_is_needed) {

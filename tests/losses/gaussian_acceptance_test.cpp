@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(bands_count_where_there_are_no_modes) {
 BOOST_AUTO_TEST_CASE(what_has_no_spectrum_or_no_plain_word_is_refused) {
   using wrong = std::invalid_argument;
   const linear_chain chain = linear_chain::between_walls(3, 3.0);
-  BOOST_TEST(refuses<wrong>([] { loss_of(bab<3>{}, kepler(), 0.1); }, {"declares none"}));
+  BOOST_TEST(refuses<wrong>([] { loss_of(bab<3>{}, kepler(), 0.1); }, {"must declare frequencies"}));
   BOOST_TEST(refuses<wrong>([&] { loss_of(aba3_free{}, chain, 0.1); }, {"must be symmetric"}));
   BOOST_TEST(refuses<wrong>([&] { loss_of(r_aba<2>{}, chain, 0.1); }, {"must be symmetric"}));
   BOOST_TEST(std::isfinite(loss_of(fd_chin{}, chain, 0.1)(Eigen::Vector2d(1.0 / 6.0, 1.0 / 24.0)).value));

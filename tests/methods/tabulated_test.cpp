@@ -54,7 +54,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   // The order of srkn11b needs a quadratic kinetic energy; as data it can only say so when it is run.
   const auto fast = a_fast_one::make();
   const tabulated needs_quadratic(srkn11b{});
-  BOOST_TEST(refuses<error>([&] { make_stepper(fast, needs_quadratic, 0.1); }, {"quadratic kinetic energy"}));
+  BOOST_TEST(refuses<error>([&] { make_stepper(fast, needs_quadratic, 0.1); },
+                            {"kinetic energy must be quadratic"}));
   BOOST_CHECK_NO_THROW(make_stepper(fast, tabulated(srkn6b{}), 0.1));
   std::string letters;
   for (int n = 0; n < 65; ++n) letters += "BA";

@@ -108,12 +108,12 @@ def test_what_a_function_raises_comes_through(after):
 
 
 @pytest.mark.parametrize("trouble, sentence", [
-    (lambda q: [1.0, 2.0, 3.0], r"force\(q\) must have the shape \(2,\), it has \(3,\)"),
-    (lambda q: 1.0, r"force\(q\) must have the shape \(2,\), it has \(\)"),
-    (lambda q: None, r"force\(q\) returned None: does it lack a return\?"),
-    (lambda q: "two numbers", r"force\(q\) must hold real numbers, it holds text"),
-    (lambda q: (-q - [2 * q[0] * q[1], q[0]**2 - q[1]**2]) + 1j, "must hold real numbers, it holds complex ones"),
-    (lambda q: [None, 1.0], "must hold real numbers, it holds objects"),
+    (lambda q: [1.0, 2.0, 3.0], r"force\(q\) must have the shape \(2,\), got \(3,\)"),
+    (lambda q: 1.0, r"force\(q\) must have the shape \(2,\), got \(\)"),
+    (lambda q: None, r"force\(q\) must return numbers, got None; end it with a return"),
+    (lambda q: "two numbers", r"force\(q\) must hold real numbers, got text"),
+    (lambda q: (-q - [2 * q[0] * q[1], q[0]**2 - q[1]**2]) + 1j, "must hold real numbers, got complex ones"),
+    (lambda q: [None, 1.0], "must hold real numbers, got objects"),
     (lambda q: q, "the force is not -grad V: coordinate [12] is off"),
 ])
 def test_what_is_no_force_is_told_in_a_sentence(trouble, sentence):
@@ -123,11 +123,11 @@ def test_what_is_no_force_is_told_in_a_sentence(trouble, sentence):
 
 
 @pytest.mark.parametrize("change, sentence", [
-    (dict(potential=lambda q: "deep"), r"potential\(q\) must hold real numbers, it holds text"),
-    (dict(potential=lambda q: q @ q + 1j), r"potential\(q\) must hold real numbers, it holds complex ones"),
-    (dict(potential=lambda q: None), r"potential\(q\) returned None: does it lack a return\?"),
-    (dict(potential=lambda q: 0.5 * q**2), r"potential\(q\) must be one number, it has the shape \(2,\)"),
-    (dict(starts=lambda seed, n: ([0.1], [0.0, 0.0])), r"q of starts\(seed, n\) must have the shape \(2,\), it has \(1,\)"),
+    (dict(potential=lambda q: "deep"), r"potential\(q\) must hold real numbers, got text"),
+    (dict(potential=lambda q: q @ q + 1j), r"potential\(q\) must hold real numbers, got complex ones"),
+    (dict(potential=lambda q: None), r"potential\(q\) must return a number, got None; end it with a return"),
+    (dict(potential=lambda q: 0.5 * q**2), r"potential\(q\) must be one number, got the shape \(2,\)"),
+    (dict(starts=lambda seed, n: ([0.1], [0.0, 0.0])), r"q of starts\(seed, n\) must have the shape \(2,\), got \(1,\)"),
     (dict(starts=lambda seed, n: 1), r"starts\(seed, n\) must be a pair \(q, p\), got 1"),
     (dict(starts=lambda seed, n: ([np.nan, 0.1], [0.0, 0.0])), "q1 is nan"),
     (dict(force=3), "force must be a function, got 3"),
@@ -138,7 +138,7 @@ def test_what_is_no_force_is_told_in_a_sentence(trouble, sentence):
     (dict(dimension=2**62), "dimension must be at most 10000000, .*, got 4611686018427387904"),
     (dict(dimension=10**30), "dimension must be a whole number that can be counted"),
     (dict(friction=0.1), "friction needs sigma or temperature"),
-    (dict(name=""), "a Hamiltonian needs a name"),
+    (dict(name=""), "a Hamiltonian must have a name"),
     (dict(name="two\nlines"), r"must be one line that can be printed, got 'two\\nlines'"),
     (dict(name="a\x1b[2J"), "must be one line that can be printed"),
 ])

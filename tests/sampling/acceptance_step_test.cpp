@@ -152,12 +152,13 @@ BOOST_AUTO_TEST_CASE(proposals_that_cannot_be_are_refused) {
   BOOST_TEST(refuses<wrong>([&] { at({.length = 1.0}, 1e-9); }, {"at most 1", "take a larger step"}));
   BOOST_TEST(refuses<wrong>([&] { at({.length = 1.0}, -0.1); }, {"step must be positive"}));
   const tabulated one_way("one way", run_time_word("AB"), {1.0, 1.0}, {1, false, false});
-  BOOST_TEST(refuses<wrong>([&] { step_of(one_way, 0.9, 0.1, {.length = 1.0}); }, {"not reversible"}));
+  BOOST_TEST(refuses<wrong>([&] { step_of(one_way, 0.9, 0.1, {.length = 1.0}); }, {"must be reversible"}));
   for (const double acceptance : {0.0, 1.0}) {
     BOOST_TEST(
         refuses<wrong>([&] { step_of(method, acceptance, 0.1, {.length = 1.0}); }, {"between 0 and 1"}));
   }
   // No word of wrong order keeps the energy of a part of 1e30.
-  BOOST_TEST(refuses<std::runtime_error>(
-      [&] { step_of(method, 0.9, 1.0, {.length = 5.0, .times_larger = 1e30}); }, {"no step down to"}));
+  BOOST_TEST(
+      refuses<std::runtime_error>([&] { step_of(method, 0.9, 1.0, {.length = 5.0, .times_larger = 1e30}); },
+                                  {"must be one that a step down to"}));
 }

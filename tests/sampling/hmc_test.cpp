@@ -169,7 +169,7 @@ BOOST_AUTO_TEST_CASE(a_coordinate_that_does_not_vary_has_no_mass) {
   const normal_around<1> at_one({vector<double, 1>(1.0), vector<double, 1>(0.0)}, 0.0, 1.0);
   BOOST_TEST(refuses<std::runtime_error>(
       [&] { hmc(harmonic_oscillator(1.0), tabulated(verlet{}), at_one, options, [](const hmc_draw&) {}); },
-      {"coordinate 1 did not vary", "diagonal_masses"}));
+      {"coordinate 1 must vary", "diagonal_masses"}));
 }
 
 BOOST_AUTO_TEST_CASE(diagonal_masses_are_found_and_the_law_stays) {
@@ -208,7 +208,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_sampled_is_refused) {
                           });
   };
   const tabulated one_way("one way", run_time_word("AB"), {1.0, 1.0}, {1, false, false});
-  refused(spring, one_way, sound, "not reversible");
+  refused(spring, one_way, sound, "must be reversible");
   auto options = sound;
   options.step = 0.0;
   refused(spring, tabulated(verlet{}), options, "step must be positive");

@@ -189,6 +189,7 @@ def kind_of(reason):
                         ("reference's own error", "the reference's own error is not small"),
                         ("needs a", "the system does not serve the letters"),
                         ("need a", "the system does not serve the letters"),
+                        ("must be quadratic", "the system does not serve the letters"),
                         ("ran away", "a parameter ran away")):
         if words in reason:
             return kind

@@ -79,7 +79,8 @@ own_letters bound_letters(const S& system) {
         if (result[k]->facts.letter != L::letter) continue;
         if (*types[k] == typeid(L)) return;
         throw std::invalid_argument(
-            sentence("the word {} has two letters of one's own that are named {}; name one of them otherwise",
+            sentence("the word {}: letters of one's own must have different names, got {} twice; name one of "
+                     "them otherwise",
                      W::letters(), L::letter));
       }
       types.push_back(&typeid(L));

@@ -64,7 +64,8 @@ class stated_letter final : public own_letter {
  private:
   [[noreturn]] void refuse() const {
     throw std::invalid_argument(
-        sentence("the letter {} of {} is known by name only: name the system", facts.letter, system));
+        sentence("the letter {} of {} must come with the system, got its name only; name the system",
+                 facts.letter, system));
   }
 };
 

@@ -44,7 +44,8 @@ inline noise_intervals intervals_of_noise(std::string_view letters, const std::v
   for (const double c : coefficients) {
     if (c < 0.0) {
       throw std::invalid_argument(sentence(
-          "coefficients of letters O must be >= 0, as noise goes forward in time; {} has {}", letters, c));
+          "the word {}: coefficients of letters O must be >= 0, as noise goes forward in time, got {}",
+          letters, c));
     }
     ends.push_back(ends.back() + c);
   }

@@ -149,10 +149,10 @@ class prepared_word<run_time_word, C, N> {
         own_.push_back(own->prepare(c, h));
         return result;
       } else {
-        throw std::invalid_argument(sentence(
-            "the word {} has letters of one's own: as data it has no such derivatives; take the word by its "
-            "type",
-            w.letters()));
+        throw std::invalid_argument(
+            sentence("the word {} as data must have no letters of one's own for such derivatives; take the "
+                     "word by its type",
+                     w.letters()));
       }
     }
     detail::with_letter(w.letters()[i], known_letters{}, [&](auto flow) {
@@ -256,7 +256,7 @@ class prepared_word<run_time_word, C, N> {
       }
     }
     throw std::invalid_argument(
-        "a word as data does not carry letters of one's own over this scalar; take the word by its type");
+        "a word as data must have no letters of one's own over this scalar; take the word by its type");
   }
   void apply_known(const auto& system, const letter& one, auto& x, auto& cursor) const {
     if (is_own(one)) return apply_own(one.number, x, cursor.room);

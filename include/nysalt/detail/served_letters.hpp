@@ -68,7 +68,7 @@ void require_served(const W& word, const S& system) {
           if constexpr (ErasedSystem<S>) is_served = system.facts().template serves<T>(letter);
           if (!is_served) {
             throw std::invalid_argument(
-                sentence("the word {} cannot step {}: {}", word.letters(), describe(system), L::needs));
+                sentence("cannot step {} by the word {}: {}", describe(system), word.letters(), L::needs));
           }
         }
       });

@@ -27,10 +27,10 @@ void step_on_oscillator(const run_time_word& word, const std::vector<double>& co
       }
     });
     if (!is_known) {
-      throw std::invalid_argument(sentence(
-          "the word {} has the letter {}, whose action on an oscillator is not known: its stability is "
-          "examined by trial runs",
-          word.letters(), word.letters()[i]));
+      throw std::invalid_argument(
+          sentence("the word {} must have letters whose action on an oscillator is known, got {}; examine "
+                   "its stability by trial runs",
+                   word.letters(), word.letters()[i]));
     }
   }
 }

@@ -43,7 +43,8 @@ struct ornstein_uhlenbeck {
     const C time = c * h;
     if (heat_bath.sigma() > 0.0 && any(time < C(0.0))) {
       throw std::invalid_argument(sentence(
-          "a letter O cannot go back in time: its coefficient and the step ({}) must have the same sign", h));
+          "a letter O: its coefficient must have the sign of the step, {}, as noise must not go back in time",
+          h));
     }
     return {heat_bath.decay(time), heat_bath.deviation(time)};
   }

@@ -42,11 +42,10 @@ tuned_method<F> at_size_of(const S& system, const tuned_method<F>& learned, cons
   if (describe(system) == learned.system()) return learned;
   const auto refuse = [&](const std::string& why) {
     throw std::invalid_argument(
-        sentence("{} was learned for {} and cannot run {}: {}; learn it there, or use "
-                 "anywhere()",
+        sentence("{} must run on {}, for which it was learned, got {}: {}; learn it there, or use anywhere()",
                  learned.name(), learned.system(), describe(system), why));
   };
-  if (learned.kind().empty() || learned.kind() != kind_of(system)) refuse("they are not of one kind");
+  if (learned.kind().empty() || learned.kind() != kind_of(system)) refuse("the systems are not of one kind");
   const size_trial tried = try_at_size(model(system), tabulated(learned.anywhere()), learned.step(),
                                        initial_states(starts), options);
   if (!tried.passed()) refuse(tried.objection);

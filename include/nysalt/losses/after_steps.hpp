@@ -270,9 +270,9 @@ class after_steps {
     const auto needed = intervals_of_noise(word, family_.coefficients(family_.starts.front().theta));
     if (data.noise_parts == 0 || data.noise_parts % needed.parts != 0) {
       throw std::invalid_argument(
-          sentence("the data hold the noise of a step in {} parts, but the word {} needs it in {} or a "
-                   "multiple: make them with noise_parts = {}",
-                   data.noise_parts, word.letters(), needed.parts, needed.parts));
+          sentence("noise_parts of the data must be a multiple of {} for the word {}, got {}; make the data "
+                   "with noise_parts = {}",
+                   needed.parts, word.letters(), data.noise_parts, needed.parts));
     }
     return {needed.in_parts(data.noise_parts), in.friction() * data.step / data.noise_parts};
   }

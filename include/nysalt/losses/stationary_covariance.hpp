@@ -74,7 +74,7 @@ class stationary_covariance {
     }
     if (multiplicity_of_.empty()) {
       throw std::invalid_argument(sentence(
-          "covariance loss: {} must have a mode of a frequency above 0, and has none", describe(system)));
+          "covariance loss: {} must have a mode of a frequency above 0, got none", describe(system)));
     }
     require_served<S, double>(word, system);
     split_at_bath();

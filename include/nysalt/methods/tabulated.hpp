@@ -44,7 +44,7 @@ class tabulated : public method_properties {
     for (std::size_t i = 0; i < coefficients_.size(); ++i) {
       if (std::isfinite(coefficients_[i])) continue;
       throw std::invalid_argument(
-          sentence("{}: coefficient {} is {}, it must be finite", name_, i + 1, coefficients_[i]));
+          sentence("{}: coefficient {} must be finite, got {}", name_, i + 1, coefficients_[i]));
     }
   }
 

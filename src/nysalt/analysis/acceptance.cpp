@@ -37,10 +37,10 @@ void require_even_kinetic(const model& system, const Eigen::VectorXd& p, std::in
     is_even = is_even && std::abs(k - kinetic_energy<double>(system, back)) <= rounding * std::abs(k);
   }
   if (is_even) return;
-  throw std::invalid_argument(sentence(
-      "acceptance: the kinetic energy must be even, K(-p) = K(p), and at initial state {} is not; take a K "
-      "that is even, or Hybrid Monte Carlo samples another distribution",
-      m));
+  throw std::invalid_argument(
+      sentence("acceptance: the kinetic energy must be even, K(-p) = K(p), got another at initial state {}; "
+               "take a K that is even, or Hybrid Monte Carlo samples another distribution",
+               m));
 }
 
 }  // namespace

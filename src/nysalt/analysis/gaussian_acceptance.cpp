@@ -29,7 +29,8 @@ double energy_error_at(double acceptance) {
 double gaussian_energy_error(const tabulated& method, std::span<const double> frequencies, double step) {
   if (!method.symmetric) {
     throw std::invalid_argument(
-        sentence("gaussian_energy_error: {} is not reversible; take a symmetric method", method.name()));
+        sentence("gaussian_energy_error: the method must be reversible, got {}; take a symmetric method",
+                 method.name()));
   }
   const auto coefficients = method.coefficients();
   double sum = 0.0;
@@ -45,7 +46,7 @@ double gaussian_step(const tabulated& method, std::span<const double> frequencie
   const double most = energy_error_at(acceptance);
   const double fastest = frequencies.empty() ? 0.0 : *std::ranges::max_element(frequencies);
   if (!(fastest > 0.0)) {
-    throw std::invalid_argument("gaussian_step: a frequency must be positive, and none is");
+    throw std::invalid_argument("gaussian_step: a frequency must be positive, got none");
   }
   const auto holds = [&](double step) { return gaussian_energy_error(method, frequencies, step) <= most; };
   constexpr double growth = 1.02;
@@ -55,8 +56,9 @@ double gaussian_step(const tabulated& method, std::span<const double> frequencie
     low /= growth;
     if (low >= least) continue;
     throw std::invalid_argument(
-        sentence("gaussian_step: no step of {} down to {} is accepted with the probability {}", method.name(),
-                 least, acceptance));
+        sentence("gaussian_step: the acceptance must be one that {} reaches at a step down to {}, got {}; "
+                 "ask for a lower acceptance",
+                 method.name(), least, acceptance));
   }
   while (holds(growth * low)) low *= growth;
   double high = growth * low;

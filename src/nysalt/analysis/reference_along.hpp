@@ -77,10 +77,10 @@ class reference_along {
       if (!first_failure) continue;
       const auto& measure = (*measures_)[first_failure->measure];
       if (first_failure->without_scale) throw std::invalid_argument(measure.no_scale);
-      throw std::runtime_error(sentence(
-          "trajectory {} of the reference ({}), or what the {} error reads of it, is not finite at step {}; "
-          "take other starts, a finer reference or a shorter horizon",
-          first + k, reference_->description(), measure.name, first_failure->step));
+      throw std::runtime_error(
+          sentence("trajectory {} of the reference ({}), and what the {} error reads of it, must be finite, "
+                   "got another number at step {}; take other starts, a finer reference or a shorter horizon",
+                   first + k, reference_->description(), measure.name, first_failure->step));
     }
   }
 

@@ -43,10 +43,9 @@ void require_measurable(const model& system, std::span<const error_measure> meas
   for (const error_measure& measure : measures) {
     if (measure.dimension == 0 || measure.dimension == system.size()) continue;
     throw std::invalid_argument(
-        sentence("trajectory_errors: the {} error is of systems of {} degrees of freedom, and {} has {}; "
-                 "make the measure of "
-                 "the system that is stepped",
-                 measure.name, measure.dimension, describe(system), system.size()));
+        sentence("trajectory_errors: the {} error must be of systems of {} degrees of freedom, as {} has, "
+                 "got {}; make the measure of the system that is stepped",
+                 measure.name, system.size(), describe(system), measure.dimension));
   }
 }
 

@@ -232,13 +232,15 @@ force_check check_force(const model& system, const std::vector<Eigen::VectorXd>&
   for (std::size_t m = 0; m < points.size(); ++m) {
     for (const auto* x : {&points[m], &momenta[m]}) {
       if (x->size() == size(system)) continue;
-      throw std::invalid_argument(sentence("check_force: point {} has {} coordinates, the system {}", m + 1,
-                                           x->size(), size(system)));
+      throw std::invalid_argument(
+          sentence("check_force: point {} must have {} coordinates, as the system has, got {}", m + 1,
+                   size(system), x->size()));
     }
   }
   if (!seen.empty() && seen.dimension() != size(system)) {
     throw std::invalid_argument(
-        sentence("check_force: a state has {} coordinates, the system {}", seen.dimension(), size(system)));
+        sentence("check_force: a state must have {} coordinates, as the system has, got {}", size(system),
+                 seen.dimension()));
   }
   std::vector<Eigen::VectorXd> places = points;
   std::vector<Eigen::VectorXd> all_momenta = momenta;

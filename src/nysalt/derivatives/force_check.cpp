@@ -19,7 +19,7 @@ std::string force_check::report() const {
   if (passed()) return fmt::format("the force is {}", has_potential ? "-grad V" : "conservative");
   if (!passes_beside) return objection();
   return objection() +
-         "; a little beside these points nothing is wrong: is there a kink or a pole at one of them?";
+         "; a little beside these points nothing is wrong, as where there is a kink or a pole at one of them";
 }
 
 std::string force_check::objection() const {

@@ -225,9 +225,10 @@ std::vector<piece_end> pieces_of(const trace_of_word& trace, std::size_t degree,
 
 stability_chart chart_stability(const run_time_word& word, const std::vector<double>& coefficients) {
   if (has_rotation(word)) {
-    throw std::invalid_argument(fmt::format(
-        "the word {} is exact on the oscillator at any step: only its soft part can make it unstable",
-        word.letters()));
+    throw std::invalid_argument(
+        fmt::format("stability: the word must have no letters R, S or H, got {}, which is exact on the "
+                    "oscillator at any step and which only its soft part can make unstable",
+                    word.letters()));
   }
   if (word.evaluations_of_plain_step > most_evaluations) {
     throw std::invalid_argument(fmt::format("stability: evaluations of the word must be <= {}, got {}",

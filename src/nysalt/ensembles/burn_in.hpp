@@ -78,7 +78,7 @@ class burn_in_search {
       if (interval.duration > 32.0 * most) return std::nullopt;
     }
     throw std::runtime_error(
-        sentence("gibbs: no stationary state of {} within {} steps of {} with the friction {}: give another "
+        sentence("gibbs: {} must become stationary within {} steps of {} with the friction {}; give another "
                  "friction or more steps",
                  describe(*base_), options_.most_steps, in_digits(step, 6), in_digits(friction, 6)));
   }
@@ -121,8 +121,9 @@ class burn_in_search {
       if (report.halvings == most_halvings) throw;
     }
     if (report.halvings < most_halvings) return false;
-    throw std::runtime_error(sentence("gibbs: even the step {} has a bias that shows; give a smaller one",
-                                      in_digits(report.step, 6)));
+    throw std::runtime_error(
+        sentence("gibbs: the step must have no bias that shows, got {}; give a smaller one",
+                 in_digits(report.step, 6)));
   }
 
   static bool counts(const burn_in_report& report, std::size_t i) {
@@ -143,8 +144,8 @@ class burn_in_search {
         report.excess[i].mean -= 1.0;
       }
       if (!counts(report, i)) continue;
-      detail::refuse_discrepancy(report.excess[i], i, "is not that of equipartition", report);
-      detail::refuse_discrepancy(report.to_forget[i], i, "still changes afterwards", report);
+      detail::refuse_discrepancy(report.excess[i], i, "be that of equipartition", report);
+      detail::refuse_discrepancy(report.to_forget[i], i, "not change afterwards", report);
     }
   }
 

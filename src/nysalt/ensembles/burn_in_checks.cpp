@@ -27,9 +27,10 @@ void detail::require_burn_in(const burn_in_options& options) {
 void detail::refuse_discrepancy(const discrepancy& found, std::size_t i, const char* what,
                                 const burn_in_report& report) {
   if (!found.shows()) return;
-  throw std::runtime_error(fmt::format(
-      "gibbs: after a burn-in of {:.6g} the {} {}: off by {:.3g} +- {:.3g} kT; burn in for longer",
-      report.length, watched_names[i], what, found.mean, found.standard_error));
+  throw std::runtime_error(
+      fmt::format("gibbs: after a burn-in of {:.6g} the {} must {}, got a difference of {:.3g} +- {:.3g} kT; "
+                  "burn in for longer",
+                  report.length, watched_names[i], what, found.mean, found.standard_error));
 }
 
 }  // namespace nysalt

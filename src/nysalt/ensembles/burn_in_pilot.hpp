@@ -149,12 +149,11 @@ class burn_in_pilot {
       for (int k = 0; k < blocks_[b].count; ++k) {
         const auto lost = blocks_[b].run.diverged_at(k);
         if (!lost) continue;
-        throw chain_diverged(
-            sentence("gibbs: pilot chain {} diverged at time {} with the step {}: the motion of {} is not "
-                     "confined, or the step is too large",
-                     b * width + static_cast<std::size_t>(k),
-                     in_digits(static_cast<double>(*lost) * chains_->step(), 6),
-                     in_digits(chains_->step(), 6), describe(chains_->system())));
+        throw chain_diverged(sentence(
+            "gibbs: the motion of {} must be confined and the step small enough, got pilot chain {} that "
+            "diverged at time {} with the step {}",
+            describe(chains_->system()), b * width + static_cast<std::size_t>(k),
+            in_digits(static_cast<double>(*lost) * chains_->step(), 6), in_digits(chains_->step(), 6)));
       }
     }
   }

@@ -41,9 +41,10 @@ phase_point<T, Eigen::Dynamic> gibbs_chains::block(std::uint64_t seed, std::int6
   run.go_on(report_.steps);
   for (int k = 0; k < count; ++k) {
     if (!run.diverged_at(k)) continue;
-    throw std::runtime_error(sentence(
-        "gibbs: chain {} of seed {} diverged at time {}: the motion of {} is not confined", first + k, seed,
-        in_digits(static_cast<double>(*run.diverged_at(k)) * report_.step, 6), describe(base_)));
+    throw std::runtime_error(
+        sentence("gibbs: the motion of {} must be confined, got chain {} of seed {} that diverged at time {}",
+                 describe(base_), first + k, seed,
+                 in_digits(static_cast<double>(*run.diverged_at(k)) * report_.step, 6)));
   }
   auto x = run.synchronous();
   chains.draw_momenta(x, first, report_.steps);

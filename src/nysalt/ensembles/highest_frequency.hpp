@@ -21,8 +21,9 @@ inline std::optional<double> highest_frequency(const model& system) {
 /// asks, where that is not known.
 inline double step_of_frequency(const model& system, double z, const char* who) {
   if (const auto omega = highest_frequency(system)) return z / *omega;
-  throw std::invalid_argument(sentence(
-      "{}: the step has no default, as {} has no frequency_bands(); give a step", who, describe(system)));
+  throw std::invalid_argument(
+      sentence("{}: the system must have frequency_bands() for a default step, got {}; give a step", who,
+               describe(system)));
 }
 
 }  // namespace nysalt

@@ -46,15 +46,14 @@ long_trajectory::long_trajectory(const model& in_bath, const initial_states& fro
   const auto end = integrate(stepper, sound_start(in_bath, from, options.seed, 0), steps, keep, every);
   if (end.diverged_at) {
     throw std::runtime_error(sentence(
-        "one_long_trajectory: it diverged at time {}: the motion of {} is not confined, or the "
-        "step {} is too large",
-        in_digits(static_cast<double>(*end.diverged_at) * step_, 6), describe(in_bath), in_digits(step_, 6)));
+        "one_long_trajectory: the motion of {} must be confined and the step small enough, got a trajectory "
+        "that diverged at time {} with the step {}",
+        describe(in_bath), in_digits(static_cast<double>(*end.diverged_at) * step_, 6), in_digits(step_, 6)));
   }
   if (states_.empty()) {
     throw std::invalid_argument(
-        sentence("one_long_trajectory: after a burn-in of {} a length of {} leaves no state to keep: "
-                 "take more states or less "
-                 "burn-in",
+        sentence("one_long_trajectory: the length must leave a state to keep after a burn-in of {}, got {}; "
+                 "take more states or less burn-in",
                  options.burn_in, options.length));
   }
 }

@@ -11,8 +11,8 @@ std::string export_to_blackjax(const exported_method& method) {
   const exported_letters word = composition_of(method, "BlackJAX");
   if (!is_palindrome(word) || word.letters.front() != 'B') {
     refuse_export(
-        "export: blackjax needs a symmetric word that begins with a kick, got {} with the letters {}: learn "
-        "bab2 to bab6, or take mclachlan2v, bcss2v, bcss3 or bcss4",
+        "export: the word for blackjax must be symmetric and begin with a kick, got {} with the letters {}; "
+        "learn bab2 to bab6, or take mclachlan2v, bcss2v, bcss3 or bcss4",
         method.method.name(), word.letters);
   }
   auto values = values_of_header(method, "#");

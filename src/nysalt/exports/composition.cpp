@@ -22,15 +22,15 @@ exported_letters composition_in_bath_of(const exported_method& method, const std
   const exported_letters all = kernel_of(method);
   if (method.method.letters().is_processed()) {
     refuse_export(
-        "export: {} has a processor, and {} takes a list of letters only: export to c, cpp, fortran, "
-        "python or julia, or take the method without the processor",
-        method.method.name(), host);
+        "export: the method for {} must be a list of letters, got {} with a processor; export to c, cpp, "
+        "fortran, python or julia, or take the method without the processor",
+        host, method.method.name());
   }
   if (all.count('D') > 0) {
     refuse_export(
-        "export: {} has a displaced kick, and {} takes drifts and kicks: take a method of the letters A "
-        "and B (nysalt list)",
-        method.method.name(), host);
+        "export: the method for {} must be drifts and kicks, got {} with a displaced kick; take a method of "
+        "the letters A and B (nysalt list)",
+        host, method.method.name());
   }
   exported_letters result;
   for (std::size_t i = 0; i < all.letters.size(); ++i) {
@@ -49,9 +49,9 @@ exported_letters composition_in_bath_of(const exported_method& method, const std
 exported_letters composition_of(const exported_method& method, const std::string& host) {
   if (has_bath(method)) {
     refuse_export(
-        "export: {} has letters O, of a bath, and {} takes drifts and kicks only: take the method without "
-        "a bath, or export to c, cpp, fortran, python, julia, jax, ase, openmm or lammps",
-        method.method.name(), host);
+        "export: the method for {} must be drifts and kicks, got {} with letters O, of a bath; take the "
+        "method without a bath, or export to c, cpp, fortran, python, julia, jax, ase, openmm or lammps",
+        host, method.method.name());
   }
   return composition_in_bath_of(method, host);
 }
@@ -84,8 +84,8 @@ double two_stage_lambda(const exported_method& method, const std::string& host) 
   if (word.letters != "BABAB" || !is_palindrome(word) || !is_equal(c[1], 0.5) ||
       !is_equal(2.0 * c[0] + c[2], 1.0)) {
     refuse_export(
-        "export: {} takes one number, lambda of B(lambda) A(1/2) B(1 - 2 lambda) A(1/2) B(lambda), got {} "
-        "with the letters {}: learn bab2, or take mclachlan2v or bcss2v",
+        "export: the method for {} must be B(lambda) A(1/2) B(1 - 2 lambda) A(1/2) B(lambda), given by one "
+        "number, lambda, got {} with the letters {}; learn bab2, or take mclachlan2v or bcss2v",
         host, method.method.name(), word.letters);
   }
   return c[0];

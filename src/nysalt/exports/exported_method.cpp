@@ -52,14 +52,14 @@ void require_known(const exported_method& method, const std::string& letters) {
   const char letter = letters[at];
   if (letter == 'G') {
     refuse_export(
-        "export: {} has the letter G, a gradient kick, whose f'(q) v no host has: give --displaced for the "
-        "displaced kick, which agrees with it up to h^5, keeps volume and is reversible, but is not "
+        "export: the method must have no letter G, a gradient kick, whose f'(q) v no host has, got {}; give "
+        "--displaced for the displaced kick, equal up to h^5, volume-preserving and reversible, but not "
         "symplectic",
         method.method.name());
   }
   refuse_export(
-      "export: {} has the letter {}, which needs the quadratic part of the system: take a method of the "
-      "letters A, B, D and O (nysalt list)",
+      "export: the method must have letters A, B, D and O only, got {} with {}, which needs the quadratic "
+      "part of the system; take another method (nysalt list)",
       method.method.name(), letter);
 }
 
@@ -110,8 +110,8 @@ exported_method with_displaced_kicks(const exported_method& method) {
     if (letters[i] == 'G') {
       if (c[slot] == 0.0) {
         refuse_export(
-            "export: {} has a gradient kick G(b, c) with b = 0, which no displaced kick is like: take "
-            "another method",
+            "export: b of a gradient kick G(b, c) must not be 0, where no displaced kick is like it, got 0 "
+            "in {}; take another method",
             method.method.name());
       }
       letters[i] = 'D';

@@ -10,8 +10,8 @@ std::string export_to_gpt(const exported_method& method) {
   const exported_letters word = composition_of(method, "GPT");
   if (!is_palindrome(word)) {
     refuse_export(
-        "export: gpt needs a symmetric word of drifts and kicks, got {} with the letters {}: learn a "
-        "symmetric family, bab2 to bab6 or aba4 to aba6",
+        "export: the word for gpt must be symmetric, of drifts and kicks, got {} with the letters {}; learn "
+        "a symmetric family, bab2 to bab6 or aba4 to aba6",
         method.method.name(), word.letters);
   }
   // Half of the list, in pairs; the central letter is halved, as the list is taken there and back.

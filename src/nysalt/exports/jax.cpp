@@ -9,7 +9,7 @@ namespace nysalt::detail {
 std::string export_to_jax(const exported_method& method) {
   if (method.method.letters().is_processed()) {
     refuse_export(
-        "export: {} has a processor, and a step for jax has none: export to c, cpp, fortran, python or "
+        "export: the method for jax must have no processor, got {}; export to c, cpp, fortran, python or "
         "julia, or take the method without the processor",
         method.method.name());
   }

@@ -36,8 +36,9 @@ std::string export_to_lammps(const exported_method& method) {
   const stages found = stages_of(word);
   if (found.ends.empty()) {
     refuse_export(
-        "export: lammps computes one force at the end of each step, and {} with the letters {} has a drift "
-        "after its last kick: learn bab2 to bab6, or take verlet, bcss2v, bcss3 or bcss4",
+        "export: the word for lammps, which computes one force at the end of each step, must have no drift "
+        "after its last kick, got {} with the letters {}; learn bab2 to bab6, or take verlet, bcss2v, bcss3 "
+        "or bcss4",
         method.method.name(), word.letters);
   }
   auto values = values_of_header(method, "//");

@@ -11,8 +11,8 @@ std::string export_to_mici(const exported_method& method) {
   const exported_letters word = composition_of(method, "Mici");
   if (!is_palindrome(word) || word.letters.size() < 3) {
     refuse_export(
-        "export: mici needs a symmetric word of drifts and kicks, got {} with the letters {}: learn a "
-        "symmetric family, bab2 to bab6 or aba4 to aba6",
+        "export: the word for mici must be symmetric, of drifts and kicks, got {} with the letters {}; learn "
+        "a symmetric family, bab2 to bab6 or aba4 to aba6",
         method.method.name(), word.letters);
   }
   // Its list of free coefficients leaves out one of either kind at the centre, which follow from the sums.

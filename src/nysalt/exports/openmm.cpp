@@ -9,9 +9,9 @@ namespace nysalt::detail {
 std::string export_to_openmm(const exported_method& method) {
   if (method.method.letters().is_processed()) {
     refuse_export(
-        "export: {} has a processor, which needs a copy of the state, and a CustomIntegrator of openmm has "
-        "none: "
-        "export to c, cpp, fortran, python or julia, or take the method without the processor",
+        "export: the method for openmm, whose CustomIntegrator has no copy of the state, must have no "
+        "processor, got {}; export to c, cpp, fortran, python or julia, or take the method without the "
+        "processor",
         method.method.name());
   }
   auto values = values_of(method, "#");

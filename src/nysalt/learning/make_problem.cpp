@@ -203,8 +203,7 @@ learning_problem make_learning_problem(const run_time_family& family, const mode
     require_name(other->name);
     if (options.loss) {
       throw std::invalid_argument(
-          fmt::format("learn: it is one loss that is minimised, {} or {}: leave the "
-                      "loss of the options away",
+          fmt::format("learn: the loss must be one, got {} and {}; leave the loss of the options away",
                       options.loss->description(), other->description));
     }
   }
@@ -223,9 +222,8 @@ learning_problem make_learning_problem(const run_time_family& family, const mode
   const loss_kind& kind = *chosen.kind;
   if (other == nullptr && !family.letters.is_symplectic && !kind.is_for_sampling) {
     throw std::invalid_argument(sentence(
-        "learn: {} has {}, and is not symplectic: it is for sampling; take the loss acceptance or energy:K, "
-        "or "
-        "the family fg_chin",
+        "learn: the family must be symplectic except for sampling, got {} with {}; take the loss acceptance "
+        "or energy:K, or the family fg_chin",
         family.name, family.letters.has_own_letters() ? "a letter of its own that is not" : "the letter D"));
   }
   const coordinates which = coordinates_of(system, options, other == nullptr && kind.is_of_energy_norm);

@@ -52,7 +52,7 @@ void require_valid_here(const flow_map_data& data, const model& system) {
       if (std::isfinite(noise[i])) continue;
       const std::size_t pair = n / static_cast<std::size_t>(data.noise_parts);
       throw std::invalid_argument(sentence(
-          "the data hold what is not finite: coordinate {} of noise {} is {}, in pair {} of trajectory {}",
+          "learn: the data must be finite, got coordinate {} of noise {} = {}, in pair {} of trajectory {}",
           i + 1, n, noise[i], number_of(pair), trajectory_of(pair)));
     }
   }
@@ -60,10 +60,9 @@ void require_valid_here(const flow_map_data& data, const model& system) {
     if (x.q.size() != size(system)) refuse_size(what, pair, x.q.size(), size(system));
     if (x.p.size() != size(system)) refuse_size(what, pair, x.p.size(), size(system));
     if (is_finite(x)) return;
-    throw std::invalid_argument(
-        sentence("the data hold what is not finite: {} in the {} of pair {}, in trajectory {}",
-                 detail::not_finite_in(phase_point<double, Eigen::Dynamic>(x)), what, number_of(pair),
-                 trajectory_of(pair)));
+    throw std::invalid_argument(sentence(
+        "learn: the {} of pair {} of the data, in trajectory {}, must be finite: {}", what, number_of(pair),
+        trajectory_of(pair), detail::not_finite_in(phase_point<double, Eigen::Dynamic>(x))));
   };
   for (std::size_t n = 0; n < data.pairs(); ++n) {
     require_sound("start", n, data.start[n]);

@@ -27,8 +27,9 @@ void require_sound_force(const model& system, const flow_map_data& data) {
   const force_check found =
       detail::check_force(system, points, momenta, finishes_of(data, size(system), pairs));
   if (found.passed()) return;
-  throw std::invalid_argument(sentence("learn: {} (system {}); mend it, or learn with check_force = false",
-                                       found.report(), describe(system)));
+  throw std::invalid_argument(
+      sentence("cannot learn on {}: {}; mend the system, or learn with check_force = false", describe(system),
+               found.report()));
 }
 
 }  // namespace nysalt

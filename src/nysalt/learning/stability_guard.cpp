@@ -107,7 +107,8 @@ void stability_guard::scan_along(const frequencies_along& along, std::size_t cou
       description_ += fmt::format(", {} in nine tenths of them", in_words(often_));
   } else if (has_quadratic_kinetic && count == 0) {
     throw std::invalid_argument(
-        "stability_guard: no frequency_bands() are declared, and there are no states to estimate them from");
+        "stability_guard: frequency_bands() must be declared, or states given to estimate them from, got "
+        "neither");
   } else if (along.of_state.empty()) {
     description_ = "no linear criterion: no bands are declared, and K''(p) is not known";
   } else {

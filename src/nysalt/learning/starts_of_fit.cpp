@@ -118,7 +118,8 @@ void require_same(const communicator& ranks, const Eigen::VectorXd& theta) {
   collectively(ranks, [&] {
     if (theta == of_first) return;
     throw std::runtime_error(
-        fmt::format("learn: rank {} came to other parameters than rank 0: run all on processors of one kind",
+        fmt::format("learn: ranks must come to the same parameters, got others on rank {} than on rank 0; "
+                    "run all ranks on processors of one kind",
                     ranks.rank()));
   });
 }
@@ -137,15 +138,16 @@ void require_sound(const run_time_family& family, const fit_options& options) {
   if ((options.start && options.start->size() != family.parameters()) ||
       (!options.fixed.empty() && options.fixed.size() != count)) {
     throw std::invalid_argument(fmt::format(
-        "learn: {} has {} parameters, start and fixed values must be as many", family.name, count));
+        "learn: start and fixed values must be {}, one for each parameter of {}", count, family.name));
   }
   for (const auto& start : options.further_starts) {
     if (start.theta.size() == family.parameters() && !start.theta.allFinite()) {
       throw std::invalid_argument(fmt::format("learn: starts must be finite, got '{}'", start.name));
     }
     if (start.theta.size() == family.parameters()) continue;
-    throw std::invalid_argument(fmt::format("learn: the start '{}' has {} parameters, {} has {}", start.name,
-                                            start.theta.size(), family.name, family.parameters()));
+    throw std::invalid_argument(
+        fmt::format("learn: the start '{}' must have {} parameters, as {} has, got {}", start.name,
+                    family.parameters(), family.name, start.theta.size()));
   }
   Eigen::VectorXd first = options.start.value_or(family.starts.front().theta);
   fix(options, first);

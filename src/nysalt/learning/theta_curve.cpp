@@ -25,7 +25,8 @@ theta_curve::theta_curve(std::vector<double> steps, std::vector<Eigen::VectorXd>
             thetas_[k].allFinite() && thetas_[k].size() == thetas_[0].size();
   }
   if (sound) return;
-  throw std::invalid_argument("a curve of parameters needs rising steps, and as many finite ones at each");
+  throw std::invalid_argument(
+      "a curve of parameters must have rising steps, and as many finite parameters at each");
 }
 
 bool theta_curve::covers(double step) const {
@@ -39,8 +40,8 @@ bool theta_curve::has(double step) const {
 
 Eigen::VectorXd theta_curve::at(double step) const {
   if (!covers(step)) {
-    throw std::invalid_argument(
-        sentence("it was learned for steps from {} to {}, not {}", steps_.front(), steps_.back(), step));
+    throw std::invalid_argument(sentence("the step must be from {} to {}, the steps of learning, got {}",
+                                         steps_.front(), steps_.back(), step));
   }
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     if (std::abs(step - steps_[k]) <= same_step * steps_[k]) return thetas_[k];

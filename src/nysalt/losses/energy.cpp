@@ -13,7 +13,8 @@ namespace nysalt::detail {
 double scale_of_energies(const model& system, const flow_map_data& data) {
   if (!system.facts().has_energy_over_slopes) {
     throw std::invalid_argument(
-        sentence("an energy loss needs the potential of {} as a template over any scalar", describe(system)));
+        sentence("an energy loss: the potential must be a template over any scalar, got that of {}",
+                 describe(system)));
   }
   std::vector<double> squares(data.trajectories(), 0.0);
   for (std::size_t m = 0; m < data.trajectories(); ++m) {

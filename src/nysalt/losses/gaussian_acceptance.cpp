@@ -33,7 +33,7 @@ std::map<double, double> spectrum_of(const model& system) {
   }
   if (count_of.empty()) {
     throw std::invalid_argument(
-        sentence("the loss gaussian_acceptance needs frequencies, and {} declares none; take the loss "
+        sentence("the loss gaussian_acceptance: the system must declare frequencies, got {}; take the loss "
                  "acceptance, which asks states",
                  describe(system)));
   }

@@ -52,8 +52,9 @@ metric::metric(const model& system, const flow_map_data& data, coordinates which
 
 void metric::change_coordinates(const model& system, coordinates which) {
   if (!has_modes(system)) {
-    throw std::invalid_argument(sentence("the {} coordinates of {} are not known: it has no modes(); use qp",
-                                         to_string(which), describe(system)));
+    throw std::invalid_argument(
+        sentence("a loss in {} coordinates: the system must have modes(), got {}; use qp", to_string(which),
+                 describe(system)));
   }
   const auto modes = modal_coordinates::of(system);
   sums_of_q_.resize(static_cast<std::size_t>(size_));
@@ -88,9 +89,9 @@ void metric::weigh(const flow_map_data& data, coordinates which) {
   active_.clear();
   for (Eigen::Index row = 0; row < 2 * size_; ++row) {
     if (!std::isfinite(sigma[row]) || !std::isfinite(magnitudes[row])) {
-      throw std::invalid_argument(
-          sentence("the weight of {} is not finite: its increments in the data are too large to be squared",
-                   name_of(row, which)));
+      throw std::invalid_argument(sentence(
+          "the weight of {} must be finite, got increments in the data that are too large to be squared",
+          name_of(row, which)));
     }
     // Motion below the rounding of the coordinate's own sum is none: its weight would amplify noise.
     constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
@@ -101,8 +102,7 @@ void metric::weigh(const flow_map_data& data, coordinates which) {
       dropped_.push_back(name_of(row, which));
     }
   }
-  if (active_.empty())
-    throw std::invalid_argument("nothing moves in the data: there is nothing to learn from");
+  if (active_.empty()) throw std::invalid_argument("the data must hold motion to learn from, got none");
   deviations_.resize(residuals(), static_cast<Eigen::Index>(data.trajectories()));
   for (std::size_t m = 0; m < data.trajectories(); ++m) {
     const double share = static_cast<double>(data.first_of[m + 1] - data.first_of[m]) / total;

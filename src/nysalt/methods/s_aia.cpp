@@ -86,10 +86,10 @@ void require_z(const char* method, const char* stages, double highest_z, double 
         sentence("{}: z = step * highest frequency must be positive and finite, got {}", method, highest_z));
   }
   if (highest_z >= most) {
-    throw std::invalid_argument(sentence(
-        "{}: no method of {} stages is stable up to z = step * highest frequency = {}; take a smaller "
-        "step, such that z < {}",
-        method, stages, highest_z, most));
+    throw std::invalid_argument(
+        sentence("{}: z = step * highest frequency must be one up to which a method of {} stages is stable, "
+                 "got {}; take a smaller step, such that z < {}",
+                 method, stages, highest_z, most));
   }
 }
 

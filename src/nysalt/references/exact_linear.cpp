@@ -21,7 +21,7 @@ void exact_linear::require_orthonormal(const normal_modes& modes, Eigen::Index n
 
 void exact_linear::refuse_force(Eigen::Index i, double force, double expected, double length) const {
   throw std::invalid_argument(
-      fmt::format("exact_linear: the force of {} is not linear as modes() says, coordinate {} is off by "
+      fmt::format("exact_linear: the force of {} must be linear as modes() says, got coordinate {} off by "
                   "{:.2e} of {:.2e} at a state of size {}; take fine_steps or odeint_reference",
                   system_, i + 1, force - expected, expected, length));
 }

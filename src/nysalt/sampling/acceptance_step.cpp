@@ -163,8 +163,10 @@ acceptance_step step_at_acceptance(const model& system,
   while (at_low.probability.mean < acceptance) {
     low /= growth;
     if (low < least * guess) {
-      throw std::runtime_error(sentence(
-          "step_at_acceptance: no step down to {} is accepted with the probability {}", low, acceptance));
+      throw std::runtime_error(
+          sentence("step_at_acceptance: the acceptance must be one that a step down to {} reaches, got {}; "
+                   "ask for a lower acceptance",
+                   low, acceptance));
     }
     at_low = accepted(low);
   }

@@ -55,9 +55,9 @@ class block_of_chains {
     for (int k = 0; k < count; ++k) {
       if (std::isfinite(lane(potential_, k)) && lane(f, k).allFinite()) continue;
       throw std::invalid_argument(sentence(
-          "hmc: the potential and the force must be finite at a start, and at start {} the potential is {}; "
+          "hmc: the potential and the force must be finite at a start, got the potential {} at start {}; "
           "take other starts",
-          first + k, lane(potential_, k)));
+          lane(potential_, k), first + k));
     }
   }
 

@@ -36,8 +36,8 @@ void require_options(const model& system, const hmc_options& options) {
   at_least("keep_every", options.keep_every, 0);
   if (options.diagonal_masses && !options.acceptance) {
     throw std::invalid_argument(
-        "hmc: diagonal_masses change the unit of time, and with it the step: ask for an acceptance, to which "
-        "the step is tuned");
+        "hmc: diagonal_masses must come with an acceptance, as they change the unit of time, and with it the "
+        "step; ask for an acceptance, to which the step is tuned");
   }
   if (options.acceptance && !(*options.acceptance > 0.0 && *options.acceptance < 1.0)) {
     throw std::invalid_argument(
@@ -67,9 +67,10 @@ hmc_result hmc(const model& system, const tabulated& method, const initial_state
   detail::require_metropolis_applies("hmc", system, method, options.temperature);
   require_options(system, options);
   if (options.diagonal_masses && method.letters().has_own_letters()) {
-    throw std::invalid_argument(sentence(
-        "hmc: diagonal_masses make another system, for which the word {} has no letters; leave them away",
-        method.letters().letters()));
+    throw std::invalid_argument(
+        sentence("hmc: the word must have no letters of one's own for diagonal_masses, which make another "
+                 "system, got {}; leave diagonal_masses away",
+                 method.letters().letters()));
   }
   if (has_room_for_lanes(system)) {
     return detail::sampler<detail::lanes>(system, method, starts, options).run(take);

@@ -12,8 +12,8 @@ void require_metropolis_applies(const char* who, const model& system, const tabu
                                 double temperature) {
   if (!method.symmetric) {
     throw std::invalid_argument(
-        sentence("{}: {} is not reversible, so Hybrid Monte Carlo would sample another distribution; take "
-                 "a symmetric method",
+        sentence("{}: the method must be reversible, or Hybrid Monte Carlo samples another distribution, got "
+                 "{}; take a symmetric method",
                  who, method.name()));
   }
   if (system.bath().acts()) {

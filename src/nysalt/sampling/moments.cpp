@@ -20,10 +20,10 @@ Eigen::VectorXd deviations_of(const std::vector<moments>& of_chains, const shard
   const Eigen::VectorXd variance = mine.sum(squares, zero) / count;
   Eigen::Index still = 0;
   if (!(variance.minCoeff(&still) > 0.0)) {
-    throw std::runtime_error(sentence(
-        "hmc: coordinate {} did not vary in the burn-in, and has no mass of its own; take a smaller step, "
-        "a longer burn-in, or no diagonal_masses",
-        still + 1));
+    throw std::runtime_error(
+        sentence("hmc: coordinate {} must vary in the burn-in to have a mass of its own; take a smaller "
+                 "step, a longer burn-in, or no diagonal_masses",
+                 still + 1));
   }
   return variance.cwiseSqrt();
 }

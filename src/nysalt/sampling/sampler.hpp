@@ -151,7 +151,7 @@ class sampler {
   void require_tuned() const {
     if (!tuned_ || !tuned_->failed()) return;
     throw std::runtime_error(
-        sentence("hmc: the acceptance must reach {}, and stayed below it down to steps of {}; take a smaller "
+        sentence("hmc: the acceptance must reach {}, got less down to steps of {}; take a smaller "
                  "first step, "
                  "or other starts, and check the potential against the force",
                  *options_.acceptance, tuned_->settled()));

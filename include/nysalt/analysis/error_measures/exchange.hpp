@@ -58,8 +58,8 @@ error_measure exchange_measure(const S& system) {
           .error = error,
           .how = averaging::mean,
           .no_scale =
-              "the exchange error is relative to the stiff energy on the reference, which is 0; take "
-              "starts at which the stiff springs move, or measure states",
+              "the exchange error: the stiff energy on the reference, to which the error is relative, must "
+              "not be 0; take starts at which the stiff springs move, or measure states",
           .relative_to = whole,
           .dimension = size(system)};
 }

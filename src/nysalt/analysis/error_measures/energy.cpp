@@ -21,8 +21,8 @@ error_measure detail::energy_measure(const model& system) {
           .how = averaging::root_of_all,
           .needs_reference = false,
           .no_scale =
-              "the energy error is relative to the energy at the starts, which is 0 at all; take other "
-              "starts, or another measure",
+              "the energy error: the energy at the starts, to which the error is relative, must not be 0 at "
+              "every start; take other starts, or another measure",
           .relative_to = square,
           .dimension = system.size()};
 }

@@ -22,8 +22,8 @@ error_measure detail::path_measure(const over_scalars<of_state>& observable, Eig
           .error = error,
           .how = averaging::root_of_each,
           .no_scale =
-              "the path error is relative to the observable on the reference, which is 0; take another "
-              "observable, or measure states",
+              "the path error: the observable on the reference, to which the error is relative, must not be "
+              "0; take another observable, or measure states",
           .relative_to = square,
           .dimension = dimension};
 }
@@ -37,8 +37,8 @@ error_measure detail::relative_measure(error_measure path) {
   path.scale = [](const auto& expected) { return expected[0]; };
   path.relative_to = {};
   path.no_scale =
-      "the relative error divides by the observable on the reference, which is 0 or changes its sign; take "
-      "the path error, or another observable";
+      "the relative error: the observable on the reference, to which the error is relative, must not be 0 "
+      "or change its sign; take the path error, or another observable";
   return path;
 }
 
