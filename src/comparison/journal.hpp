@@ -51,7 +51,7 @@ class journal {
   std::size_t read(const std::string& text, const json& question, const std::string& head);
   void keep(const std::string& part, const json& result);
   void write(const std::string& text);
-  [[noreturn]] void fail_to_write(std::string_view advice) const;
+  [[noreturn]] void fail_to_write(std::string_view why) const;
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, close> file_;

@@ -53,7 +53,7 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
   if (start_ != start::law && !has_frequency_bands(made_.system)) {
     refuse(
-        "{}: the frequencies have no bound, so the motion in a bath has no stationary distribution; take "
+        "{}: the frequencies must have a bound, or the motion in a bath has no stationary distribution; take "
         "--start law",
         description());
   }
@@ -125,7 +125,7 @@ void prepared_problem::prepare_starts(std::uint64_t seed) {
       starts_.emplace(one_long_trajectory<dynamic>(made_.system, made_.starts, {.seed = seed}));
     }
   } catch (const std::runtime_error& problem) {
-    refuse("{}; take another temperature, or --start law", problem.what());
+    refuse("cannot draw initial states: {}; take another temperature, or --start law", problem.what());
   }
 }
 

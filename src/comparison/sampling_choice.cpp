@@ -77,7 +77,7 @@ void sampling_choice::plan_candidates() {
   for (const auto& name : rivals()) consider(name);
   for (const auto& name : options_.families) consider("learned:" + name);
   for (const auto& [name, reason] : left_out_) {
-    if (name.starts_with("learned:")) refuse("{}: {}", name, reason);
+    if (name.starts_with("learned:")) refuse("cannot recommend {}: {}", name, reason);
   }
 }
 
