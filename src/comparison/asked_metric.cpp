@@ -26,7 +26,7 @@ asked_metric metric_named(std::string_view text, const std::string& otherwise) {
   if (!asked.takes_observable()) {
     refuse("--metric must be path, relative, distribution or acf to have an observable, got {}", text);
   }
-  if (asked.observable.empty()) refuse("--metric must have an observable after its colon, got {}", text);
+  if (asked.observable.empty()) refuse("--metric must have an observable after the colon, got {}", text);
   return asked;
 }
 

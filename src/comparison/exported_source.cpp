@@ -98,7 +98,8 @@ export_source exported_from(const method_source& source, const export_request& r
   for (const char letter : result.method.letters().letters()) {
     if (result.method.letters().own_letter(letter) == nullptr) continue;
     refuse(
-        "export: {} must have letters that hosts have, got {} of {}, which is code of that system; take a "
+        "export: {} must have letters that hosts have, got the letter {} of {}, which is code of that "
+        "system; take a "
         "word of "
         "A, B, D and G",
         source.typed, letter, result.method.letters().own_letter(letter)->system);

@@ -150,7 +150,8 @@ std::string out_of_place(const scheme& learned, const prepared_problem& system, 
     reasons.push_back("must run on the source and the parameters of " + learned.system +
                       " for which it was learned, got others");
   }
-  if (!learned.usable) reasons.push_back("must have a usable fit, got one that is not: " + learned.reason);
+  if (!learned.usable)
+    reasons.push_back("must have a usable fit, got one that is not usable: " + learned.reason);
   return fmt::format("{}", fmt::join(reasons, ", and "));
 }
 
