@@ -84,8 +84,7 @@ std::string times_of_slots(const run_time_word& word, const detail::named_letter
     if (times.size() != word.slots_of(i)) {
       refuse(
           "the word {}: the letter {} must state of which parts of H its {} coefficients are the times; add "
-          "a "
-          "member `times`, a character for each",
+          "a member `times`, a character for each",
           word.letters(), letter, word.slots_of(i));
     }
     result += times;

@@ -195,8 +195,7 @@ std::string comparison::too_few_samples(const asked_metric& metric, double step)
   if (metric.is_acceptance() || samples >= fewest_samples - 1e-9) return {};
   return fmt::format(
       "--horizon must hold at least {:g} steps of {:g} for a mean over time, got {:g}, which holds {:.3g}; "
-      "take "
-      "at least {:g}",
+      "take at least {:g}",
       fewest_samples, step, horizon_, samples, fewest_samples * step);
 }
 

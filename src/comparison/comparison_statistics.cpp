@@ -80,15 +80,13 @@ void comparison::require_sound_statistics() const {
   if (heat_bath.acts() && heat_bath.sigma() == 0.0) {
     refuse(
         "the metric {}: the temperature must be > 0, got 0, at which friction stops all motion; give "
-        "--temperature "
-        "or --sigma",
+        "--temperature or --sigma",
         of_law->name);
   }
   if (heat_bath.acts() && !heat_bath.has_temperature()) {
     refuse(
         "the metric {}: the bath must have a temperature, got noise without friction, which heats without "
-        "end; "
-        "give --friction",
+        "end; give --friction",
         of_law->name);
   }
   const auto is_distribution = [](const asked_metric& one) { return one.name == "distribution"; };
@@ -179,8 +177,7 @@ gathered_statistics comparison::reference(std::size_t metric, double step, int n
   const auto [trajectory, at] = found.lost.front();
   refuse(
       "cannot sample the reference: its trajectory {} diverged at step {}; take a smaller --fine-step or "
-      "another "
-      "system",
+      "another system",
       trajectory, at);
 }
 

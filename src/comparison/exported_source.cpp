@@ -99,9 +99,7 @@ export_source exported_from(const method_source& source, const export_request& r
     if (result.method.letters().own_letter(letter) == nullptr) continue;
     refuse(
         "export: {} must have letters that hosts have, got the letter {} of {}, which is code of that "
-        "system; take a "
-        "word of "
-        "A, B, D and G",
+        "system; take a word of A, B, D and G",
         source.typed, letter, result.method.letters().own_letter(letter)->system);
   }
   result.options.displaced = request.displaced;

@@ -184,8 +184,7 @@ scheme scheme_in(const json& document, const document_reader& read) {
   if (read.text("checksum") != checksum(document)) {
     refuse(
         "{}: \"checksum\" must fit the contents of the file, which was edited or damaged; learn the scheme "
-        "again, or "
-        "write coefficients of your own as a table",
+        "again, or write coefficients of your own as a table",
         read.file());
   }
   const std::string name = read.text("family");
@@ -326,8 +325,7 @@ tabulated table_in(const json& document, const document_reader& read,
       if (declared > found.quadratic_kinetic) {
         refuse(
             "{}: \"order\" must be at most {}, to which steps agree with the flow, got {}; correct a "
-            "mistyped "
-            "coefficient, or leave \"order\" away",
+            "mistyped coefficient, or leave \"order\" away",
             read.file(), found.quadratic_kinetic, declared);
       }
     }

@@ -186,8 +186,7 @@ void take_at_size(const method_source& source, const tabulated& method, const pr
   if (!tried.passed()) {
     refuse(
         "{} must pass the trial for {}, as it was learned at another size, for {}: {}; learn it there, take "
-        "a "
-        "smaller step, or take --force",
+        "a smaller step, or take --force",
         source.typed, system.description(), source.learned->system, tried.objection);
   }
   warnings.push_back(
@@ -295,8 +294,7 @@ std::optional<placement> placement_in(const method_source& source, const prepare
   if (word.is_processed()) {
     refuse(
         "{}: a processed method must run without a bath, as a kernel that is learned with a processor gives "
-        "modes "
-        "another temperature; take {}",
+        "modes another temperature; take {}",
         source.typed, source.typed.substr(0, source.typed.rfind('+')));
   }
   if (where == placement::middle && word.length % 2 == 0) {

@@ -250,8 +250,7 @@ void prepared_problem::require_sound_letters(const std::string& name, const run_
     if (rate.agree()) continue;
     refuse(
         "{}: the letters of the word {} must add up to H of {}, got a rate of {} that is off by {:.2g}, "
-        "where "
-        "H moves it by {:.2g} in unit time; take a letter for each part of H",
+        "where H moves it by {:.2g} in unit time; take a letter for each part of H",
         name, conservative.letters(), description(), which, rate.off, rate.of_h);
   }
   sound_.insert(tried);

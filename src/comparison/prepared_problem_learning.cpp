@@ -44,8 +44,7 @@ void prepared_problem::require_learnable(const std::string& name, std::optional<
   if (loss.needs_bath && !made_.system.bath().has_temperature()) {
     refuse(
         "the {} loss must be of a system in a bath, which has a stationary distribution; give --friction "
-        "with "
-        "--temperature or --sigma",
+        "with --temperature or --sigma",
         loss.name);
   }
 }

@@ -42,8 +42,7 @@ void recommendation::require_sound_command() {
   if (options_.metric == "distribution" || options_.metric == "acf") {
     refuse(
         "recommend: --metric must be an error along trajectories, path, state, exchange, energy or "
-        "acceptance, got "
-        "{}",
+        "acceptance, got {}",
         options_.metric);
   }
   const double nominal = 1e-3 * options_.horizon;
