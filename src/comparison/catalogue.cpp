@@ -106,7 +106,7 @@ run_time_family word_named(std::string_view name, const detail::named_letters& o
   } catch (const std::invalid_argument& problem) {
     const std::string_view why = problem.what();
     if (why.starts_with(name)) refuse("{}", why);
-    refuse("{}: {}", name, why);
+    refuse("cannot take {}: {}", name, why);
   }
 }
 }  // namespace
@@ -125,8 +125,8 @@ run_time_family family_named(std::string_view name, const detail::named_letters&
   const std::string_view kernel = name.substr(0, mark);
   const auto known = std::ranges::find(families(), kernel, &run_time_family::name);
   if (known == families().end()) {
-    refuse("unknown family '{}': {}{}", name, did_you_mean(kernel, family_names()),
-           mark == std::string_view::npos ? "" : "; one processor may follow, as in fg4+p3");
+    const char* more = mark == std::string_view::npos ? "" : "; one processor may follow, as in fg4+p3";
+    refuse("unknown family '{}': {}{}", name, did_you_mean(kernel, family_names()), more);
   }
   if (mark == std::string_view::npos) return *known;
   const auto pairs = pairs_in(name.substr(mark + 2));

@@ -92,7 +92,7 @@ export_source exported_from(const method_source& source, const export_request& r
     try {
       result.method = thermostat(result.method, *where);
     } catch (const std::invalid_argument& problem) {
-      refuse("export: {}: {}", source.typed, problem.what());
+      refuse("cannot export {}: {}", source.typed, problem.what());
     }
   }
   for (const char letter : result.method.letters().letters()) {

@@ -40,7 +40,7 @@ journal::journal(const std::filesystem::path& file, const json& question, bool r
   }
   on_first(all_ranks(), [&] {
     if (ftruncate(fileno(file_.get()), static_cast<off_t>(whole)) != 0) {
-      fail_to_write("the system does not shorten it; name another --output");
+      fail_to_write("cannot write {}: the system does not shorten the file; name another --output");
     }
     std::fseek(file_.get(), 0, SEEK_END);
     if (whole == 0) write(head);
@@ -54,8 +54,11 @@ std::string journal::open_file() {
     refuse("cannot write {}: it is not a regular file; name another --output", path_.string());
   }
   const int descriptor = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0)
-    fail_to_write("the folder or the file is not writable, or the disk is full; name another --output");
+  if (descriptor < 0) {
+    fail_to_write(
+        "cannot write {}: the folder or the file is not writable, or the disk is full; name another "
+        "--output");
+  }
   file_.reset(fdopen(descriptor, "r+"));
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     refuse("cannot write {}: another run is writing it; wait for that run, or name another --output",
@@ -115,15 +118,17 @@ void journal::keep(const std::string& part, const json& result) {
   has_written_ = true;
 }
 
-void journal::fail_to_write(std::string_view why) const {
-  throw nysalt::detail::write_failure(message("cannot write {}: {}", path_.string(), why));
+void journal::fail_to_write(fmt::format_string<std::string> text) const {
+  throw nysalt::detail::write_failure(fmt::format(text, path_.string()));
 }
 
 void journal::write(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size();
   if (!written || std::fflush(file_.get()) != 0) {
     fail_to_write(
-        "the disk may be full; free space on it, then take --resume, which keeps the finished parts");
+        "cannot write {}: the disk may be full; free space on it, then take --resume, which keeps the "
+        "finished "
+        "parts");
   }
 }
 

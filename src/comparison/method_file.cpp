@@ -46,7 +46,7 @@ auto in_file(const std::string& file, const auto& f) {
   try {
     return f();
   } catch (const std::invalid_argument& problem) {
-    refuse("{}: {}", file, problem.what());
+    refuse("cannot read {}: {}", file, problem.what());
   }
 }
 
@@ -194,7 +194,7 @@ scheme scheme_in(const json& document, const document_reader& read) {
     try {
       return family_named(name, own_letters);
     } catch (const refusal& problem) {
-      refuse("{}: {}", read.file(), problem.what());
+      refuse("cannot read {}: {}", read.file(), problem.what());
     }
   }();
   const bool is_curve = document.contains("steps");

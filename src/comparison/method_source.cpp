@@ -84,8 +84,8 @@ method_source find_method(const std::string& typed, const held_methods& held,
   } else {
     auto known = method_names();
     for (const auto& name : family_names()) known.push_back(std::string(to_learn) + name);
-    refuse("unknown method '{}': {}", text,
-           did_you_mean(text, known, "nysalt list shows all; a method may also be a file NAME.json"));
+    constexpr const char* otherwise = "nysalt list shows all; a method may also be a file NAME.json";
+    refuse("unknown method '{}': {}", text, did_you_mean(text, known, otherwise));
   }
   return source;
 }
@@ -140,18 +140,17 @@ bool is_of_other_size(const scheme& learned, const prepared_problem& system) {
 std::string out_of_place(const scheme& learned, const prepared_problem& system, double step) {
   std::vector<std::string> reasons;
   if (!is_at(learned, step)) {
-    reasons.push_back(message("must run at {}, for which it was learned, got {}", learned.steps(), step));
+    reasons.push_back(message("run at {}, for which it was learned, got {}", learned.steps(), step));
   }
   if (learned.system != system.description() && !is_of_other_size(learned, system)) {
-    reasons.push_back(fmt::format("must run on {}, for which it was learned, got {}", learned.system,
-                                  system.description()));
+    reasons.push_back(
+        fmt::format("run on {}, for which it was learned, got {}", learned.system, system.description()));
   }
   if (learned.system == system.description() && learned.source != source_of_system(system.parameters())) {
-    reasons.push_back("must run on the source and the parameters of " + learned.system +
+    reasons.push_back("run on the source and the parameters of " + learned.system +
                       " for which it was learned, got others");
   }
-  if (!learned.usable)
-    reasons.push_back("must have a usable fit, got one that is not usable: " + learned.reason);
+  if (!learned.usable) reasons.push_back("have a usable fit, got one that is not usable: " + learned.reason);
   return fmt::format("{}", fmt::join(reasons, ", and "));
 }
 
@@ -205,8 +204,8 @@ tabulated found_at(const method_source& source, const prepared_problem& system, 
         take_at_size(source, method, system, step, force, warnings);
       return method;
     }
-    if (!force) refuse("{} {}; learn it there, or take --force", source.typed, why);
-    warnings.push_back(fmt::format("{} {}; used all the same (--force)", source.typed, why));
+    if (!force) refuse("{} must {}; learn it there, or take --force", source.typed, why);
+    warnings.push_back(fmt::format("{} must {}; used all the same (--force)", source.typed, why));
     return from_scheme(source, system, step, force);
   }
   if (source.adaptive != nullptr) {
@@ -220,7 +219,7 @@ tabulated found_at(const method_source& source, const prepared_problem& system, 
     try {
       return source.adaptive->at(step * *frequency);
     } catch (const std::invalid_argument& problem) {
-      refuse("{} at step {}: {}", source.typed, step, problem.what());
+      refuse("cannot take {} at the step {}: {}", source.typed, step, problem.what());
     }
   }
   const std::string where = source.where ? fmt::format(" --placement {}", to_string(*source.where)) : "";
@@ -250,7 +249,7 @@ tabulated adapted_to_bath(const method_source& source, tabulated method, const p
   try {
     return thermostat(method, source.where.value_or(otherwise.value_or(usual)));
   } catch (const std::invalid_argument& problem) {
-    refuse("{}: {}", source.typed, problem.what());
+    refuse("cannot thermostat {}: {}", source.typed, problem.what());
   }
 }
 

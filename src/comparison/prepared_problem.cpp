@@ -240,7 +240,7 @@ void prepared_problem::require_sound_letters(const std::string& name, const run_
   for (const auto& [named, check] : made_.letters) {
     if (word.own_letter(named.letter->facts.letter) == nullptr) continue;
     const letter_check found = check(states, step);
-    if (!found.passed()) refuse("{}: {}", name, found.report());
+    if (!found.passed()) refuse("cannot take {}: {}", name, found.report());
   }
   std::string letters = word.letters();
   std::erase(letters, bath_letter);

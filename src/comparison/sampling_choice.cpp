@@ -141,7 +141,7 @@ void sampling_choice::run_pilot() {
   try {
     result = hmc(target, *find_method(two_stages).fixed, system_->prepared_starts(), pilot, keep);
   } catch (const std::invalid_argument& problem) {
-    refuse("pilot chains: {}", problem.what());
+    refuse("cannot run pilot chains: {}", problem.what());
   }
   guess_ = 0.5 * result.step;
   const double reduction = potential_scale_reduction(potentials);

@@ -54,7 +54,7 @@ void require_force(const initial_value_problem& made, const std::string& name) {
   }
   if (size(made.system) > most) return;
   const force_check found = check_force(made.system, points, momenta);
-  if (!found.passed()) refuse("{}: {}", name, found.report());
+  if (!found.passed()) refuse("cannot take {}: {}", name, found.report());
 }
 
 /// Of a system that declares no frequency: the highest frequency, or rate at which motions

@@ -121,7 +121,7 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_stays_at_its_step_and_system, learned) {
     }
   }
   const finished spoken = run(folder, "run --method scheme.json --horizon 0.2 --step 0.01 --force");
-  BOOST_TEST(spoken.err.starts_with("nysalt: warning: scheme.json: "));
+  BOOST_TEST(spoken.err.starts_with("nysalt: warning: scheme.json must run at the step 0.02, "));
   // One step of a list must be its own.
   BOOST_TEST(
       refused(run(folder, errors + "verlet,scheme.json --steps 0.01"), {"0.02", "--steps", "--force"}));
