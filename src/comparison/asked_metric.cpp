@@ -24,9 +24,9 @@ asked_metric metric_named(std::string_view text, const std::string& otherwise) {
   }
   asked.observable = text.substr(colon + 1);
   if (!asked.takes_observable()) {
-    refuse("--metric {}: {} is of no observable; path, relative, distribution and acf are", text, asked.name);
+    refuse("--metric must be path, relative, distribution or acf to have an observable, got {}", text);
   }
-  if (asked.observable.empty()) refuse("--metric {}: name an observable after the colon", text);
+  if (asked.observable.empty()) refuse("--metric must have an observable after the colon, got {}", text);
   return asked;
 }
 

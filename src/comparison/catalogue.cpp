@@ -83,8 +83,8 @@ std::string times_of_slots(const run_time_word& word, const detail::named_letter
     const std::string times = own == of_system.end() ? std::string(1, letter) : own->times;
     if (times.size() != word.slots_of(i)) {
       refuse(
-          "the word {}: the letter {} has {} coefficients and does not state of which parts of H they are "
-          "the times: add a member `times`, a character for each",
+          "the word {}: the letter {} must state of which parts of H its {} coefficients are the times; add "
+          "a member `times`, a character for each",
           word.letters(), letter, word.slots_of(i));
     }
     result += times;
@@ -97,14 +97,16 @@ run_time_family word_named(std::string_view name, const detail::named_letters& o
   const std::string letters(name.substr(word_prefix.size()));
   require_letters(name, letters, of_system);
   constexpr std::size_t most = 64;  // letters: their coefficients are learned
-  if (letters.size() > most) refuse("{}: a word has at most {} letters", name, most);
+  if (letters.size() > most) {
+    refuse("{}: a word must have at most {} letters, got {}", name, most, letters.size());
+  }
   try {
     const run_time_word word(letters, detail::letters_in(of_system));
     return symmetric_word(std::string(name), word, times_of_slots(word, of_system));
   } catch (const std::invalid_argument& problem) {
     const std::string_view why = problem.what();
     if (why.starts_with(name)) refuse("{}", why);
-    refuse("{}: {}", name, why);
+    refuse("cannot take {}: {}", name, why);
   }
 }
 }  // namespace
@@ -123,8 +125,8 @@ run_time_family family_named(std::string_view name, const detail::named_letters&
   const std::string_view kernel = name.substr(0, mark);
   const auto known = std::ranges::find(families(), kernel, &run_time_family::name);
   if (known == families().end()) {
-    refuse("unknown family '{}': {}{}", name, did_you_mean(kernel, family_names()),
-           mark == std::string_view::npos ? "" : "; one processor may follow, as in fg4+p3");
+    const char* more = mark == std::string_view::npos ? "" : "; one processor may follow, as in fg4+p3";
+    refuse("unknown family '{}': {}{}", name, did_you_mean(kernel, family_names()), more);
   }
   if (mark == std::string_view::npos) return *known;
   const auto pairs = pairs_in(name.substr(mark + 2));
@@ -150,7 +152,7 @@ tabulated family_member(const std::string& name, const std::vector<double>& para
                         const detail::named_letters& of_system) {
   const auto family = family_named(name, of_system);
   if (std::ssize(parameters) != family.parameters()) {
-    refuse("the family {} has {} parameters ({}), got {}", name, family.parameters(),
+    refuse("the family {} must have {} parameters ({}), got {}", name, family.parameters(),
            listed(family.parameter_names), parameters.size());
   }
   const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(parameters.data(), family.parameters());

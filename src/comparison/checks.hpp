@@ -33,8 +33,8 @@ inline void require_at_least_one(const char* option, std::int64_t value) {
 inline std::int64_t steps_within(const char* option, double horizon, double step) {
   require_positive(option, horizon);
   const double steps = std::floor(horizon / step + 1e-9);
-  if (steps < 1.0) refuse("{} {} is shorter than one step of {}: take a longer one", option, horizon, step);
-  if (!(steps < 0x1p53)) refuse("{} {} holds more steps of {} than can be counted", option, horizon, step);
+  if (steps < 1.0) refuse("{} must be at least one step of {}, got {}", option, step, horizon);
+  if (!(steps < 0x1p53)) refuse("{} must hold fewer than 2^53 steps of {}, got {}", option, step, horizon);
   return static_cast<std::int64_t>(steps);
 }
 

@@ -2,6 +2,8 @@
 // Plan of a comparison: metrics, and rows of methods at steps.
 #include "comparison.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "build_info.hpp"
@@ -23,7 +25,8 @@ void require_fitting(const comparison_options& asked, const std::function<bool(c
       return std::ranges::count(metrics, text.substr(0, text.find(':'))) > 0 && !names_observable;
     };
     if (!is_given(option) || std::ranges::any_of(asked.metrics, is_of_these)) return;
-    refuse("{} belongs to the metric {}, not to {}", option, listed(metrics), listed(asked.metrics));
+    refuse("{} must come with --metric {}, got {}", option, fmt::format("{}", fmt::join(metrics, " or ")),
+           listed(asked.metrics));
   };
   belongs("--observable", {"path", "relative", "distribution", "acf"});
   belongs("--range", {"distribution"});
@@ -59,14 +62,19 @@ namespace {
 template <class T>
 void require_once(const char* option, const std::vector<T>& all, const auto& text) {
   for (const T& one : all) {
-    if (std::ranges::count(all, one) > 1) refuse("{} names {} twice", option, text(one));
+    if (std::ranges::count(all, one) > 1) refuse("{} must be different, got {} twice", option, text(one));
   }
 }
 }  // namespace
 
 void comparison::require_sound_command() const {
-  if (options_.methods.empty()) refuse("--methods is needed, such as verlet,mclachlan2,learned:nystrom");
-  if (options_.steps.empty()) refuse("--steps is needed, such as 0.01,0.02");
+  if (options_.methods.empty()) {
+    refuse(
+        "--methods must be one or more, got none; name methods, such as verlet,mclachlan2,learned:nystrom");
+  }
+  if (options_.steps.empty()) {
+    refuse("--steps must be one or more, got none; give steps, such as 0.01,0.02");
+  }
   for (const double step : options_.steps) require_positive("--steps", step);
   for (const double level : options_.levels) require_positive("--levels", level);
   const auto as_it_is = [](const auto& x) { return x; };
@@ -116,8 +124,8 @@ void comparison::plan_rows() {
     if (std::ranges::any_of(rows_, is_of_source)) continue;
     if (!source.learned) refuse("{}", warnings_.back());
     const double evaluations = options_.equal_cost ? cost_of_step(source) : 1.0;
-    refuse("{} was learned for {}, which --steps{} do not hold: add {}, or take --force", source.typed,
-           source.learned->steps(), options_.equal_cost ? " (of an evaluation)" : "",
+    refuse("--steps{} must hold {}, for which {} was learned; add {}, or take --force",
+           options_.equal_cost ? " (of an evaluation)" : "", source.learned->steps(), source.typed,
            source.learned->curve.steps().back() / evaluations);
   }
   require_enough_samples();
@@ -159,8 +167,7 @@ void comparison::add_row(const method_source& source, double nominal) {
   for (std::size_t m = 0; m < metrics_.size(); ++m) {
     const asked_metric& metric = metrics_[m];
     if (metric.is_acceptance() && !symmetric && !system_->heat_bath().acts()) {
-      refuse("{} is not reversible, as the metric acceptance needs it: take a symmetric method",
-             source.typed);
+      refuse("{} must be reversible for the metric acceptance; take a symmetric method", source.typed);
     }
     system_->require_measure(metric, metric.is_along_paths() ? paths_at(step) : plan_at(step),
                              options_.learning.fine_step, metric.is_of_law() ? 1 : parts);
@@ -187,10 +194,9 @@ std::string comparison::too_few_samples(const asked_metric& metric, double step)
   const double samples = horizon_ / step;
   if (metric.is_acceptance() || samples >= fewest_samples - 1e-9) return {};
   return fmt::format(
-      "--horizon {:g} holds {:.3g} of its steps of {:g}, fewer than the {:g} that a mean over time takes: "
-      "take "
-      "{:g} at least",
-      horizon_, samples, step, fewest_samples, fewest_samples * step);
+      "--horizon must hold at least {:g} steps of {:g} for a mean over time, got {:g}, which holds {:.3g}; "
+      "take at least {:g}",
+      fewest_samples, step, horizon_, samples, fewest_samples * step);
 }
 
 void comparison::require_enough_samples() const {

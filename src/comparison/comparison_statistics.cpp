@@ -78,19 +78,25 @@ void comparison::require_sound_statistics() const {
   const bath& heat_bath = system_->heat_bath();
   const auto of_law = std::ranges::find_if(metrics_, &asked_metric::is_of_law);
   if (heat_bath.acts() && heat_bath.sigma() == 0.0) {
-    refuse("the metric {} needs a temperature above 0, got 0: friction without noise stops all motion",
-           of_law->name);
+    refuse(
+        "the metric {}: the temperature must be > 0, got 0, at which friction stops all motion; give "
+        "--temperature or --sigma",
+        of_law->name);
   }
   if (heat_bath.acts() && !heat_bath.has_temperature()) {
-    refuse("the metric {} needs a temperature: a bath with noise and no friction heats without end",
-           of_law->name);
+    refuse(
+        "the metric {}: the bath must have a temperature, got noise without friction, which heats without "
+        "end; give --friction",
+        of_law->name);
   }
   const auto is_distribution = [](const asked_metric& one) { return one.name == "distribution"; };
   if (!options_.range.empty() && options_.range.size() != 2) {
-    refuse("--range takes two numbers, such as 0,1, got {}", options_.range.size());
+    refuse("--range must be two numbers, such as 0,1, got {}", options_.range.size());
   }
-  if (!options_.range.empty() && std::ranges::count_if(metrics_, is_distribution) > 1) {
-    refuse("--range is of one histogram: ask for one distribution, or leave it away");
+  const auto distributions = std::ranges::count_if(metrics_, is_distribution);
+  if (!options_.range.empty() && distributions > 1) {
+    refuse("--range must come with one metric distribution, got {}; take one, or leave --range away",
+           distributions);
   }
   if (options_.bins < 1 || options_.bins > 100'000) {
     refuse("--bins must be at least 1 and at most 100000, got {}", options_.bins);
@@ -98,7 +104,7 @@ void comparison::require_sound_statistics() const {
   if (!options_.range.empty()) {
     const equal_bins bins{options_.range[0], options_.range[1], static_cast<int>(options_.bins)};
     if (!(bins.low < bins.high && std::isfinite(bins.width()))) {
-      refuse("--range takes LOW,HIGH with LOW below HIGH, got {},{}", bins.low, bins.high);
+      refuse("--range must be LOW,HIGH with LOW below HIGH, got {},{}", bins.low, bins.high);
     }
   }
   require_positive("--longest-lag", options_.longest_lag);
@@ -116,8 +122,8 @@ statistics_plan comparison::statistics_at(std::size_t metric, double step) const
   plan.every = std::max<std::int64_t>(1, longest / enough);
   plan.lags = static_cast<int>(longest / plan.every);
   if (*plan.lags < plan.trajectories.steps / plan.every) return plan;
-  refuse("--longest-lag {} is not shorter than --horizon {}: take a longer horizon", options_.longest_lag,
-         horizon_);
+  refuse("--longest-lag must be shorter than --horizon {}, got {}; take a longer horizon", horizon_,
+         options_.longest_lag);
 }
 
 /// The same for all steps.
@@ -130,7 +136,10 @@ void comparison::prepare_bins(std::size_t metric) {
     const auto [low, high] = std::ranges::minmax(values);
     range = {low, high};
     if (!(range[0] < range[1])) {
-      refuse("the observable {} is {} at all starts: say the --range of its histogram", observable, range[0]);
+      refuse(
+          "the observable {} must differ between initial states, got {} at all; give the --range of its "
+          "histogram",
+          observable, range[0]);
     }
   } else {
     range = {options_.range[0], options_.range[1]};
@@ -147,8 +156,10 @@ void comparison::require_samples_in_range(std::size_t metric,
     const auto inside = ensemble.histogram->counts().subspan(1, static_cast<std::size_t>(bins->count));
     if (std::ranges::any_of(inside, [](std::int64_t n) { return n > 0; })) return;
   }
-  refuse("--range {},{} holds no {} of the reference, whose mean is {:g}: take a range about it", bins->low,
-         bins->high, metrics_[metric].observable, all.front().mean.mean);
+  refuse(
+      "--range must hold values of {} of the reference, whose mean is {:g}, got {},{}; take a range about "
+      "the mean",
+      metrics_[metric].observable, all.front().mean.mean, bins->low, bins->high);
 }
 
 /// The trajectories of references have numbers of their own, hence starts and noise of their own. References
@@ -164,8 +175,10 @@ gathered_statistics comparison::reference(std::size_t metric, double step, int n
                                              shown_.counter(plan.trajectories.count));
   if (found.lost.empty()) return found;
   const auto [trajectory, at] = found.lost.front();
-  refuse("trajectory {} of the reference diverged at step {}: take a smaller --fine-step or another system",
-         trajectory, at);
+  refuse(
+      "cannot sample the reference: its trajectory {} diverged at step {}; take a smaller --fine-step or "
+      "another system",
+      trajectory, at);
 }
 
 const std::vector<gathered_statistics>& comparison::references_at(std::size_t metric, double step) {

@@ -18,7 +18,7 @@ class document_reader {
   document_reader(const json& document, std::string file) : document_(document), file_(std::move(file)) {}
 
   const json& member(const char* key) const {
-    if (!document_.contains(key)) refuse("{}: the member \"{}\" is missing", file_, key);
+    if (!document_.contains(key)) refuse("{} must have the member \"{}\", got none", file_, key);
     return document_[key];
   }
   std::string text(const char* key) const {

@@ -18,8 +18,9 @@ double step_of(const method_source& source, const export_request& request) {
   const scheme& learned = *source.learned;
   const auto steps = learned.curve.steps();
   if (!request.step && steps.size() > 1) {
-    refuse("export: {} was learned at several steps, {}: give one of them or one between them by --step",
-           source.typed, learned.steps());
+    refuse(
+        "export: --step must be given, as {} was learned for {}; give one of these steps or one between them",
+        source.typed, learned.steps());
   }
   const double step = request.step.value_or(steps.front());
   if (!(step >= steps.front() * (1.0 - 1e-9) && step <= steps.back() * (1.0 + 1e-9))) {
@@ -40,7 +41,12 @@ export_source plain_source(const method_source& source, const export_request& re
         source.typed);
   }
   if (source.fixed) {
-    if (request.step) refuse("export: --step is for schemes, and {} is the same at every step", source.typed);
+    if (request.step) {
+      refuse(
+          "export: --step must come with a scheme, got {}, which is the same at every step; leave --step "
+          "away",
+          source.typed);
+    }
     return {*source.fixed, {.name = request.name}};
   }
   const scheme& learned = *source.learned;
@@ -80,20 +86,20 @@ export_source exported_from(const method_source& source, const export_request& r
   const auto where = placement_of(source, request);
   if (where && !is_of_bath) {
     if (result.method.letters().stochastic_letters > 0) {
-      refuse("export: {} has its letters O already, in {}", source.typed, result.method.letters().letters());
+      refuse("export: {} must have no letters O for a placement, got {}; leave the placement away",
+             source.typed, result.method.letters().letters());
     }
     try {
       result.method = thermostat(result.method, *where);
     } catch (const std::invalid_argument& problem) {
-      refuse("export: {}: {}", source.typed, problem.what());
+      refuse("cannot export {}: {}", source.typed, problem.what());
     }
   }
   for (const char letter : result.method.letters().letters()) {
     if (result.method.letters().own_letter(letter) == nullptr) continue;
     refuse(
-        "export: {} has the letter {} of {}, which is code of that system and in no host: take a word of A, "
-        "B, D "
-        "and G",
+        "export: {} must have letters that hosts have, got the letter {} of {}, which is code of that "
+        "system; take a word of A, B, D and G",
         source.typed, letter, result.method.letters().own_letter(letter)->system);
   }
   result.options.displaced = request.displaced;

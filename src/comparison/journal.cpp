@@ -33,12 +33,14 @@ journal::journal(const std::filesystem::path& file, const json& question, bool r
   const std::string head = line_of({{"format", format}, {"question", question}});
   const std::size_t whole = read(text, question, head);
   if (!resume && !found_.empty()) {
-    refuse("{} holds {} finished parts of a run that was stopped: --resume goes on, or remove the file",
-           path_.string(), found_.size());
+    refuse(
+        "cannot write {}: the file holds {} finished parts of a run that was stopped; take --resume, or "
+        "remove the file",
+        path_.string(), found_.size());
   }
   on_first(all_ranks(), [&] {
     if (ftruncate(fileno(file_.get()), static_cast<off_t>(whole)) != 0) {
-      fail_to_write("");
+      fail_to_write("cannot write {}: the system does not shorten the file; name another --output");
     }
     std::fseek(file_.get(), 0, SEEK_END);
     if (whole == 0) write(head);
@@ -52,10 +54,15 @@ std::string journal::open_file() {
     refuse("cannot write {}: it is not a regular file; name another --output", path_.string());
   }
   const int descriptor = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail_to_write(": is the folder writable, and the disk not full?");
+  if (descriptor < 0) {
+    fail_to_write(
+        "cannot write {}: the folder or the file is not writable, or the disk is full; name another "
+        "--output");
+  }
   file_.reset(fdopen(descriptor, "r+"));
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    refuse("{} is being written by another run: wait for it, or name another --output", path_.string());
+    refuse("cannot write {}: another run is writing it; wait for that run, or name another --output",
+           path_.string());
   }
   std::ifstream input(path_, std::ios::binary);
   return {std::istreambuf_iterator<char>(input), {}};
@@ -64,7 +71,8 @@ std::string journal::open_file() {
 namespace {
 
 [[noreturn]] void refuse_foreign(const std::filesystem::path& path) {
-  refuse("{} is no journal, or was edited: remove it to begin anew", path.string());
+  refuse("cannot resume from {}: the file is no journal, or was edited; remove it to begin anew",
+         path.string());
 }
 
 void require_same(const json& stored_question, const json& question, const std::filesystem::path& path) {
@@ -75,8 +83,10 @@ void require_same(const json& stored_question, const json& question, const std::
       continue;
     changed += changed.empty() ? name : ", " + name;
   }
-  refuse("{} is of another question ({}): ask the same, or remove the file to begin anew", path.string(),
-         changed.empty() ? "it asks for more" : changed);
+  refuse(
+      "cannot resume from {}: the file is of another question ({}); ask the same, or remove the file to "
+      "begin anew",
+      path.string(), changed.empty() ? "it asks for more" : changed);
 }
 
 }  // namespace
@@ -108,14 +118,17 @@ void journal::keep(const std::string& part, const json& result) {
   has_written_ = true;
 }
 
-void journal::fail_to_write(std::string_view advice) const {
-  throw nysalt::detail::write_failure(message("cannot write {}{}", path_.string(), advice));
+void journal::fail_to_write(fmt::format_string<std::string> text) const {
+  throw nysalt::detail::write_failure(fmt::format(text, path_.string()));
 }
 
 void journal::write(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size();
   if (!written || std::fflush(file_.get()) != 0) {
-    fail_to_write(": is the disk full? What is in it counts when you --resume");
+    fail_to_write(
+        "cannot write {}: the disk may be full; free space on it, then take --resume, which keeps the "
+        "finished "
+        "parts");
   }
 }
 

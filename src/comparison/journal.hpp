@@ -2,12 +2,13 @@
 // Journal of the finished parts of a long computation, from which it is resumed.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "json.hpp"
 
@@ -51,7 +52,7 @@ class journal {
   std::size_t read(const std::string& text, const json& question, const std::string& head);
   void keep(const std::string& part, const json& result);
   void write(const std::string& text);
-  [[noreturn]] void fail_to_write(std::string_view advice) const;
+  [[noreturn]] void fail_to_write(fmt::format_string<std::string> text) const;
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, close> file_;

@@ -32,11 +32,11 @@ std::string contents_of(const std::filesystem::path& path) {
   std::error_code ignored;
   std::ifstream stream(path, std::ios::binary);
   if (!stream || std::filesystem::is_directory(path, ignored)) {
-    refuse("cannot read {}: is it there, a file, and readable?", path.string());
+    refuse("cannot read {}: there is no readable file of this name; name a scheme or a table", path.string());
   }
   std::string text(static_cast<std::size_t>(most), '\0');
   stream.read(text.data(), most);
-  if (stream) refuse("{}: it is too long to be a scheme or a table", path.string());
+  if (stream) refuse("{} must be a scheme or a table, shorter than {} bytes", path.string(), most);
   text.resize(static_cast<std::size_t>(stream.gcount()));
   return text;
 }
@@ -46,7 +46,7 @@ auto in_file(const std::string& file, const auto& f) {
   try {
     return f();
   } catch (const std::invalid_argument& problem) {
-    refuse("{}: {}", file, problem.what());
+    refuse("cannot read {}: {}", file, problem.what());
   }
 }
 
@@ -67,8 +67,8 @@ std::vector<Eigen::VectorXd> parameters_in(const json& parameters, const run_tim
     for (std::size_t n = 0; n < steps; ++n) thetas[n][k] = all[n];
   }
   if (std::ssize(parameters) != family.parameters()) {
-    refuse("{}: the family {} has the parameters {} and no others", read.file(), family.name,
-           listed(family.parameter_names));
+    refuse("{}: \"parameters\" must be those of the family {}, got others too: it has {}", read.file(),
+           family.name, listed(family.parameter_names));
   }
   for (const auto& theta : thetas) require_in_range(family, theta);
   return thetas;
@@ -183,8 +183,8 @@ detail::named_letters own_letters_in(const json& document, const document_reader
 scheme scheme_in(const json& document, const document_reader& read) {
   if (read.text("checksum") != checksum(document)) {
     refuse(
-        "{}: its checksum does not fit its contents, so it was edited or damaged; learn it again, or write "
-        "coefficients of your own as a table",
+        "{}: \"checksum\" must fit the contents of the file, which was edited or damaged; learn the scheme "
+        "again, or write coefficients of your own as a table",
         read.file());
   }
   const std::string name = read.text("family");
@@ -194,19 +194,19 @@ scheme scheme_in(const json& document, const document_reader& read) {
     try {
       return family_named(name, own_letters);
     } catch (const refusal& problem) {
-      refuse("{}: {}", read.file(), problem.what());
+      refuse("cannot read {}: {}", read.file(), problem.what());
     }
   }();
   const bool is_curve = document.contains("steps");
   const auto steps = is_curve ? read.numbers("steps") : std::vector<double>{read.number("step")};
   for (std::size_t n = 0; n < steps.size(); ++n) {
-    if (!(steps[n] > 0.0)) refuse("{}: \"step\" must be positive, it is {}", read.file(), steps[n]);
+    if (!(steps[n] > 0.0)) refuse("{}: \"step\" must be positive, got {}", read.file(), steps[n]);
     if (n > 0 && !(steps[n - 1] < steps[n])) refuse("{}: \"steps\" must rise", read.file());
   }
   if (is_curve && document.contains("step")) {
-    refuse("{}: it has both \"step\" and \"steps\": one is not meant", read.file());
+    refuse("{} must have one of \"step\" and \"steps\", got both; learn the scheme again", read.file());
   }
-  if (steps.empty()) refuse("{}: \"steps\" holds none", read.file());
+  if (steps.empty()) refuse("{}: \"steps\" must be one or more, got none", read.file());
   const auto trajectories = trajectories_in(read);
   const auto energies = energies_in(read);
   return in_file(read.file(), [&] {
@@ -278,8 +278,9 @@ tabulated table_of_system(const std::string& name, const run_time_word& word,
   }
   const int order = order_of(bare, times);
   if (declared && *declared > order) {
-    refuse("{}: it declares the order {}, and the word {} is known to have {}; leave \"order\" away",
-           read.file(), *declared, word.letters(), order);
+    refuse(
+        "{}: \"order\" must be at most {}, which the word {} is known to have, got {}; leave \"order\" away",
+        read.file(), order, word.letters(), *declared);
   }
   return {name, word, coefficients, {order, bare.symmetric, bare.requires_quadratic_kinetic}};
 }
@@ -287,12 +288,13 @@ tabulated table_of_system(const std::string& name, const run_time_word& word,
 tabulated table_in(const json& document, const document_reader& read,
                    const detail::named_letters& of_system) {
   if (document.contains("placement")) {
-    refuse("{}: a table has no \"placement\": write O among its letters, or FILE@PLACEMENT", read.file());
+    refuse("{}: a table must have no \"placement\"; write O among its letters, or FILE@PLACEMENT",
+           read.file());
   }
   const std::string letters = read.text("letters");
   constexpr std::size_t most_letters = 200;  // letters: measurement the order takes their square, a second
   if (letters.size() > most_letters) {
-    refuse("{}: a table has at most {} letters, this one has {}", read.file(), most_letters, letters.size());
+    refuse("{}: a table must have at most {} letters, got {}", read.file(), most_letters, letters.size());
   }
   const std::vector<double> coefficients = read.numbers("coefficients");
   return in_file(read.file(), [&] {
@@ -300,7 +302,8 @@ tabulated table_in(const json& document, const document_reader& read,
     const std::string name = document.contains("name") ? read.text("name") : "table";
     if (word.has_own_letters()) {
       if (word.is_processed() || word.stochastic_letters > 0) {
-        refuse("{}: a table with letters of a system has no processor, and no letters O", read.file());
+        refuse("{}: a table with letters of a system must have no processor and no letters O, got {}",
+               read.file(), letters);
       }
       const auto declared = document.contains("order") ? std::optional(read.number("order")) : std::nullopt;
       return table_of_system(name, word, coefficients, of_system, read, declared);
@@ -317,17 +320,17 @@ tabulated table_in(const json& document, const document_reader& read,
     if (document.contains("order")) {
       const double declared = read.number("order");
       if (!(declared >= 1.0) || declared != std::floor(declared)) {
-        refuse("{}: \"order\" must be 1, 2, ..., not {}", read.file(), declared);
+        refuse("{}: \"order\" must be 1, 2, ..., got {}", read.file(), declared);
       }
       if (declared > found.quadratic_kinetic) {
         refuse(
-            "{}: it declares the order {}, but its steps agree with the flow to order {} only; is a "
-            "coefficient mistyped?",
-            read.file(), declared, found.quadratic_kinetic);
+            "{}: \"order\" must be at most {}, to which steps agree with the flow, got {}; correct a "
+            "mistyped coefficient, or leave \"order\" away",
+            read.file(), found.quadratic_kinetic, declared);
       }
     }
     if (!has_rotation(word) && limit_of(bare) == 0.0) {  // throws where there are too many letters
-      refuse("{}: it is not linearly stable at any small step", read.file());
+      refuse("{} must be linearly stable at small steps; take other coefficients", read.file());
     }
     return tabulated(name, word, coefficients,
                      {found.quadratic_kinetic, is_palindrome(word, coefficients),
@@ -377,18 +380,19 @@ method_file method_file_in(const std::string& text, const std::string& file,
     constexpr int deepest = 8;
     std::vector<std::set<std::string>> names;  // of the objects that are open
     document = json::parse(text, [&](int depth, json::parse_event_t event, json& value) {
-      if (depth > deepest) refuse("{}: it is nested too deeply to be a scheme or a table", file);
+      if (depth > deepest) refuse("{} must be a scheme or a table, nested at most {} deep", file, deepest);
       if (event == json::parse_event_t::object_start) names.emplace_back();
       if (event == json::parse_event_t::object_end) names.pop_back();
       if (event == json::parse_event_t::key && !names.back().insert(value.get<std::string>()).second) {
-        refuse("{}: \"{}\" is there twice", file, value.get<std::string>());
+        refuse("{}: members must have different names, got \"{}\" twice", file, value.get<std::string>());
       }
       return true;
     });
   } catch (const json::parse_error& problem) {
-    refuse("{}: this is not whole JSON (it ends or breaks at byte {}); was it cut off?", file, problem.byte);
+    refuse("{} must be whole JSON, got an end or a break at byte {}; write the file anew if it was cut off",
+           file, problem.byte);
   } catch (const json::out_of_range&) {
-    refuse("{}: it holds a number that is not finite", file);
+    refuse("{}: numbers must be finite, got one that is too large", file);
   }
   const bool is_ours = document.is_object() && document.contains("format") && document["format"].is_string();
   const std::string format = is_ours ? document["format"].get<std::string>() : "";
@@ -403,12 +407,15 @@ method_file method_file_in(const std::string& text, const std::string& file,
   const bool is_curve = is_scheme && document.contains("steps");
   const int newest = is_scheme ? as_curve : known_version;
   if (file_version > newest) {
-    refuse("{}: it has version {}, and this nysalt knows {} at most: take a newer nysalt, or learn it again",
-           file, file_version, newest);
+    refuse(
+        "{}: \"version\" must be at most {} for this nysalt, got {}; take a newer nysalt, or learn the "
+        "scheme again",
+        file, newest, file_version);
   }
-  if (file_version != (is_curve ? as_curve : is_placed ? with_placement : known_version)) {
-    refuse("{}: there is no version {} {} a placement and {} several steps", file, file_version,
-           is_placed ? "with" : "without", is_curve ? "with" : "without");
+  const int version = is_curve ? as_curve : is_placed ? with_placement : known_version;
+  if (file_version != version) {
+    refuse("{}: \"version\" must be {} {} a placement and {} several steps, got {}", file, version,
+           is_placed ? "with" : "without", is_curve ? "with" : "without", file_version);
   }
   method_file result;
   if (format == scheme_format) {

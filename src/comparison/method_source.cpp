@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "method_source.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -44,7 +46,7 @@ bool is_file_name(const std::string& text) {
 method_source find_method(const std::string& typed, const held_methods& held,
                           const detail::named_letters& of_system) {
   if (std::ranges::any_of(typed, [](unsigned char c) { return std::iscntrl(c) != 0; })) {
-    refuse("a method's name holds a line break or the like: rename the file");
+    refuse("the name of a method must have no line break and no other control character; rename the file");
   }
   method_source source;
   source.typed = typed;
@@ -82,8 +84,8 @@ method_source find_method(const std::string& typed, const held_methods& held,
   } else {
     auto known = method_names();
     for (const auto& name : family_names()) known.push_back(std::string(to_learn) + name);
-    refuse("unknown method '{}': {}", text,
-           did_you_mean(text, known, "nysalt list shows all; a method may also be a file NAME.json"));
+    constexpr const char* otherwise = "nysalt list shows all; a method may also be a file NAME.json";
+    refuse("unknown method '{}': {}", text, did_you_mean(text, known, otherwise));
   }
   return source;
 }
@@ -107,13 +109,15 @@ void require_letters_of(const method_source& source, const prepared_problem& sys
     const char name = stated->facts.letter;
     const auto* own = letter_in(system.letters(), name);
     if (own == nullptr) {
-      refuse("{}: its word {} has the letter {} of {}, and {} has {}; learn a method there", source.typed,
-             source.learned->letters().letters(), name, source.learned->system, system.description(),
-             names_of(system.letters()));
+      refuse("{}: the letters of its word {} must be of {}, which has {}, got {} of {}; learn a method there",
+             source.typed, source.learned->letters().letters(), system.description(),
+             names_of(system.letters()), name, source.learned->system);
     }
     if (own->facts != stated->facts) {
-      refuse("{}: the letter {} of {} is not what it was when the scheme was learned; learn it again",
-             source.typed, name, system.description());
+      refuse(
+          "{}: the letter {} of {} must be what it was when the scheme was learned, got another; learn the "
+          "scheme again",
+          source.typed, name, system.description());
     }
   }
 }
@@ -136,16 +140,18 @@ bool is_of_other_size(const scheme& learned, const prepared_problem& system) {
 std::string out_of_place(const scheme& learned, const prepared_problem& system, double step) {
   std::vector<std::string> reasons;
   if (!is_at(learned, step)) {
-    reasons.push_back(message("it was learned for {}, not {}", learned.steps(), step));
+    reasons.push_back(message("run at {}, for which it was learned, got {}", learned.steps(), step));
   }
   if (learned.system != system.description() && !is_of_other_size(learned, system)) {
-    reasons.push_back(fmt::format("it was learned for {}, not {}", learned.system, system.description()));
+    reasons.push_back(
+        fmt::format("run on {}, for which it was learned, got {}", learned.system, system.description()));
   }
   if (learned.system == system.description() && learned.source != source_of_system(system.parameters())) {
-    reasons.push_back("it was learned for another source, or other parameters, of " + learned.system);
+    reasons.push_back("run on the source and the parameters of " + learned.system +
+                      " for which it was learned, got others");
   }
-  if (!learned.usable) reasons.push_back("its fit was not usable: " + learned.reason);
-  return listed(reasons);
+  if (!learned.usable) reasons.push_back("have a usable fit, got one that is not usable: " + learned.reason);
+  return fmt::format("{}", fmt::join(reasons, ", and "));
 }
 
 namespace {
@@ -157,8 +163,10 @@ tabulated from_scheme(const method_source& source, const prepared_problem& syste
   const std::string objection =
       system.guard(method.letters()).objection(method.letters(), method.coefficients(), step);
   if (!objection.empty()) {
-    refuse("{}: between its learned steps, at {}: {}; learn it there, or take --force", source.typed, step,
-           objection);
+    refuse(
+        "{} must be stable between the steps for which it was learned, at {}: {}; learn it there, or take "
+        "--force",
+        source.typed, step, objection);
   }
   return method;
 }
@@ -175,8 +183,10 @@ void take_at_size(const method_source& source, const tabulated& method, const pr
   system.require_served(method.letters());
   const size_trial& tried = system.try_at_size(method, step);
   if (!tried.passed()) {
-    refuse("{}, and fails the trial for {}: {}; learn it there, take a smaller step, or take --force", which,
-           system.description(), tried.objection);
+    refuse(
+        "{} must pass the trial for {}, as it was learned at another size, for {}: {}; learn it there, take "
+        "a smaller step, or take --force",
+        source.typed, system.description(), source.learned->system, tried.objection);
   }
   warnings.push_back(
       fmt::format("{}; it passed the trial run for {}: {}", which, system.description(), tried.run.report()));
@@ -194,20 +204,22 @@ tabulated found_at(const method_source& source, const prepared_problem& system, 
         take_at_size(source, method, system, step, force, warnings);
       return method;
     }
-    if (!force) refuse("{}: {}; learn it there, or take --force", source.typed, why);
-    warnings.push_back(fmt::format("{}: {}; used all the same (--force)", source.typed, why));
+    if (!force) refuse("{} must {}; learn it there, or take --force", source.typed, why);
+    warnings.push_back(fmt::format("{} must {}; used all the same (--force)", source.typed, why));
     return from_scheme(source, system, step, force);
   }
   if (source.adaptive != nullptr) {
     const auto frequency = source.adaptive->frequency(system);
     if (!frequency) {
-      refuse("{} needs a highest frequency, and {} declares none: take another method", source.typed,
-             system.description());
+      refuse(
+          "{} must run on a system with a highest frequency, got {}, which declares none; take another "
+          "method",
+          source.typed, system.description());
     }
     try {
       return source.adaptive->at(step * *frequency);
     } catch (const std::invalid_argument& problem) {
-      refuse("{} at step {}: {}", source.typed, step, problem.what());
+      refuse("cannot take {} at the step {}: {}", source.typed, step, problem.what());
     }
   }
   const std::string where = source.where ? fmt::format(" --placement {}", to_string(*source.where)) : "";
@@ -221,9 +233,11 @@ tabulated adapted_to_bath(const method_source& source, tabulated method, const p
                           std::optional<placement> otherwise, std::vector<std::string>& warnings) {
   const bool has_letters = method.letters().stochastic_letters > 0;
   if (method.letters().is_processed() && source.where)
-    refuse("{}: a processed method has no place for letters O: leave the placement away", source.typed);
+    refuse("{}: a processed method must have no letters O, got the placement {}; leave the placement away",
+           source.typed, to_string(*source.where));
   if (has_letters && source.where)
-    refuse("{}: it has its letters O already, in {}", source.typed, method.letters().letters());
+    refuse("{} must have no letters O for a placement, got {}; leave the placement away", source.typed,
+           method.letters().letters());
   if (!system.heat_bath().acts()) {
     if (has_letters || source.where) {
       warnings.push_back(
@@ -235,7 +249,7 @@ tabulated adapted_to_bath(const method_source& source, tabulated method, const p
   try {
     return thermostat(method, source.where.value_or(otherwise.value_or(usual)));
   } catch (const std::invalid_argument& problem) {
-    refuse("{}: {}", source.typed, problem.what());
+    refuse("cannot thermostat {}: {}", source.typed, problem.what());
   }
 }
 
@@ -278,13 +292,13 @@ std::optional<placement> placement_in(const method_source& source, const prepare
   const run_time_word word = family_named(*source.family, system.letters()).letters;
   if (word.is_processed()) {
     refuse(
-        "{}: a processed method cannot run in a bath: a kernel that is learned with a processor gives modes "
-        "another temperature; take {}",
+        "{}: a processed method must run without a bath, as a kernel that is learned with a processor gives "
+        "modes another temperature; take {}",
         source.typed, source.typed.substr(0, source.typed.rfind('+')));
   }
   if (where == placement::middle && word.length % 2 == 0) {
-    refuse("{}: the word {} has no central letter to split: place O at the end, or symmetric", source.typed,
-           word.letters());
+    refuse("{}: the word must have a central letter to split, got {}; place O at the end, or symmetric",
+           source.typed, word.letters());
   }
   return where;
 }

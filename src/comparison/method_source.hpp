@@ -41,7 +41,8 @@ bool is_at(const scheme& learned, double step);
 /// Whether a scheme was learned for another size of this kind of system.
 bool is_of_other_size(const scheme& learned, const prepared_problem& system);
 
-/// Why a scheme from a file is not valid here; empty if it is, or may be tried as one of another size.
+/// What a scheme from a file must do and does not here, as in "run at the step 0.1, got 0.2"; empty if it is
+/// valid here, or may be tried as one of another size.
 std::string out_of_place(const scheme& learned, const prepared_problem& system, double step);
 
 /// The coefficients of a source that needs no learning; in a bath with letters O, where `otherwise` says if

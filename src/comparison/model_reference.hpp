@@ -23,15 +23,13 @@ inline double fine_step_within(double step, std::optional<double> asked, double 
   const double ratio = step / fine / parts;
   if (!(std::round(ratio) >= 1.0) || !(std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio)) {
     const std::string part =
-        parts == 1 ? "" : fmt::format(" in {} equal parts, as its letters O need it,", parts);
-    refuse(
-        "the step {}{} is not an integer multiple of the fine step {}: choose a --fine-step that divides it",
-        step, part, fine);
+        parts == 1 ? "" : fmt::format(" in {} equal parts, as its letters O need it", parts);
+    refuse("--fine-step must divide the step {}{}, got {}", step, part, fine);
   }
   constexpr double too_many = 1e6;  // a million for one step: the program would seem to hang
   if (ratio * parts > too_many) {
-    refuse("the step {} holds {:g} fine steps of {:g}, more than {:g}: take a larger --fine-step", step,
-           ratio * parts, fine, too_many);
+    refuse("the step {} must hold at most {:g} fine steps, got {:g} of {:g}; take a larger --fine-step", step,
+           too_many, ratio * parts, fine);
   }
   return fine;
 }

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,14 +28,17 @@ template <class T>
 T number_of(const std::string& option, std::string_view text) {
   if constexpr (std::is_floating_point_v<T>) {
     const auto value = number_from(text);
-    if (!value) refuse("{}: '{}' is not a finite number", option, text);
+    if (!value) refuse("{} must be a finite number, got '{}'", option, text);
     return *value;
   } else {
     T value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc::result_out_of_range) refuse("{}: {} is more than can be counted", option, text);
+    if (error == std::errc::result_out_of_range) {
+      refuse("{} must be a whole number from {} to {}, got {}", option, std::numeric_limits<T>::min(),
+             std::numeric_limits<T>::max(), text);
+    }
     if (error == std::errc{} && end == text.data() + text.size()) return value;
-    refuse("{}: '{}' is not a whole number{}", option, text, std::is_unsigned_v<T> ? " from 0 on" : "");
+    refuse("{} must be a whole number{}, got '{}'", option, std::is_unsigned_v<T> ? " from 0 on" : "", text);
   }
 }
 

@@ -53,7 +53,7 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
   if (start_ != start::law && !has_frequency_bands(made_.system)) {
     refuse(
-        "{}: the frequencies have no bound, so the motion in a bath has no stationary distribution; take "
+        "{}: the frequencies must have a bound, or the motion in a bath has no stationary distribution; take "
         "--start law",
         description());
   }
@@ -125,7 +125,7 @@ void prepared_problem::prepare_starts(std::uint64_t seed) {
       starts_.emplace(one_long_trajectory<dynamic>(made_.system, made_.starts, {.seed = seed}));
     }
   } catch (const std::runtime_error& problem) {
-    refuse("{}; take another temperature, or --start law", problem.what());
+    refuse("cannot draw initial states: {}; take another temperature, or --start law", problem.what());
   }
 }
 
@@ -240,7 +240,7 @@ void prepared_problem::require_sound_letters(const std::string& name, const run_
   for (const auto& [named, check] : made_.letters) {
     if (word.own_letter(named.letter->facts.letter) == nullptr) continue;
     const letter_check found = check(states, step);
-    if (!found.passed()) refuse("{}: {}", name, found.report());
+    if (!found.passed()) refuse("cannot take {}: {}", name, found.report());
   }
   std::string letters = word.letters();
   std::erase(letters, bath_letter);
@@ -250,8 +250,7 @@ void prepared_problem::require_sound_letters(const std::string& name, const run_
     if (rate.agree()) continue;
     refuse(
         "{}: the letters of the word {} must add up to H of {}, got a rate of {} that is off by {:.2g}, "
-        "where "
-        "H moves it by {:.2g} in unit time; take a letter for each part of H",
+        "where H moves it by {:.2g} in unit time; take a letter for each part of H",
         name, conservative.letters(), description(), which, rate.off, rate.of_h);
   }
   sound_.insert(tried);

@@ -19,30 +19,32 @@ void prepared_problem::require_learnable(const std::string& name, std::optional<
                                          const learning_options& how, double step) const {
   const run_time_family family = placed(name, where, letters());
   if (family.parameters() == 0) {
-    refuse("{}: the sums leave no coefficient to learn: take it as a method, or a longer word", name);
+    refuse(
+        "{} must have coefficients to learn beyond the sums, got none; take the word as a method, or a "
+        "longer word",
+        name);
   }
   require_served(family.letters);
   require_sound_letters(name, family.letters, step);
   reference().fine_step(step, how.fine_step, noise_parts(family));
   const auto which = how.coordinates.empty() ? coordinates::qp : coordinates_named(how.coordinates);
   if (which != coordinates::qp && !has_modes(made_.system)) {
-    refuse("the {} coordinates of {} are not known, as it declares no modes: take qp", how.coordinates,
-           description());
+    refuse("{} must declare modes for the {} coordinates, got none; take qp", description(), how.coordinates);
   }
   const auto options = options_for(family, how, 1);
   const loss_choice chosen = options.loss.value_or(usual_loss(made_.system.bath()));
   const loss_kind& loss = *chosen.kind;
   const double horizon = how.horizon_at(step);
   if (loss.asks_data() && static_cast<double>(chosen.steps) * step > horizon * (1.0 + 1e-9)) {
-    refuse("a loss over {} steps of {} does not fit into trajectories of length {}: take a longer horizon",
+    refuse("trajectories must be as long as the {} steps of {} of the loss, got {}; take a longer horizon",
            chosen.steps, step, horizon);
   }
   if (loss.needs_modes && !has_modes(made_.system))
-    refuse("the {} loss needs modes, which {} does not declare", loss.name, description());
+    refuse("{} must declare modes for the {} loss, got none; take another loss", description(), loss.name);
   if (loss.needs_bath && !made_.system.bath().has_temperature()) {
     refuse(
-        "the {} loss is that of a stationary distribution and needs a bath: give --friction with "
-        "--temperature or --sigma",
+        "the {} loss must be of a system in a bath, which has a stationary distribution; give --friction "
+        "with --temperature or --sigma",
         loss.name);
   }
 }

@@ -70,7 +70,8 @@ void prepared_problem::require_measure(const asked_metric& metric, const traject
   }
   if (metric.is_acceptance()) {
     if (made_.system.bath().acts()) {
-      refuse("the metric acceptance says nothing in a bath, which changes H: leave --friction away");
+      refuse(
+          "the metric acceptance must be of a system without a bath, which changes H; leave --friction away");
     }
     require_room(options_of(plan), 1, 1);
     return;
@@ -192,7 +193,7 @@ error_measure prepared_problem::measure_named(const asked_metric& metric) const 
   if (metric.name == "state") return state_measure(made_.system);
   if (metric.name == "energy") {
     if (made_.system.bath().acts())
-      refuse("the metric energy says nothing in a bath, which changes H: take path");
+      refuse("the metric energy must be of a system without a bath, which changes H; take path");
     return energy_measure(made_.system);
   }
   if (metric.name != "exchange") {
@@ -204,7 +205,7 @@ error_measure prepared_problem::measure_named(const asked_metric& metric) const 
   if (made_.springs.pairs > 0) {
     return exchange_measure(sprung_system{made_.springs});
   } else {
-    refuse("the metric exchange is of stiff springs, which {} has not: take path, state or energy",
+    refuse("the metric exchange must be of a system with stiff springs, got {}; take path, state or energy",
            description());
   }
 }

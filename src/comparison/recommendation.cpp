@@ -20,7 +20,10 @@ recommendation::recommendation(std::unique_ptr<prepared_problem> system, recomme
   require_sound_command();
   plan_classical();
   plan_families();
-  if (all_.empty()) refuse("no method suits: {}: {}", left_out_.front().first, left_out_.front().second);
+  if (all_.empty()) {
+    refuse("cannot recommend a method: none suits ({}: {})", left_out_.front().first,
+           left_out_.front().second);
+  }
 }
 
 void recommendation::learn_and_rank() {

@@ -17,8 +17,9 @@ void recommendation::require_sound_command() {
       options_.budget.has_value() + options_.budget_seconds.has_value() + options_.error.has_value();
   if (goals != 1) {
     refuse(
-        "give one of --budget (force evaluations per unit time), --budget-seconds (per unit time of a "
-        "trajectory) and --error (to stay below)");
+        "recommend: one of --budget (force evaluations per unit time), --budget-seconds (per unit time of a "
+        "trajectory) and --error (to stay below) must be given, got {}",
+        goals);
   }
   if (options_.budget) require_positive("--budget", *options_.budget);
   if (options_.budget_seconds) require_positive("--budget-seconds", *options_.budget_seconds);
@@ -40,8 +41,8 @@ void recommendation::require_sound_command() {
   placement_asked(options_.placement);
   if (options_.metric == "distribution" || options_.metric == "acf") {
     refuse(
-        "recommend ranks by errors along trajectories: --metric {} is not among path, state, exchange, "
-        "energy, acceptance",
+        "recommend: --metric must be an error along trajectories, path, state, exchange, energy or "
+        "acceptance, got {}",
         options_.metric);
   }
   const double nominal = 1e-3 * options_.horizon;
@@ -86,10 +87,11 @@ void recommendation::plan_families() {
     consider(std::move(contender));
   }
   if (!fixes)
-    refuse("--fix {}: no family that is learned here has such parameters", listed(options_.learning.fix));
+    refuse("--fix must name parameters of a family that is learned here, got {}",
+           listed(options_.learning.fix));
   const bool asked = !options_.families.empty() || !options_.learning.fix.empty();
   if (all_.size() == before && asked) {
-    refuse("{}: {}", left_out_.back().first, left_out_.back().second);
+    refuse("cannot recommend {}: {}", left_out_.back().first, left_out_.back().second);
   }
 }
 

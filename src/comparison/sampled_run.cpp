@@ -147,7 +147,8 @@ void integrate(const prepared_problem& system, const tabulated& method, const tr
     };
     states.push_back({part(q), part(p)});
     if (!is_finite(states.back())) {
-      refuse("the state of trajectory {} is not finite: {}", m, nysalt::detail::not_finite_in(states.back()));
+      refuse("the state of trajectory {} must be finite, got one where {}", m,
+             nysalt::detail::not_finite_in(states.back()));
     }
   }
   sampled_plan sampled{.trajectories = plan, .observables = {}, .every = plan.steps};

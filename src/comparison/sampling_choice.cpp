@@ -77,7 +77,7 @@ void sampling_choice::plan_candidates() {
   for (const auto& name : rivals()) consider(name);
   for (const auto& name : options_.families) consider("learned:" + name);
   for (const auto& [name, reason] : left_out_) {
-    if (name.starts_with("learned:")) refuse("{}: {}", name, reason);
+    if (name.starts_with("learned:")) refuse("cannot recommend {}: {}", name, reason);
   }
 }
 
@@ -141,7 +141,7 @@ void sampling_choice::run_pilot() {
   try {
     result = hmc(target, *find_method(two_stages).fixed, system_->prepared_starts(), pilot, keep);
   } catch (const std::invalid_argument& problem) {
-    refuse("pilot chains: {}", problem.what());
+    refuse("cannot run pilot chains: {}", problem.what());
   }
   guess_ = 0.5 * result.step;
   const double reduction = potential_scale_reduction(potentials);

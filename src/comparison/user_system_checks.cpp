@@ -21,11 +21,13 @@ void require_observables(const initial_value_problem& made, const std::string& n
   std::vector<std::string> names;
   for (const auto& own : made.observables) {
     if (!is_plain_name(own.name)) {
-      refuse("{}: an observable is called '{}': take lower-case letters, digits and _, a letter first", name,
-             own.name);
+      refuse(
+          "{}: the name of an observable must be lower-case letters, digits and _, a letter first, got '{}'",
+          name, own.name);
     }
     if (std::ranges::count(names, own.name) > 0 || is_built_in_observable(made, own.name)) {
-      refuse("{}: there is an observable '{}' already: choose another name", name, own.name);
+      refuse("{}: observables must have different names, got '{}' twice; choose another name", name,
+             own.name);
     }
     names.push_back(own.name);
   }
@@ -52,7 +54,7 @@ void require_force(const initial_value_problem& made, const std::string& name) {
   }
   if (size(made.system) > most) return;
   const force_check found = check_force(made.system, points, momenta);
-  if (!found.passed()) refuse("{}: {}", name, found.report());
+  if (!found.passed()) refuse("cannot take {}: {}", name, found.report());
 }
 
 /// Of a system that declares no frequency: the highest frequency, or rate at which motions
@@ -60,7 +62,7 @@ void require_force(const initial_value_problem& made, const std::string& name) {
 double frequency_of(const initial_value_problem& made, const std::string& name) {
   constexpr Eigen::Index most = 1000;  // coordinates
   if (size(made.system) > most || !has_quadratic_kinetic(made.system)) {
-    refuse("{}: its highest frequency is not known: declare it by frequency(...)", name);
+    refuse("{}: the highest frequency must be declared, got none; declare frequency(...)", name);
   }
   std::vector<phase_point<double, Eigen::Dynamic>> starts;
   for (std::int64_t n = 0; n < 64; ++n) starts.push_back(sound_start(made.system, made.starts, 1, n));

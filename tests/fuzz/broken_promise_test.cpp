@@ -10,7 +10,7 @@ using nysalt::fuzz::remains;
 namespace {
 
 const std::set<std::string> before{"scheme.json"};
-const std::string line = "nysalt: scheme.json: this is not whole JSON\n";
+const std::string line = "nysalt: scheme.json must be whole JSON\n";
 const remains refused{2, "", line, before};
 const remains done{0, "rows", "", {"scheme.json", "out.csv", "manifest.json"}};
 

@@ -87,11 +87,11 @@ BOOST_AUTO_TEST_CASE(threads_change_no_byte) {
 BOOST_AUTO_TEST_CASE(what_is_no_proposal_is_refused) {
   all_refused(scratch("acceptance_refused"),
               {{"compare --steps 0.1 --metric acceptance --methods learned:aba3_free",
-                {"learned:aba3_free", "not reversible", "symmetric"}},
+                {"learned:aba3_free", "must be reversible", "symmetric"}},
                {line + "--friction 1 --temperature 1", {"acceptance", "bath", "--friction"}},
                {line + "--hmc-temperature 0", {"--hmc-temperature", "positive", "0"}},
                {line + "--hmc-temperature nan", {"--hmc-temperature", "finite"}},
-               {line + "--observable energy", {"--observable", "not to acceptance"}},
+               {line + "--observable energy", {"--observable", "got acceptance"}},
                {"compare --methods verlet --steps 0.1 --metric path --hmc-temperature 2",
-                {"--hmc-temperature", "acceptance", "not to path"}}});
+                {"--hmc-temperature", "acceptance", "got path"}}});
 }

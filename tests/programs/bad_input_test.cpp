@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(numbers_in_messages_have_the_digits_that_people_type) {
   const auto done =
       run("compare --methods learned:aba3_free --steps 0.2 --equal-cost --learn-horizon 0.5 --horizon 5");
   BOOST_TEST(done.code == 2);
-  BOOST_TEST(done.err.find("0.6:") != std::string::npos, done.err);
+  BOOST_TEST(done.err.find("one step of 0.6, got 0.5") != std::string::npos, done.err);
 }
 
 BOOST_AUTO_TEST_CASE(unknown_names_list_the_known_ones) {
@@ -76,12 +76,14 @@ BOOST_AUTO_TEST_CASE(unknown_names_list_the_known_ones) {
       {learn + " --family nystrom --fix c9=1", {"--fix", "'c9'", "b1, beta1"}},
       {"compare --methods 'a\nb.json' --steps 0.1", {"line break", "rename"}},
       {"compare --methods verlet --steps 0.1 --metric nosuch:q1", {"metric 'nosuch'", "distribution"}},
-      {"compare --methods verlet --steps 0.1 --metric state:q1", {"state", "no observable", "path"}},
+      {"compare --methods verlet --steps 0.1 --metric state:q1",
+       {"state:q1", "to have an observable", "path"}},
       {"compare --methods verlet --steps 0.1 --metric path:", {"path:", "observable after the colon"}},
       {"compare --methods verlet --steps 0.1 --metric path:nosuch", {"nosuch", "stiff_energy"}},
       {"compare --methods verlet --steps 0.1 --metric path,path:stiff_energy",
        {"path:stiff_energy", "twice"}},
-      {"compare --methods verlet --steps 0.1 --metric path:q1 --observable p1", {"--observable", "belongs"}},
+      {"compare --methods verlet --steps 0.1 --metric path:q1 --observable p1",
+       {"--observable", "must come with"}},
       {"compare --methods verlet --steps 0.1 --levels 0", {"--levels", "positive"}},
       {"run --method nosuch --step 1 --horizon 1", {"method 'nosuch'", "nysalt list", ".json"}},
       {"run --method '' --step 1 --horizon 1", {"--method", "empty"}},
@@ -153,36 +155,37 @@ BOOST_AUTO_TEST_CASE(numbers_that_are_none_or_not_in_place) {
 }
 
 BOOST_AUTO_TEST_CASE(a_fine_step_must_divide) {
-  all_refused(after(learn, {{"--fine-step 0.003", {"0.02", "multiple", "0.003", "--fine-step"}},
-                            {"--fine-step 0.04", {"0.02", "multiple", "0.04"}},
+  all_refused(after(learn, {{"--fine-step 0.003", {"--fine-step must divide the step 0.02", "0.003"}},
+                            {"--fine-step 0.04", {"must divide the step 0.02", "0.04"}},
                             {"--fine-step 0", {"--fine-step", "positive"}},
                             {"--fine-step -0.01", {"--fine-step", "positive"}},
                             {"--fine-step nan", {"--fine-step", "finite"}},
                             {"--fine-step ''", {"--fine-step"}}}));
-  all_refused({{compare + " --steps 0.0105", {"0.0105", "multiple", "0.001"}},
-               {compare + " --steps 0.01,0.0105", {"0.0105", "multiple", "0.001"}},
-               {compare + " --steps 0.0105 --system oscillator", {"0.0105", "multiple", "0.001"}}});
+  all_refused({{compare + " --steps 0.0105", {"must divide the step 0.0105", "0.001"}},
+               {compare + " --steps 0.01,0.0105", {"must divide the step 0.0105", "0.001"}},
+               {compare + " --steps 0.0105 --system oscillator", {"must divide the step 0.0105", "0.001"}}});
 }
 
 BOOST_AUTO_TEST_CASE(horizons_hold_a_step_and_not_too_many) {
   all_refused({
-      {learn + " --horizon 0.01", {"--horizon", "0.01", "shorter", "0.02"}},
+      {learn + " --horizon 0.01", {"--horizon", "0.01", "at least one step of 0.02"}},
       {learn + " --horizon 0", {"--horizon", "positive"}},
       {learn + " --horizon nan", {"--horizon", "finite"}},
       {learn + " --horizon 1e300", {"--horizon", "1e+300"}},
       {run_it, {"--horizon"}},
-      {run_it + " --horizon 0.0099", {"--horizon", "shorter"}},
+      {run_it + " --horizon 0.0099", {"--horizon", "at least one step"}},
       {run_it + " --horizon -1", {"--horizon", "positive"}},
       {run_it + " --horizon 1e300", {"--horizon", "1e+300"}},
       {run_it + " --horizon inf", {"--horizon", "finite"}},
       {"run --method verlet --output out.csv --step 1e-300 --horizon 1", {"1e-300", "--horizon"}},
-      {compare + " --steps 0.6 --horizon 0.5", {"--horizon", "shorter", "0.6"}},
+      {compare + " --steps 0.6 --horizon 0.5", {"--horizon", "at least one step of 0.6"}},
       {compare + " --steps 0.06 --horizon 0.5",
-       {"--horizon 0.5 holds 8.33", "fewer than the 10", "take 0.6 at least"}},
+       {"--horizon must hold at least 10 steps", "got 0.5, which holds 8.33", "at least 0.6"}},
       // Six evaluations a step: 0.6 again.
       {"compare --methods srkn6b --equal-cost --steps 0.1 --horizon 0.5 --output folder",
-       {"--horizon", "shorter", "0.6"}},
-      {compare + ",learned:nystrom --steps 0.01 --learn-horizon 0.005", {"--learn-horizon", "shorter"}},
+       {"--horizon", "at least one step of 0.6"}},
+      {compare + ",learned:nystrom --steps 0.01 --learn-horizon 0.005",
+       {"--learn-horizon", "at least one step"}},
       {compare + " --steps 1e-300", {"--horizon", "1e-300"}},
   });
 }

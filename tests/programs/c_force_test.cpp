@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(it_is_learned_for_and_its_schemes_are_of_its_file) {
                       "");
   const auto other = run(folder, go);
   BOOST_TEST(other.code == 2);
-  BOOST_TEST(other.err.find("another source") != std::string::npos, other.err);
+  BOOST_TEST(other.err.find("must run on the source and the parameters") != std::string::npos, other.err);
 }
 
 BOOST_AUTO_TEST_CASE(each_thread_has_data_of_its_own) {

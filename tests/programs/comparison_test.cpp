@@ -232,9 +232,10 @@ BOOST_AUTO_TEST_CASE(a_row_of_too_few_steps_says_so) {
       "--trajectories 16 --horizon 10");
   BOOST_TEST(!all["rows"][0].contains("reason"));
   const std::string reason = all["rows"][1]["reason"];
-  BOOST_TEST(reason ==
-             "--horizon 10 holds 8.33 of its steps of 1.2, fewer than the 10 that a mean over time takes: "
-             "take 12 at least");
+  BOOST_TEST(
+      reason ==
+      "--horizon must hold at least 10 steps of 1.2 for a mean over time, got 10, which holds 8.33; take "
+      "at least 12");
   BOOST_TEST(all["rows"][1]["error"].is_null());
   BOOST_TEST(all["rows"][3]["acceptance"] > 0.0);  // that is of the end alone
 }

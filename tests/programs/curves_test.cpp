@@ -108,8 +108,8 @@ BOOST_FIXTURE_TEST_CASE(one_that_is_not_whole_is_refused, curve) {
       {[](json& s) { s["parameters"]["b"] = 0.2; }, {"\"b\"", "list"}},
       {[](json& s) { s["parameters"]["c"][1] = nullptr; }, {"\"c\"", "number"}},
       {[](json& s) { s["parameters"]["b"][2] = 5.0; }, {"the parameter b", "5"}},
-      {[](json& s) { s["version"] = 1; }, {"version 1", "several steps"}},
-      {[](json& s) { s["version"] = 4; }, {"version 4", "newer"}}};
+      {[](json& s) { s["version"] = 1; }, {"\"version\" must be 3", "several steps", "got 1"}},
+      {[](json& s) { s["version"] = 4; }, {"\"version\"", "got 4", "newer"}}};
   for (const auto& forgery : changes) {
     write(folder, "forged.json", forged(text, forgery.of));
     const finished done =
@@ -132,8 +132,7 @@ BOOST_AUTO_TEST_CASE(between_its_steps_a_curve_must_be_stable) {
           s["parameters"]["beta1"] = {0.5, 0.5};
         }));
   const std::string at = "run --horizon 0.45 --method forged.json --step 0.045";
-  BOOST_TEST(
-      refused(run(folder, at), {"forged.json", "between its learned steps", "0.045", "not linearly stable"}));
+  BOOST_TEST(refused(run(folder, at), {"forged.json", "between the steps", "0.045", "not linearly stable"}));
   BOOST_TEST(run(folder, "run --horizon 0.45 --method curve.json --step 0.045").code == 0);
 }
 

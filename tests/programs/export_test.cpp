@@ -223,7 +223,7 @@ BOOST_AUTO_TEST_CASE(what_no_host_takes_is_refused) {
   must_be_told("mclachlan2 --to blackjax", "bcss2v");
   must_be_told("impulse --to c", "quadratic part");
   must_be_told("baoab --to mici", "letters O");
-  must_be_told("baoab --to c --placement end", "letters O already");
+  must_be_told("baoab --to c --placement end", "no letters O for a placement, got BAOAB");
   must_be_told("verlet --to c --placement start", "placement");
   must_be_told("fg4_processed --to c --displaced --placement end", "processor");
   must_be_told("mclachlan2 --to lammps", "drift after its last kick");

@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(what_is_twice_in_a_table_is_refused) {
       << R"({"format": "nysalt table", "version": 1, "letters": "BAB", "coefficients": [0.5, 1, 0.5], "coefficients": [0.4, 1, 0.6]})";
   const auto done = run(folder, "run --method t.json --step 0.01 --horizon 1");
   BOOST_TEST(done.code == 2);
-  BOOST_TEST(done.err.find("\"coefficients\" is there twice") != std::string::npos, done.err);
+  BOOST_TEST(done.err.find("different names, got \"coefficients\" twice") != std::string::npos, done.err);
 }
 
 namespace {

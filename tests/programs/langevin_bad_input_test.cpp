@@ -138,9 +138,9 @@ BOOST_AUTO_TEST_CASE(schemes_of_a_bath_have_version_2_and_a_placement) {
   write(folder, "edited.json", std::string(sound).replace(sound.find("symmetric"), 9, "middle"));
   const std::string line = in_the_bath + " --force";  // whatever the fit was
   all_refused(folder,
-              {{run_it + "old.json" + line, {"old.json", "version 1", "placement"}},
-               {run_it + "new.json" + line, {"new.json", "version 4", "3 at most"}},
-               {run_it + "bare.json" + line, {"bare.json", "version 2", "placement"}},
+              {{run_it + "old.json" + line, {"old.json", "\"version\"", "got 1", "placement"}},
+               {run_it + "new.json" + line, {"new.json", "\"version\" must be at most 3", "got 4"}},
+               {run_it + "bare.json" + line, {"bare.json", "\"version\"", "got 2", "placement"}},
                {run_it + "nowhere.json" + line, {"nowhere.json", "'nosuch'", "end, symmetric, middle"}},
                {run_it + "number.json" + line, {"number.json", "placement", "text"}},
                {run_it + "edited.json" + line, {"edited.json", "checksum"}},
@@ -150,9 +150,10 @@ BOOST_AUTO_TEST_CASE(schemes_of_a_bath_have_version_2_and_a_placement) {
 
 BOOST_AUTO_TEST_CASE(fine_steps_divide_the_intervals_of_the_noise) {
   // In halves where O stands at both ends.
-  all_refused(after(learn + in_the_bath, {{"--fine-step 0.03", {"0.1", "multiple", "0.03", "--fine-step"}},
-                                          {"--fine-step 0.1", {"0.1", "2 equal parts", "--fine-step"}},
-                                          {"--fine-step 0.02", {"0.1", "2 equal parts", "0.02"}}}));
+  all_refused(after(learn + in_the_bath,
+                    {{"--fine-step 0.03", {"0.1", "must divide the step 0.1", "0.03", "--fine-step"}},
+                     {"--fine-step 0.1", {"0.1", "2 equal parts", "--fine-step"}},
+                     {"--fine-step 0.02", {"0.1", "2 equal parts", "0.02"}}}));
   all_refused(after(compare + "obabo --steps 0.1" + in_the_bath, {{"--fine-step 0.02", {"2 equal parts"}}}));
   BOOST_TEST(run(compare + "baoab --steps 0.1 --fine-step 0.02" + in_the_bath).code == 0);
   all_refused(
@@ -169,27 +170,29 @@ BOOST_AUTO_TEST_CASE(metrics_that_say_nothing_there) {
 }
 
 BOOST_AUTO_TEST_CASE(histograms_and_lags_are_in_place) {
-  all_refused(after(statistics + "distribution", {{"--range 1", {"--range", "two numbers", "1"}},
-                                                  {"--range 0,1,2", {"--range", "two numbers", "3"}},
-                                                  {"--range 1,1", {"--range", "LOW below HIGH", "1,1"}},
-                                                  {"--range 2,1", {"--range", "LOW below HIGH", "2,1"}},
-                                                  {"--range=-1e308,1e308", {"--range", "LOW below HIGH"}},
-                                                  {"--range 0,nan", {"--range", "'nan'", "finite"}},
-                                                  {"--range 0,,1", {"--range", "empty"}},
-                                                  {"--range 100,200", {"--range", "100,200", "energy"}},
-                                                  {"--bins 0", {"--bins", "at least 1"}},
-                                                  {"--bins 2.5", {"--bins", "whole"}},
-                                                  {"--bins 100001", {"--bins", "at most 100000"}},
-                                                  {"--longest-lag 1", {"--longest-lag", "acf"}},
-                                                  {"--observable nosuch", {"'nosuch'"}},
-                                                  {"--fine-step 0.03", {"0.1", "multiple", "0.03"}}}));
-  all_refused(after(statistics + "acf", {{"--longest-lag 0", {"--longest-lag", "positive"}},
-                                         {"--longest-lag -1", {"--longest-lag", "positive"}},
-                                         {"--longest-lag 0.05", {"--longest-lag", "shorter", "0.1"}},
-                                         {"--longest-lag 2", {"--longest-lag", "--horizon 2", "longer"}},
-                                         {"--longest-lag 1e300", {"--longest-lag", "1e+300"}},
-                                         {"--range 0,1", {"--range", "distribution"}},
-                                         {"--bins 5", {"--bins", "distribution"}}}));
+  all_refused(after(statistics + "distribution",
+                    {{"--range 1", {"--range", "two numbers", "1"}},
+                     {"--range 0,1,2", {"--range", "two numbers", "3"}},
+                     {"--range 1,1", {"--range", "LOW below HIGH", "1,1"}},
+                     {"--range 2,1", {"--range", "LOW below HIGH", "2,1"}},
+                     {"--range=-1e308,1e308", {"--range", "LOW below HIGH"}},
+                     {"--range 0,nan", {"--range", "'nan'", "finite"}},
+                     {"--range 0,,1", {"--range", "empty"}},
+                     {"--range 100,200", {"--range", "100,200", "energy"}},
+                     {"--bins 0", {"--bins", "at least 1"}},
+                     {"--bins 2.5", {"--bins", "whole"}},
+                     {"--bins 100001", {"--bins", "at most 100000"}},
+                     {"--longest-lag 1", {"--longest-lag", "acf"}},
+                     {"--observable nosuch", {"'nosuch'"}},
+                     {"--fine-step 0.03", {"0.1", "must divide the step 0.1", "0.03"}}}));
+  all_refused(
+      after(statistics + "acf", {{"--longest-lag 0", {"--longest-lag", "positive"}},
+                                 {"--longest-lag -1", {"--longest-lag", "positive"}},
+                                 {"--longest-lag 0.05", {"--longest-lag", "at least one step of 0.1"}},
+                                 {"--longest-lag 2", {"--longest-lag", "--horizon 2", "longer"}},
+                                 {"--longest-lag 1e300", {"--longest-lag", "1e+300"}},
+                                 {"--range 0,1", {"--range", "distribution"}},
+                                 {"--bins 5", {"--bins", "distribution"}}}));
   all_refused(after(statistics + "path", {{"--bins 5", {"--bins", "distribution", "path"}},
                                           {"--range 0,1", {"--range", "distribution", "path"}},
                                           {"--longest-lag 1", {"--longest-lag", "acf", "path"}}}));
@@ -206,7 +209,7 @@ BOOST_AUTO_TEST_CASE(a_motion_that_is_not_confined_has_no_gibbs_law) {
     const std::string run_it =
         "run --method baoab --step 0.01 --horizon 0.1 --friction 0.1 --temperature 0.05";
     for (const char* start : {"", " --start gibbs", " --start trajectory"}) {
-      all_refused({{run_it + system + start, {"no bound", "--start law"}}});
+      all_refused({{run_it + system + start, {"must have a bound", "--start law"}}});
     }
     BOOST_TEST(run(run_it + system + " --start law").code == 0);
   }

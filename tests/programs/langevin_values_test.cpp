@@ -269,7 +269,7 @@ BOOST_AUTO_TEST_CASE(a_scheme_keeps_its_bath_and_its_placement) {
         "run --start law --method end.json --step 0.02 --horizon 0.04 --json" + elsewhere;
     const auto refused = in_folder(line);
     BOOST_TEST(refused.code == 2, line);
-    BOOST_TEST(refused.err.find("learned for") != std::string::npos, refused.err);
+    BOOST_TEST(refused.err.find("for which it was learned") != std::string::npos, refused.err);
     const auto forced = in_folder(line + " --force");
     BOOST_TEST(forced.code == 0, line);
     BOOST_TEST(!json_of(forced)["warnings"].empty());

@@ -478,11 +478,11 @@ BOOST_AUTO_TEST_CASE(resonances_between_learned_steps_and_at_another_size_are_re
     BOOST_TEST(ran.code == 0, ran.err);
     BOOST_TEST(ran.err == "");
   }
-  refused(folder, run_curve + at(0.0), {"curve.json: between its learned steps", reason});
+  refused(folder, run_curve + at(0.0), {"curve.json must be stable between the steps", reason});
   refused(folder,
           of("compare", 4) +
               fmt::format("--methods curve.json --metric state --horizon 2 --steps {:.12g}", word.step(0.0)),
-          {"curve.json: between its learned steps", reason});
+          {"curve.json must be stable between the steps", reason});
   const auto forced = run(folder, run_curve + at(0.0) + "--force");
   BOOST_TEST(forced.code == 0, forced.err);
   BOOST_TEST(forced.err.find(reason) != std::string::npos, forced.err);
@@ -497,8 +497,7 @@ BOOST_AUTO_TEST_CASE(resonances_between_learned_steps_and_at_another_size_are_re
     BOOST_TEST(there.code == 0, there.err);
     BOOST_TEST(there.err == "");
     if (half_widths == 0.0) {
-      refused(folder, run_small(4),
-              {"small.json: it was learned at another size", "fails the trial", reason});
+      refused(folder, run_small(4), {"small.json must pass the trial", "learned at another size", reason});
       BOOST_TEST(run(folder, run_small(4, "--force")).err.find(reason) != std::string::npos);
     } else {
       const auto larger = run(folder, run_small(4));
@@ -525,7 +524,8 @@ BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
            {"word:tAt", "must add up to H"}}) {
     refused(folder, "run --method " + word + here, {word, said});
   }
-  refused(folder, "learn --family word:tct --system ./mine.hpp --step 0.5", {"no coefficient to learn"});
+  refused(folder, "learn --family word:tct --system ./mine.hpp --step 0.5",
+          {"must have coefficients to learn"});
   refused(folder, "run --system henon_heiles --method word:tct --step 0.5 --horizon 1", {"here none, got t"});
   write(folder, "table.json", table("tzt", {0.5, 1.0, 0.5}));
   refused(folder, "run --method table.json" + here, {"table.json", "the letter z"});
@@ -543,9 +543,11 @@ BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
           .code == 0);
   for (const std::string force : {"", " --force"}) {
     refused(folder, "run --method s.json --system ./other.hpp --step 0.5 --horizon 1" + force,
-            {"s.json", "its word tctct has the letter t of henon_heiles()", "has the letters w, 8"});
-    refused(folder, "run --method s.json --system henon_heiles --step 0.5 --horizon 1" + force,
-            {"s.json", "the letter t of henon_heiles(), and henon_heiles() has no letters of its own"});
+            {"s.json", "the letters of its word tctct must be of",
+             "has the letters w, 8, got t of henon_heiles()"});
+    refused(
+        folder, "run --method s.json --system henon_heiles --step 0.5 --horizon 1" + force,
+        {"s.json", "must be of henon_heiles(), which has no letters of its own, got t of henon_heiles()"});
   }
   refused(folder, "stability --method s.json", {"s.json", "give --system"});
   // What a letter states is read with care; no change is none.
@@ -587,5 +589,5 @@ BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
   refused(folder, "cite --methods odd.json", {"neither a scheme nor a table"});
   // A source with the same letters is another system.
   write(folder, "mine.hpp", turning + "// edited\n");
-  refused(folder, "run --method s.json" + here, {"s.json", "another source"});
+  refused(folder, "run --method s.json" + here, {"s.json", "must run on the source and the parameters"});
 }

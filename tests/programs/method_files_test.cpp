@@ -121,7 +121,7 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_stays_at_its_step_and_system, learned) {
     }
   }
   const finished spoken = run(folder, "run --method scheme.json --horizon 0.2 --step 0.01 --force");
-  BOOST_TEST(spoken.err.starts_with("nysalt: warning: scheme.json: "));
+  BOOST_TEST(spoken.err.starts_with("nysalt: warning: scheme.json must run at the step 0.02, "));
   // One step of a list must be its own.
   BOOST_TEST(
       refused(run(folder, errors + "verlet,scheme.json --steps 0.01"), {"0.02", "--steps", "--force"}));
@@ -141,13 +141,13 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_that_is_cut_off_is_refused, learned) {
     write(folder, "cut.json", text.substr(0, length));
     const finished done = run(folder, "run --method cut.json --step 0.02 --horizon 0.2");
     BOOST_TEST_CONTEXT(length << " bytes: " << done.err) {
-      BOOST_TEST(refused(done, {"cut.json", "not whole"}));
+      BOOST_TEST(refused(done, {"cut.json", "must be whole JSON"}));
     }
   }
   write(folder, "cut.json", "");
-  all_refuse(folder, "cut.json", {"cut.json", "not whole"});
+  all_refuse(folder, "cut.json", {"cut.json", "must be whole JSON"});
   write(folder, "more.json", text + text);
-  all_refuse(folder, "more.json", {"more.json", "not whole"});
+  all_refuse(folder, "more.json", {"more.json", "must be whole JSON"});
 }
 
 // Any digit, and any word.
@@ -185,17 +185,17 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_of_another_kind_is_refused, learned) {
     std::vector<std::string> words;
   };
   const std::vector<change> changes{
-      {[](json& s) { s["version"] = 4; }, {"version 4", "newer"}},
-      {[](json& s) { s["version"] = 3; }, {"no version 3", "without several steps"}},
-      {[](json& s) { s["version"] = 0; }, {"version 0"}},
+      {[](json& s) { s["version"] = 4; }, {"\"version\"", "got 4", "newer"}},
+      {[](json& s) { s["version"] = 3; }, {"without several steps", "got 3"}},
+      {[](json& s) { s["version"] = 0; }, {"\"version\"", "got 0"}},
       {[](json& s) { s["version"] = "1"; }, {"\"version\"", "number"}},
-      {[](json& s) { s.erase("version"); }, {"\"version\"", "missing"}},
+      {[](json& s) { s.erase("version"); }, {"must have the member \"version\""}},
       {[](json& s) { s["format"] = "another"; }, {"\"format\"", "nysalt scheme"}},
       {[](json& s) { s["format"] = 7; }, {"\"format\""}},
       {[](json& s) { s.erase("format"); }, {"\"format\""}},
       {[](json& s) { s["family"] = "nosuch"; }, {"family 'nosuch'", "nysalt list"}},
       {[](json& s) { s["family"] = nullptr; }, {"\"family\"", "text"}},
-      {[](json& s) { s["parameters"].erase("b1"); }, {"\"b1\"", "missing"}},
+      {[](json& s) { s["parameters"].erase("b1"); }, {"must have the member \"b1\""}},
       {[](json& s) { s["parameters"]["c9"] = 1.0; }, {"b1, beta1"}},
       {[](json& s) { s["parameters"]["b1"] = "0.5"; }, {"\"b1\"", "number"}},
       {[](json& s) { s["parameters"]["b1"] = nullptr; }, {"\"b1\"", "number"}},
@@ -204,12 +204,12 @@ BOOST_FIXTURE_TEST_CASE(a_scheme_of_another_kind_is_refused, learned) {
          s["parameters"] = {0.5, 0.4};
        },
        {"\"parameters\"", "object"}},
-      {[](json& s) { s.erase("parameters"); }, {"\"parameters\"", "missing"}},
+      {[](json& s) { s.erase("parameters"); }, {"must have the member \"parameters\""}},
       {[](json& s) { s["step"] = -0.02; }, {"\"step\"", "positive"}},
       {[](json& s) { s["step"] = 0; }, {"\"step\"", "positive"}},
       {[](json& s) { s["step"] = true; }, {"\"step\"", "number"}},
-      {[](json& s) { s["system"] = "fpu"; }, {"\"description\"", "missing"}},
-      {[](json& s) { s["system"].erase("description"); }, {"\"description\"", "missing"}},
+      {[](json& s) { s["system"] = "fpu"; }, {"must have the member \"description\""}},
+      {[](json& s) { s["system"].erase("description"); }, {"must have the member \"description\""}},
       {[](json& s) { s["usable"] = 1; }, {"\"usable\"", "true or false"}},
       {[](json& s) { s["reason"] = json::array(); }, {"\"reason\"", "text"}},
   };
@@ -341,9 +341,9 @@ BOOST_AUTO_TEST_CASE(a_table_that_is_not_true_is_refused) {
            {table("ABA", {0.5, 1.0, 0.4}), {"A adds up to 0.9"}},
            {table("ABA", {0.5, 1.01, 0.5}), {"B adds up to 1.01"}},
            {table("A", {1.0}), {"B adds up to 0"}},
-           {table("ABA", {0.5, 1.0, 0.5}, {{"order", 4}}), {"order 4", "order 2"}},
-           {table("AB", {1.0, 1.0}, {{"order", 2}}), {"order 2", "order 1"}},
-           {table("BABABABABABAB", mistyped, {{"order", 4}}), {"order 4", "mistyped"}},
+           {table("ABA", {0.5, 1.0, 0.5}, {{"order", 4}}), {"\"order\" must be at most 2", "got 4"}},
+           {table("AB", {1.0, 1.0}, {{"order", 2}}), {"\"order\" must be at most 1", "got 2"}},
+           {table("BABABABABABAB", mistyped, {{"order", 4}}), {"\"order\"", "got 4", "mistyped"}},
            {table("AXA", {0.5, 1.0, 0.5}), {"letter X", "A, B"}},
            {table("aba", {0.5, 1.0, 0.5}), {"letter a", "A, B"}},
            {table("", {}), {"letter"}},
@@ -359,11 +359,12 @@ BOOST_AUTO_TEST_CASE(a_table_that_is_not_true_is_refused) {
            {but("letters", 3), {"\"letters\"", "text"}},
            {but("name", 3), {"\"name\"", "text"}},
            {but("order", "two"), {"\"order\"", "number"}},
-           {but("version", 2), {"version 2", "newer"}},
-           {R"({"format": "nysalt table", "version": 1})", {"missing"}},
-           {R"({"format": "nysalt table", "version": 1, "letters": "ABA"})", {"\"coefficients\"", "missing"}},
+           {but("version", 2), {"\"version\"", "got 2", "newer"}},
+           {R"({"format": "nysalt table", "version": 1})", {"must have the member"}},
+           {R"({"format": "nysalt table", "version": 1, "letters": "ABA"})",
+            {"must have the member \"coefficients\""}},
            {R"({"format": "nysalt table", "version": 1, "letters": "AB", "coefficients": [1e999, 1]})",
-            {"not finite"}},
+            {"must be finite"}},
            {R"({"format": "nysalt table", "version": 1, "letters": "AB", "coefficients": [NaN, 1]})",
             {"whole"}}}) {
     write(folder, "table.json", text);

@@ -106,19 +106,21 @@ BOOST_AUTO_TEST_CASE(what_else_differs_is_refused) {
   BOOST_REQUIRE(run(folder, learn_small + "--family nystrom --output small.json").code == 0);
   const std::string method = "run --method small.json --step 0.02 --horizon 0.2 ";
   require_refused(run(folder, method + "--pairs 40 --omega 51"),
-                  {"it was learned for fpu_chain(pairs=3, omega=50), not fpu_chain(pairs=40, omega=51)"});
+                  {"must run on fpu_chain(pairs=3, omega=50), for which it was learned, got "
+                   "fpu_chain(pairs=40, omega=51)"});
   require_refused(run(folder, method + "--pairs 40 --friction 0.1 --temperature 1 --start law"),
-                  {"it was learned for fpu_chain(pairs=3, omega=50), not"});
+                  {"must run on fpu_chain(pairs=3, omega=50), for which it was learned, got"});
   require_refused(run(folder, method + "--system phi4"), {"not phi4_chain(masses=16)"});
-  require_refused(run(folder, "run --method small.json --pairs 40 --step 0.03 --horizon 0.3"), {"not 0.03"});
+  require_refused(run(folder, "run --method small.json --pairs 40 --step 0.03 --horizon 0.3"),
+                  {"must run at the step 0.02, for which it was learned, got 0.03"});
 }
 
 BOOST_AUTO_TEST_CASE(a_file_without_a_kind_is_of_its_system_alone) {
   const scratch folder("other_size_old");
   const std::string method = "run --method " + old_scheme + " --step 0.02 --horizon 0.2 ";
   BOOST_TEST(run(folder, method).code == 0);
-  require_refused(run(folder, method + "--pairs 4"),
-                  {"it was learned for fpu_chain(pairs=3, omega=50), not fpu_chain(pairs=4, omega=50)"});
+  require_refused(run(folder, method + "--pairs 4"), {"must run on fpu_chain(pairs=3, omega=50), for which "
+                                                      "it was learned, got fpu_chain(pairs=4, omega=50)"});
 }
 
 BOOST_AUTO_TEST_CASE(a_plugin_marks_its_size_and_the_trial_refuses_what_diverges) {
@@ -138,16 +140,18 @@ BOOST_AUTO_TEST_CASE(a_plugin_marks_its_size_and_the_trial_refuses_what_diverges
   // their bottoms, where the guard looks, there is none.
   require_refused(
       run(folder, "run --method stiffening.json --number 12 --power 4 " + horizon),
-      {"stiffening.json: it was learned at another size, for wells(number=1, power=4), and fails the "
-       "trial for wells(number=12, power=4): in a trial run of",
+      {"stiffening.json must pass the trial for wells(number=12, power=4), as it was learned at another "
+       "size, for wells(number=1, power=4): in a trial run of",
        "diverge", "--force"});
-  require_refused(run(folder, "run --method alike.json --number 12 --power 1 " + horizon),
-                  {"it was learned for wells(number=1, power=0), not wells(number=12, power=1)"});
+  require_refused(
+      run(folder, "run --method alike.json --number 12 --power 1 " + horizon),
+      {"must run on wells(number=1, power=0), for which it was learned, got wells(number=12, power=1)"});
   // The kind of another source is another.
   std::string text(wells_source);
   std::ofstream(folder / "wells.hpp") << text.replace(text.find("0.25 * k"), 8, "0.26 * k");
   BOOST_REQUIRE(run(folder, "build wells.hpp").code == 0);
-  require_refused(run(folder, "run --method alike.json --number 12 " + horizon), {"it was learned for"});
+  require_refused(run(folder, "run --method alike.json --number 12 " + horizon),
+                  {"for which it was learned"});
 }
 
 BOOST_AUTO_TEST_CASE(a_library_of_c_functions_may_tell_its_kind) {
@@ -191,5 +195,5 @@ void nysalt_start(int64_t n, const double* normals, double* q, double* p, void* 
   const auto many = document("run --method told.json --step 0.3 --horizon 3 --system ./told5.so", folder);
   BOOST_TEST(!warning_in(many, "passed the trial run").empty());
   require_refused(run(folder, "run --method silent.json --step 0.3 --horizon 3 --system ./silent5.so"),
-                  {"it was learned for silent1, not silent5"});
+                  {"must run on silent1, for which it was learned, got silent5"});
 }

@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(a_new_system_builds_and_runs) {
   // What it has not.
   for (const auto& [options, said] : std::vector<std::pair<std::string, std::string>>{
            {"--depth 0", "--depth must be positive, got 0"},
-           {"--masses 2.5", "'2.5' is not a whole number"},
+           {"--masses 2.5", "must be a whole number, got '2.5'"},
            {"--masses 1001", "at most 1000, got 1001"},
            {"--omega 3",
             "the system ./morse_chain.so has no --omega: it takes --masses, --depth, --width, --spread"},
@@ -155,14 +155,14 @@ BOOST_AUTO_TEST_CASE(another_source_is_another_system) {
   run(folder, learn + "--output scheme.json");
   const std::string use = "run --system ./tried.hpp --step 0.5 --horizon 2 --method scheme.json --k 1";
   const auto same = run(folder, use);
-  BOOST_TEST(same.err.find("another source") == std::string::npos, same.err);
+  BOOST_TEST(same.err.find("must run on the source and the parameters") == std::string::npos, same.err);
   const auto other_k =
       run(folder, "run --system ./tried.hpp --step 0.5 --horizon 2 --method scheme.json --k 2");
   BOOST_TEST(other_k.code == 2);
   write(folder, "factor.hpp", "#define FACTOR 5.0\n");
   const auto other = run(folder, use);
   BOOST_TEST(other.code == 2);
-  BOOST_TEST(other.err.find("another source") != std::string::npos, other.err);
+  BOOST_TEST(other.err.find("must run on the source and the parameters") != std::string::npos, other.err);
 }
 
 // As a full disk leaves a library behind: the source is compiled again. A damaged file that was named itself
@@ -218,7 +218,7 @@ BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
            "is called 'step', as an option is");
   must_say(oscillator_source(sound,
                              ", observable(\"energy\", [](const tried&, const auto& x) { return x.q[0]; })"),
-           "", "there is an observable 'energy' already");
+           "", "observables must have different names, got 'energy' twice");
   // What it does is chosen while it runs, as each source takes seconds to compile.
   const std::string by_k = oscillator_source(
       potential_that(

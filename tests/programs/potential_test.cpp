@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(texts_that_are_no_potential_are_refused) {
            {"--potential 'q[1]^2' --variables 'q[0]'", "at least 1"},
            {"--potential 'k*x^2' --variables x --parameter k", "is not name=value"},
            {"--potential 'k*x^2' --variables x --parameter K=1", "lower-case"},
-           {"--potential 'k*x^2' --variables x --parameter k=abc", "'abc' is not a finite number"},
+           {"--potential 'k*x^2' --variables x --parameter k=abc", "must be a finite number, got 'abc'"},
            {"--potential 'x^2' --variables x --mass 0", "--mass must be positive"},
            {"--potential 'x^2' --variables x --mass 1,2", "--mass must be one"},
            {"--potential 'x^2' --variables x --around y=1", "must be coordinates, got 'y'"}}) {

@@ -303,7 +303,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
              {"--horizon 1 --error -1", {"--error", "positive"}},
              {"--budget 60 --horizon 0", {"--horizon", "positive"}},
              {"--budget 60", {"--horizon"}},
-             {"--budget 0.1 --horizon 1", {"--horizon", "shorter than one step"}},
+             {"--budget 0.1 --horizon 1", {"--horizon", "at least one step"}},
              {sound + "--metric acf", {"acf", "path, state, exchange, energy"}},
              {sound + "--metric nosuch", {"nosuch", "path, relative, state, exchange, energy"}},
              {sound + "--observable energy", {"--observable", "path", "not to state"}},

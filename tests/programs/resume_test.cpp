@@ -104,7 +104,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_leaves_nothing) {
           "--steps 0.2 --horizon 60 --trajectories 64 --metric distribution --range 100,101 --output "
           "new/run");
   BOOST_TEST(done.code == 2, done.err);
-  BOOST_TEST(done.err.find("holds no energy of the reference") != std::string::npos, done.err);
+  BOOST_TEST(done.err.find("--range must hold values of energy of the reference") != std::string::npos,
+             done.err);
   BOOST_TEST(folder.files().empty());
 }
 

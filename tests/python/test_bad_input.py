@@ -41,19 +41,19 @@ CASES = [
     (lambda: nysalt.learn(CHAIN), "give step, or steps for a curve, and not both"),
     (lambda: nysalt.learn(CHAIN, "nystrom", step=-0.1), "step must be a positive, finite number, got -0.1"),
     (lambda: nysalt.learn(CHAIN, "nystroem", step=0.02), "unknown family 'nystroem': did you mean nystrom?"),
-    (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, fix={"b2": 1}), "fix: the family nystrom has no parameter 'b2': it has b1"),
+    (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, fix={"b2": 1}), "fix must name a parameter of the family nystrom, got 'b2': it has b1"),
     (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, enough=0.1, trajectories=3), "leave trajectories away"),
     (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, seed=-1), "seed must not be negative, got -1"),
     (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, seed=2**51), "seed must be below 2\\^51"),
     (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, threads=0), "threads must be at least 1"),
     (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, trajectories=10**30), "trajectories must be a whole number that can be counted"),
-    (lambda: nysalt.learn(nysalt.system("kepler"), "nystrom", step=0.1, coordinates="modes"), "it declares no modes: take qp"),
+    (lambda: nysalt.learn(nysalt.system("kepler"), "nystrom", step=0.1, coordinates="modes"), "must declare modes for the modes coordinates, got none; take qp"),
     (lambda: run(method="verlett"), "unknown method 'verlett': did you mean verlet?"),
     (lambda: run(method="learned:nystrom"), "learned:nystrom must be learned first: nysalt learn --family nystrom"),
     (lambda: run(observables=["energy", "q2"]), "unknown observable 'q2' of pendulum"),
     (lambda: run(observables=["energy", "energy"]), "observables names energy twice"),
     (lambda: run(sample_every=0), "sample_every must be at least 1, got 0"),
-    (lambda: run(horizon=0.01), "horizon 0.01 is shorter than one step of 0.1"),
+    (lambda: run(horizon=0.01), "horizon must be at least one step of 0.1, got 0.01"),
     (lambda: run(out=[0.0]), "out must be a NumPy array of float64 to be filled, got list"),
     (lambda: run(out=np.zeros((2, 11, 1), np.float32)), "out must hold float64 to be filled, got float32"),
     (lambda: run(out=np.zeros((2, 11))), r"out must have the shape \(2, 11, 1\), got \(2, 11\)"),
@@ -69,10 +69,10 @@ CASES = [
     (lambda: integrate(**out(q=np.zeros((2, 12))[:, ::2])), "q of out must lie one row after the other"),
     (lambda: integrate(**out(SHARED[:2], SHARED[1:])), "q and p of out must not share memory; give two arrays"),
     (lambda: integrate(q=SHARED[:2], **out(q=SHARED[1:])), "out must be q and p themselves or share no memory"),
-    (lambda: nysalt.compare(PENDULUM, "verlet", []), "steps is needed"),
-    (lambda: nysalt.compare(PENDULUM, ["verlet", "verlet"], 0.1), "methods names verlet twice"),
+    (lambda: nysalt.compare(PENDULUM, "verlet", []), "steps must be one or more, got none"),
+    (lambda: nysalt.compare(PENDULUM, ["verlet", "verlet"], 0.1), "methods must be different, got verlet twice"),
     (lambda: nysalt.compare(PENDULUM, "verlet", 0.1, metric="paths"), "unknown metric 'paths'"),
-    (lambda: nysalt.compare(PENDULUM, "verlet", 0.1, bins=10), "bins belongs to the metric distribution, not to path"),
+    (lambda: nysalt.compare(PENDULUM, "verlet", 0.1, bins=10), "bins must come with metric distribution, got path"),
     (lambda: nysalt.recommend(PENDULUM, 5), "budget"),
     (lambda: PENDULUM.energy([1.0], "p"), "p must hold real numbers, got text"),
     (lambda: PENDULUM.force([1j]), "q must hold real numbers, got complex ones"),
@@ -140,7 +140,7 @@ def test_files_that_cannot_be(tmp_path):
     with pytest.raises(FileNotFoundError):
         nysalt.load(tmp_path / "none.json")
     (tmp_path / "half.json").write_text('{"format": "nysalt scheme", ')
-    with pytest.raises(ValueError, match="half.json: this is not whole JSON"):
+    with pytest.raises(ValueError, match="half.json must be whole JSON"):
         nysalt.load(tmp_path / "half.json")
     scheme = nysalt.learn(PENDULUM, "nystrom", step=0.2, trajectories=5, horizon=2)
     with pytest.raises(OSError):
@@ -148,7 +148,7 @@ def test_files_that_cannot_be(tmp_path):
     path = tmp_path / "edited.json"
     scheme.save(path, force=True)
     path.write_text(path.read_text().replace('"seed": 1', '"seed": 2'))
-    with pytest.raises(ValueError, match="its checksum does not fit its contents"):
+    with pytest.raises(ValueError, match='"checksum" must fit the contents'):
         nysalt.load(path)
 
 

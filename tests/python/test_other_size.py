@@ -27,7 +27,7 @@ def test_a_scheme_of_a_small_chain_runs_a_large_one():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         nysalt.run(small, scheme, step=0.02, horizon=0.2, trajectories=4)
-    with pytest.raises(ValueError, match="it was learned for fpu_chain.pairs=3, omega=50., not .*omega=51"):
+    with pytest.raises(ValueError, match="must run on fpu_chain.pairs=3, omega=50., for which it was learned, got .*omega=51"):
         nysalt.run(nysalt.system("fpu", omega=51, pairs=20), scheme, step=0.02, horizon=0.2)
 
 
@@ -48,5 +48,5 @@ def test_functions_of_python_tell_their_kind():
     with pytest.warns(UserWarning, match="passed the trial run for wells"):
         nysalt.run(wells(3, kind="wells"), scheme, step=0.3, horizon=3, trajectories=2)
     for other in (wells(3), wells(3, kind="other wells")):
-        with pytest.raises(ValueError, match="it was learned for wells"):
+        with pytest.raises(ValueError, match="must run on wells"):
             nysalt.run(other, scheme, step=0.3, horizon=3, trajectories=2)

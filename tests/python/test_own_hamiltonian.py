@@ -75,7 +75,7 @@ def test_a_scheme_is_of_the_name(tmp_path):
     again = henon_heiles_by_functions("mine")
     loaded = nysalt.load(tmp_path / "mine.json")
     assert np.array_equal(nysalt.run(again, loaded, 0.4, 4).values, nysalt.run(again, scheme, 0.4, 4).values)
-    with pytest.raises(ValueError, match="it was learned for mine, not yours"):
+    with pytest.raises(ValueError, match="must run on mine, for which it was learned, got yours"):
         nysalt.run(henon_heiles_by_functions("yours"), loaded, 0.4, 4)
 
 

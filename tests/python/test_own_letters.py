@@ -45,7 +45,7 @@ def test_what_is_learned_keeps_them_by_name(tmp_path):
     same = nysalt.run(well, again, step=0.5, horizon=5, trajectories=3, observables=["q1", "p2"])
     plain = nysalt.run(well, "word:tctct", step=0.5, horizon=5, trajectories=3, observables=["q1", "p2"])
     assert np.array_equal(run.values, same.values) and not np.array_equal(run.values, plain.values)
-    with pytest.raises(ValueError, match="the letter t of cubic_well.*has no letters of its own"):
+    with pytest.raises(ValueError, match="has no letters of its own, got t of cubic_well"):
         nysalt.run(nysalt.system("pendulum"), again, step=0.5, horizon=5)
     with pytest.raises(ValueError, match="the letter t"):
         nysalt.export(again, "c")

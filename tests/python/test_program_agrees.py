@@ -117,7 +117,7 @@ def test_scheme_files_go_both_ways(program, tmp_path):
     values = np.load(tmp_path / "run.npy")
     for method in (scheme, loaded, str(mine)):
         assert np.array_equal(nysalt.run(chain, method, 0.02, 1).values, values)
-    with pytest.raises(ValueError, match=r"it was learned for the step 0.02, not 0.03; learn it there, or take force=True"):
+    with pytest.raises(ValueError, match=r"must run at the step 0.02, for which it was learned, got 0.03; learn it there, or take force=True"):
         nysalt.run(chain, scheme, 0.03, 1)
     with pytest.warns(UserWarning, match=r"used all the same \(force=True\)"):
         nysalt.run(chain, scheme, 0.03, 1, force=True)
@@ -144,5 +144,5 @@ def test_an_unusable_fit_is_said_to_be_one(program, tmp_path):
         fit.save(tmp_path / "fit.json")
     fit.save(tmp_path / "fit.json", force=True)
     assert nysalt.load(tmp_path / "fit.json").reason == fit.reason
-    with pytest.raises(ValueError, match="its fit was not usable"):
+    with pytest.raises(ValueError, match="must have a usable fit"):
         nysalt.run(nysalt.system("fpu"), fit, 0.05, 1)
