@@ -45,7 +45,8 @@ std::string contents_of(const std::string& option, const std::string& file) {
     }
   }
   if (text.empty()) {
-    refuse("{} {}: the file cannot be read, or is empty; name a CSV file with a line of names", option, file);
+    refuse("cannot read {} {}: there is no such file, or it is empty; name a CSV file with a line of names",
+           option, file);
   }
   return text;
 }

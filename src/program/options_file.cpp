@@ -42,7 +42,7 @@ std::string without_comment(const std::string& line, int number) {
   char quote = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
-    if (c == '#' && quote != 0) refuse("--config, line {}: a text cannot hold a #: {}", number, line);
+    if (c == '#' && quote != 0) refuse("--config, line {}: a text must hold no #, got {}", number, line);
     if (c == '#') return trimmed(line.substr(0, i));
     if (quote == 0 && (c == '"' || c == '\'')) {
       quote = c;
@@ -73,20 +73,20 @@ std::string plain_toml(std::istream& input) {
   std::istringstream lines(bounded(input));
   for (std::string raw; std::getline(lines, raw);) {
     const std::string line = without_comment(trimmed(raw), ++number);
-    const auto wrong = [&](const char* what) { refuse("--config, line {}: {}: {}", number, what, line); };
+    const auto wrong = [&](const char* what) { refuse("--config, line {}: {}, got {}", number, what, line); };
     plain += line + "\n";
     if (line.empty()) continue;
     if (line.front() == '[') {
       if (line.back() != ']') wrong("a section must be [NAME] and nothing else on the line");
-      if (!sections.insert(line).second) wrong("this section is there twice");
+      if (!sections.insert(line).second) wrong("a section must not be there twice");
       names.clear();
       continue;
     }
     const auto equals = line.find('=');
-    if (equals == std::string::npos) wrong("this is neither name = value nor [section]");
-    if (!names.insert(trimmed(line.substr(0, equals))).second) wrong("this option is there twice");
+    if (equals == std::string::npos) wrong("a line must be name = value or [section]");
+    if (!names.insert(trimmed(line.substr(0, equals))).second) wrong("an option must not be there twice");
     const std::string value = trimmed(line.substr(equals + 1));
-    if (value.empty()) wrong("there is no value");
+    if (value.empty()) wrong("an option must have a value");
     const char first = value.front();
     const char last = first == '[' ? ']' : first;
     const bool is_closed = value.size() > 1 && value.back() == last;

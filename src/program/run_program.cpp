@@ -33,7 +33,7 @@ int exit_code_of(const std::function<int()>& work) {
     return 128 + noted_signal();
   } catch (const std::bad_alloc&) {
     return reported(
-        "this does not fit into memory: take fewer trajectories, a shorter horizon or a smaller system",
+        "the command must fit into memory; take fewer trajectories, a shorter horizon or a smaller system",
         bad_input);
   } catch (const nysalt::detail::write_failure& problem) {
     return reported(problem.what(), not_written);
