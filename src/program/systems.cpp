@@ -119,7 +119,7 @@ void require_options(const system_settings& settings, const std::map<std::string
   const auto require = [&](const std::string& name) {
     const std::string option = "--" + name;
     if (std::ranges::find(takes, option) != takes.end()) return;
-    refuse("unknown option '{}' of the system {}: it takes {}", option,
+    refuse("unknown parameter '{}' of the system {}: it takes {}", option,
            settings.potential.text.empty() ? settings.name : declared.name,
            takes.empty() ? "no options of its own" : listed(takes));
   };

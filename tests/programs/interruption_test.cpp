@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(killed_while_a_file_is_laid_out_it_begins_again) {
     BOOST_TEST(std::filesystem::exists(folder / "d"));
     const auto again = run(folder, large);
     BOOST_TEST(again.code == 2);
-    BOOST_TEST(again.err.find("--resume goes on") != std::string::npos, again.err);
+    BOOST_TEST(again.err.find("take --resume to go on with the run") != std::string::npos, again.err);
     // Of the same state for the small run: its first checkpoint, with nothing laid out.
     const std::string small =
         "run --method verlet --step 0.01 --horizon 20 --trajectories 50 --sample-every 10 "

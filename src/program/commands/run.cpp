@@ -35,8 +35,10 @@ void require_room(const run_command& command, std::int64_t steps, bool whole_doc
   const std::int64_t at_a_time = whole_document ? command.trajectories : default_lanes * threads;
   const auto trajectories = static_cast<double>(std::min(command.trajectories, at_a_time));
   if (columns * samples * trajectories <= most) return;
-  refuse("run: samples must fit into memory, got {:g} of {} trajectories; take a larger --sample-every{}",
-         samples, command.trajectories, whole_document ? ", or --output to a file" : ", or a --checkpoint");
+  refuse(
+      "run: samples must fit into memory, got {:g} of each of {} trajectories; take a larger "
+      "--sample-every{}",
+      samples, command.trajectories, whole_document ? ", or --output to a file" : ", or a --checkpoint");
 }
 
 /// NAME.svg and NAME.png beside the output NAME.csv: the observables along the first trajectory, in some
@@ -65,7 +67,7 @@ void require_files(const run_command& command) {
   require_table(command.output, command.plot, command.method);
   if (command.checkpoint.empty()) {
     if (command.resume) refuse("--resume must come with --checkpoint; name the file to go on from");
-    if (command.every) refuse("--every must come with --checkpoint; name the file to make");
+    if (command.every) refuse("--every must come with --checkpoint; name the file of the checkpoint");
     return;
   }
   if (!command.every)

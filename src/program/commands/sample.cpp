@@ -73,7 +73,7 @@ void require_files(const sample_command& command) {
   require_table(command.output, false, command.method);
   if (command.checkpoint.empty()) {
     if (command.resume) refuse("--resume must come with --checkpoint; name the file to go on from");
-    if (command.every) refuse("--every must come with --checkpoint; name the file to make");
+    if (command.every) refuse("--every must come with --checkpoint; name the file of the checkpoint");
     return;
   }
   if (!command.every)
@@ -277,7 +277,9 @@ int sample(const sample_command& command, const common_settings& common) {
   on_first(all_ranks(), [&] { require_files(command); });
   const auto system = make_system(command.system);
   if (system->heat_bath().acts())
-    refuse("sample: the system must be without a bath; leave --friction out, and give --hmc-temperature");
+    refuse(
+        "sample: the system must have no bath, as --hmc-temperature is the temperature; leave --friction "
+        "away");
   method_source source;
   collectively(all_ranks(), [&] { source = find_method(command.method, {}, system->letters()); });
   charge(source, *system);

@@ -100,8 +100,10 @@ void require_question(const json& asked_then, const json& question, const std::f
     if (asked_then.value(name, json()) == value) continue;
     changed += changed.empty() ? name : ", " + name;
   }
-  refuse("{} must be of this run, got another ({}); ask for the same, or name another --checkpoint",
-         file.string(), changed.empty() ? "it has more" : changed);
+  refuse(
+      "{} must be a checkpoint of this run, got that of another run ({}); ask for the same, or name another "
+      "--checkpoint",
+      file.string(), changed.empty() ? "it has more" : changed);
 }
 
 void warn_of_version(const std::string& version_then, const std::filesystem::path& file) {

@@ -118,8 +118,7 @@ void run_output::go_on(const json& question) {
   if (samples_->go_on(*part_, state_.written)) return;
   refuse(
       "cannot resume from {}: the file was edited or cut after the run had been stopped; remove the "
-      "checkpoint "
-      "to begin anew",
+      "checkpoint to begin anew",
       part.string());
 }
 

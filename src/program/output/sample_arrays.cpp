@@ -86,8 +86,8 @@ class sample_arrays final : public sample_writer {
       try {
         make_hdf5(file.part(), datasets(), about_);
       } catch (const std::runtime_error&) {
-        throw nysalt::detail::write_failure(message(
-            "cannot write {}: the folder is not writable, or its disk is full", file.part().string()));
+        throw nysalt::detail::write_failure(
+            message("cannot write {}: the folder is not there, not writable, or full", file.part().string()));
       }
     }
     write_into(file);
