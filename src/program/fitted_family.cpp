@@ -86,7 +86,8 @@ fitted_family::fitted_family(const learn_command& command, const common_settings
     require_positive("--enough", *command.enough);
     const loss_kind& loss = *loss_named(loss_asked).kind;
     if (!loss.asks_data()) {
-      refuse("--enough must come with a loss that asks trajectories, got {}; leave --enough out", loss.name);
+      refuse("--enough must come with a loss that learns from trajectories, got {}; leave --enough out",
+             loss.name);
     }
   }
   method_source source;

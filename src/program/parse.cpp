@@ -55,7 +55,7 @@ const CLI::App& asked_of(const CLI::App& app) {
   const auto known = option_names(command);
   const std::string name = option->substr(0, option->find('='));
   if (std::ranges::count(known, name) > 0) {
-    refuse("option '{}' must follow the command: nysalt {} {}", name, command.get_name(), name);
+    refuse("option '{}' must follow the command; type nysalt {} {}", name, command.get_name(), name);
   }
   refuse("unknown option '{}': {}", *option, did_you_mean(name, known, help_of(command)));
 }

@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_sampled_is_one_line) {
                  {"burn_in must be at least 100"}},
                 {"--system pendulum --length 1 --draws 100000000", {"must fit into memory"}},
                 {"--system pendulum --length 1 --start positions.csv", {"line 3"}},
-                {"--system henon_heiles --length 1 --start positions.csv", {"q2 is not there"}},
+                {"--system henon_heiles --length 1 --start positions.csv", {"q1 to q2, got no q2"}},
                 {"--system pendulum --length 1 --start missing.csv", {"cannot read --start missing.csv"}},
                 {"--system pendulum --length 1 --start positions.csv --spread 2", {"--spread"}},
             }));

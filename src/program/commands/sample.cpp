@@ -88,8 +88,8 @@ void require_files(const sample_command& command) {
   std::error_code ignored;
   if (!command.resume && std::filesystem::exists(command.checkpoint, ignored)) {
     refuse(
-        "cannot write {}: it is of chains that were stopped; take --resume to go on with the chains, or "
-        "remove the file to begin anew",
+        "cannot write {}: the checkpoint is of chains that were stopped; take --resume to go on with the "
+        "chains, or remove the file to begin anew",
         command.checkpoint);
   }
 }

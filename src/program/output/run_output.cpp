@@ -56,8 +56,8 @@ run_output::~run_output() {
 void run_output::make_part(const json& question) {
   if (is_there(checkpoint_) && !read_checkpoint(checkpoint_).finished) {
     refuse(
-        "cannot write {}: it is of a run that was stopped; take --resume to go on with the run, or remove "
-        "the file to begin anew",
+        "cannot write {}: the checkpoint is of a run that was stopped; take --resume to go on with the run, "
+        "or remove the file to begin anew",
         checkpoint_.string());
   }
   if (checkpoint_.empty()) {

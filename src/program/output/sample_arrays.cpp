@@ -34,7 +34,7 @@ class sample_arrays final : public sample_writer {
     const double size = 8.0 * static_cast<double>(shape_.trajectories) * static_cast<double>(shape_.samples) *
                         static_cast<double>(shape_.observables.size());
     if (is_npy_ && size > most_of_npy) {
-      refuse("{} must be of two gigabytes at most as .npy, got {:.3g} bytes; let --output end in .h5",
+      refuse("{} must have at most two gigabytes as .npy, got {:.3g} bytes; let --output end in .h5",
              file.string(), size);
     }
     if (size > most_of_all)

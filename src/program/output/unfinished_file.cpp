@@ -179,8 +179,8 @@ void unfinished_file::remove() {
 
 void unfinished_file::fail() const {
   throw nysalt::detail::write_failure(
-      message("cannot write {}: the folder is not there, not writable, or full; mend that, and go on from a "
-              "checkpoint by --resume",
+      message("cannot write {}: the folder is not there, not writable, or full; mend that, and go on by "
+              "--resume where there is a checkpoint",
               part_.string()));
 }
 
