@@ -46,16 +46,17 @@ class translation {
   std::string whole() {
     std::string code = sum();
     skip();
-    if (at_ < text_.size()) fail("an operator must follow");
+    if (at_ < text_.size()) wrong("an operator", "follow");
     return code;
   }
 
  private:
-  /// With the condition that the text at this place must meet, and what to do where that is not all.
-  [[noreturn]] void fail(const std::string& condition, const std::string& remedy = {}) const {
+  /// What must be at this place, and what to do where that does not say it.
+  [[noreturn]] void wrong(const std::string& what, const std::string& condition,
+                          const std::string& remedy = {}) const {
     const std::string found =
         at_ < text_.size() ? fmt::format("'{}'", std::string(text_.substr(at_, 12))) : "the end of the text";
-    refuse("--potential: {}, got {} at character {}{}{}", condition, found, at_ + 1,
+    refuse("--potential: {} must {}, got {} at character {}{}{}", what, condition, found, at_ + 1,
            remedy.empty() ? "" : "; ", remedy);
   }
   void skip() {
@@ -68,12 +69,12 @@ class translation {
     return true;
   }
   void require(char c) {
-    if (!takes(c)) fail(fmt::format("'{}' must follow", c));
+    if (!takes(c)) wrong(fmt::format("'{}'", c), "follow");
   }
   /// Each level of parentheses is a level of the call stack here, and in the compiler.
   struct level {
     explicit level(translation& of) : depth(&of.depth_) {
-      if (++*depth > 100) of.fail("the text must be nested less deeply");
+      if (++*depth > 100) of.wrong("the text", "be nested less deeply");
     }
     ~level() { --*depth; }
     level(const level&) = delete;
@@ -98,7 +99,7 @@ class translation {
     std::string code = signed_factor();
     for (;;) {
       if (takes('*')) {
-        if (takes('*')) fail("a power must be written as x^2");
+        if (takes('*')) wrong("a power", "be written as x^2");
         code = "(" + code + " * " + signed_factor() + ")";
       } else if (takes('/')) {
         code = "(" + code + " / " + signed_factor() + ")";
@@ -123,7 +124,7 @@ class translation {
     const std::string exponent = signed_factor();  // a^b^c is a^(b^c)
     if (depends_) {
       at_ = from;
-      fail("an exponent must not depend on the coordinates", "write exp(y*log(x))");
+      wrong("an exponent", "not depend on the coordinates", "write exp(y*log(x))");
     }
     depends_ = depended;
     int n = 0;
@@ -139,7 +140,7 @@ class translation {
   }
   std::string primary() {
     skip();
-    if (at_ >= text_.size()) fail("a number, a name or a parenthesis must follow");
+    if (at_ >= text_.size()) wrong("a number, a name or a parenthesis", "follow");
     const char c = text_[at_];
     if (takes('(')) {
       std::string code = sum();
@@ -148,15 +149,15 @@ class translation {
     }
     if (is_digit(c) || c == '.') return number();
     if (begins_name(c)) return named();
-    fail("a number, a name or a parenthesis must follow");
+    wrong("a number, a name or a parenthesis", "follow");
   }
   std::string number() {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
-    if (error != std::errc{} || !std::isfinite(value)) fail("a number must be finite");
+    if (error != std::errc{} || !std::isfinite(value)) wrong("a number", "be finite");
     at_ = static_cast<std::size_t>(end - text_.data());
     if (at_ < text_.size() && is_in_name(text_[at_]))
-      fail("an operator must follow a number", "write 2*x, not 2x");
+      wrong("an operator", "follow a number", "write 2*x, not 2x");
     std::string code = fmt::format("{}", value);
     if (code.find_first_of(".e") == std::string::npos) code += ".0";
     return code;
@@ -186,23 +187,23 @@ class translation {
     }
     if (known == "pi") return "nysalt_pi";
     at_ = from;
-    fail(fmt::format("'{}' must be a function, a coordinate (--variables) or a parameter (--parameter)",
-                     known));
+    wrong(fmt::format("'{}'", known),
+          "be a function, a coordinate (--variables) or a parameter (--parameter)");
   }
   std::string of(const variable& coordinate, std::size_t from) {
     depends_ = true;
     if (!coordinate.is_list) return fmt::format("q[{}]", coordinate.first);
     if (!takes('[')) {
       at_ = from;
-      fail(fmt::format("'{}' must have an index, as a list has", coordinate.name),
-           fmt::format("write {}[1]", coordinate.name));
+      wrong(fmt::format("'{}'", coordinate.name), "have an index, as a list has",
+            fmt::format("write {}[1]", coordinate.name));
     }
     const index which = index_sum();
     require(']');
     if (which.least < 1 || which.most > coordinate.count) {
       at_ = from;
-      fail(fmt::format("the coordinates must be {0}[1] to {0}[{1}], not {0}[{2}] to {0}[{3}]",
-                       coordinate.name, coordinate.count, which.least, which.most));
+      wrong("the coordinates", fmt::format("be {0}[1] to {0}[{1}], not {0}[{2}] to {0}[{3}]", coordinate.name,
+                                           coordinate.count, which.least, which.most));
     }
     return fmt::format("q[{} + {}]", coordinate.first - 1, which.code);
   }
@@ -220,7 +221,7 @@ class translation {
                          std::ranges::count(*variables_, counter, &variable::name) == 0;
     if (!is_free) {
       at_ = from;
-      fail("the counter of sum(i, first, last, term) must have a name of its own");
+      wrong("the counter of sum(i, first, last, term)", "have a name of its own");
     }
     require(',');
     const index first = index_sum();
@@ -241,7 +242,7 @@ class translation {
     constexpr std::int64_t far = 1'000'000'000;  // beyond it ranges could overflow
     index total = index_factor();
     for (;;) {
-      if (total.least < -far || total.most > far) fail("an index must be at most 10^9 in magnitude");
+      if (total.least < -far || total.most > far) wrong("an index", "be at most 10^9 in magnitude");
       if (takes('+')) {
         const index more = index_factor();
         total = {fmt::format("({} + {})", total.code, more.code), total.least + more.least,
@@ -267,7 +268,7 @@ class translation {
       std::int64_t value = 0;
       const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
       if (error != std::errc{} || value > most_coordinates)
-        fail(fmt::format("a number in an index must be at most {}", most_coordinates));
+        wrong("a number in an index", fmt::format("be at most {}", most_coordinates));
       at_ = static_cast<std::size_t>(end - text_.data());
       return {fmt::format("{}", value), value, value};
     }
@@ -277,7 +278,7 @@ class translation {
       if (counter.name == known) return {"i_" + known, counter.first, counter.last};
     }
     at_ = from;
-    fail("an index must be made of whole numbers, counters of sums, + and -");
+    wrong("an index", "be made of whole numbers, counters of sums, + and -");
   }
 
   std::string_view text_;

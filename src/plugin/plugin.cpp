@@ -78,7 +78,7 @@ void require_sound(const system_declaration& declared, const std::string& path) 
     try {
       parameter.require(parameter.usual);
     } catch (const std::invalid_argument& problem) {
-      refuse("{}: by default {}", path, problem.what());
+      refuse("{}: a default must be within its bounds: {}", path, problem.what());
     }
   }
 }

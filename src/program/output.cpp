@@ -187,7 +187,7 @@ void complain(std::string text) {
   to_standard_error("nysalt: " + text + "\n");
 }
 
-void warn(std::string_view text) { complain(fmt::format("warning: {}", text)); }
+void warn(std::string_view text) { complain("warning: " + std::string(text)); }
 
 void warn_of_threads(const common_settings& common) {
   if (const auto advice = advice_on_threads(common.threads); !advice.empty()) warn(advice);

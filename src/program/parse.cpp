@@ -14,9 +14,7 @@ namespace {
 
 /// A text that is empty is a variable of the shell that was never set, not a wish.
 void refuse_empty_texts(CLI::App& command) {
-  const auto objection = [](const std::string& text) {
-    return text.empty() ? "the value must not be empty" : "";
-  };
+  const auto objection = [](const std::string& text) { return text.empty() ? "it is empty" : ""; };
   for (CLI::Option* option : command.get_options()) option->check(objection);
 }
 
@@ -28,8 +26,9 @@ void refuse_empty_texts(CLI::App& command) {
   }
   if (word == "reproduce") {
     refuse(
-        "unknown command 'reproduce': nysalt_paper of the source tree makes the paper's results; run ./dev "
-        "reproduce there");
+        "unknown command '{}': nysalt_paper of the source tree makes the paper's results; run ./dev "
+        "reproduce there",
+        word);
   }
   refuse("unknown command '{}': {}", word, did_you_mean(word, command_names(app)));
 }
@@ -86,15 +85,15 @@ std::optional<std::string> parse(CLI::App& app, int argc, char** argv) {
     refuse_extras(app);
   } catch (const CLI::RequiredError& problem) {
     if (!app.remaining(true).empty()) refuse_extras(app);  // a mistyped option is why
-    refuse("{}; {}", reworded(problem, " is required", " must be given"), help_of(asked_of(app)));
+    refuse("{} must be given; {}", reworded(problem, " is required", ""), help_of(asked_of(app)));
   } catch (const CLI::FileError& problem) {
-    refuse("cannot read {}; {}",
-           reworded(problem, " was not readable (missing?)", ": the file is missing, or not readable"),
-           help_of(asked_of(app)));
+    refuse("cannot read {}: the file is missing, or not readable; {}",
+           reworded(problem, " was not readable (missing?)", ""), help_of(asked_of(app)));
   } catch (const CLI::ExcludesError& problem) {
     refuse("{}; {}", reworded(problem, " excludes ", " must come without "), help_of(asked_of(app)));
   } catch (const CLI::ValidationError& problem) {  // by an objection above
-    refuse("{}; {}", problem.what(), help_of(asked_of(app)));
+    refuse("{}: the value must not be empty; {}", reworded(problem, ": it is empty", ""),
+           help_of(asked_of(app)));
   } catch (const CLI::ParseError& problem) {
     refuse("cannot read the options: {}; {}", problem.what(), help_of(asked_of(app)));
   }

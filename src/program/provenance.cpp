@@ -102,7 +102,7 @@ void add_entry(const json& entry, const fs::path& result, const fs::path& manife
   try {
     add_entry(entry, result, to);
   } catch (const std::exception& problem) {  // also what the options cannot be read by
-    refuse("{}, {}: {}", manifest.string(), result.filename().string(), problem.what());
+    refuse("cannot cite {}, {}: {}", manifest.string(), result.filename().string(), problem.what());
   }
 }
 

@@ -29,7 +29,8 @@ int exit_code_of(const std::function<int()>& work) {
     return work();
   } catch (const interrupted&) {
     complain(
-        fmt::format("ended by signal {}: the checkpoint is there, and --resume goes on", noted_signal()));
+        fmt::format("cannot finish the run: signal {} ended it; take --resume to go on from the checkpoint",
+                    noted_signal()));
     return 128 + noted_signal();
   } catch (const std::bad_alloc&) {
     return reported(
@@ -40,7 +41,8 @@ int exit_code_of(const std::function<int()>& work) {
   } catch (const std::exception& problem) {
     return reported(problem.what(), bad_input);
   } catch (...) {  // by a system of the user's own
-    return reported("an exception that is no std::exception was thrown, which has no message", bad_input);
+    return reported("cannot go on: an exception was thrown that is no std::exception, and has no message",
+                    bad_input);
   }
 }
 

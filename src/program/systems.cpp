@@ -63,7 +63,7 @@ start start_of(const std::string& asked, const bath& heat_bath) {
   if (asked.empty()) return is_warm ? start::gibbs : start::law;
   if (asked == "law" || is_file_of_starts(asked)) return start::law;
   if (asked != "gibbs" && asked != "trajectory") {
-    refuse("unknown --start '{}': it is one of law, gibbs, trajectory, or a file of positions NAME.csv",
+    refuse("unknown start '{}': --start is one of law, gibbs, trajectory, or a file of positions NAME.csv",
            asked);
   }
   if (!is_warm) {

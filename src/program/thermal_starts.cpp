@@ -49,7 +49,7 @@ initial_states starts_in(const std::string& file, const model& system, double te
   try {
     return thermal_positions<Eigen::Dynamic>(system, std::move(positions), temperature);
   } catch (const std::invalid_argument& problem) {
-    refuse("--start {}: {}", file, problem.what());
+    refuse("cannot take --start {}: {}", file, problem.what());
   }
 }
 

@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(a_signal_makes_a_checkpoint_where_one_was_asked_for) {
   BOOST_TEST(run(folder, whole + "--output whole.csv").code == 0);
   const std::string command = whole + "--output a.csv --checkpoint c --every 1000000000";
   BOOST_TEST(code_after(folder, command, "c", "TERM") == 128 + 15);
-  BOOST_TEST(contents(folder / "err").find("--resume goes on") != std::string::npos,
+  BOOST_TEST(contents(folder / "err").find("take --resume to go on from the checkpoint") != std::string::npos,
              contents(folder / "err"));
   BOOST_TEST(contents(folder / "c").find("\"first\":0,\"step\":0,") ==
              std::string::npos);  // not the first one

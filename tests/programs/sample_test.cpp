@@ -158,7 +158,7 @@ BOOST_AUTO_TEST_CASE(a_logistic_regression_is_read_from_a_file) {
                        {data + "flat.csv", {"predictor 1 must vary"}},
                        {data + "names.csv", {"must have a row"}},
                        {data + "one.csv", {"one column"}},
-                       {data + "label.csv --label z", {"unknown --label 'z'", "x, y"}},
+                       {data + "label.csv --label z", {"unknown label 'z'", "x, y"}},
                        {data + "label.csv --variance 0", {"--variance must be positive"}}});
 }
 

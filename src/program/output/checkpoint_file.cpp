@@ -89,7 +89,7 @@ void refuse_edited_checkpoint(const std::filesystem::path& file) {
 
 std::int64_t count_in(const json& value) {
   const auto number = value.get_ref<const json::number_integer_t&>();
-  if (number < 0) throw std::out_of_range("a count is negative");
+  if (number < 0) throw std::out_of_range("a count must not be negative");
   return number;
 }
 
