@@ -84,8 +84,8 @@ recipe recipe_of_library() {
     if (folder == folder.root_path()) break;
   }
   refuse(
-      "how plug-ins are compiled is not known: share/nysalt/plugin.flags is missing; install nysalt's "
-      "development files");
+      "cannot compile plug-ins: share/nysalt/plugin.flags, the command to compile by, is missing; install "
+      "nysalt's development files");
 }
 
 /// A source, and what it includes in quotes, one after the other.
@@ -132,18 +132,18 @@ fs::path cache_folder() {
   fs::path folder = cache != nullptr && *cache == '/' ? fs::path(cache)
                     : home != nullptr && *home == '/' ? fs::path(home) / ".cache"
                                                       : fs::path();
-  if (folder.empty()) refuse("there is no folder for what is compiled: set HOME or XDG_CACHE_HOME");
+  if (folder.empty()) refuse("cannot compile plug-ins: they have no folder; set HOME or XDG_CACHE_HOME");
   folder = folder / "nysalt" / "plugins";
   std::error_code problem;
   fs::create_directories(folder, problem);
   if (problem)
-    refuse("{}: the folder for what is compiled cannot be made: {}", folder.string(), problem.message());
+    refuse("cannot make {}, the folder of compiled plug-ins: {}; set XDG_CACHE_HOME to another folder",
+           folder.string(), problem.message());
   return folder;
 }
 
 [[noreturn]] void cannot_write(const fs::path& file, const std::error_code& problem) {
-  throw nysalt::detail::write_failure(
-      fmt::format("{}: cannot be written: {}", file.string(), problem.message()));
+  throw nysalt::detail::write_failure(fmt::format("cannot write {}: {}", file.string(), problem.message()));
 }
 
 /// The exit code of a command whose messages go into a file; nothing if it cannot be started.
@@ -212,9 +212,10 @@ void compile(const fs::path& source, const std::string& identity, const fs::path
   if (::isatty(STDERR_FILENO) != 0) to_standard_error(fmt::format("compiling {} ...\n", source.string()));
   const auto code = exit_code_of(command, messages.path);
   if (!code || *code == 127)
-    refuse("{}: the compiler {} cannot be started", source.string(), command.front());
+    refuse("cannot compile {}: the compiler {} cannot be started; install it", source.string(),
+           command.front());
   if (*code != 0) {
-    refuse("{} does not compile: {}", source.string(), first_error(text_of_file(messages.path).value_or("")));
+    refuse("cannot compile {}: {}", source.string(), first_error(text_of_file(messages.path).value_or("")));
   }
   std::error_code problem;
   fs::rename(made.path, library, problem);
@@ -227,7 +228,8 @@ bool is_source(std::string_view path) { return path.ends_with(".hpp"); }
 
 fs::path compiled(const fs::path& source) {
   std::error_code ignored;
-  if (!fs::is_regular_file(source, ignored)) refuse("{}: there is no such file", source.string());
+  if (!fs::is_regular_file(source, ignored))
+    refuse("cannot compile {}: there is no such file; name a source of a system", source.string());
   const recipe how = recipe_of_library();
   std::string all = detail::plugin_stamp() + '\n';
   for (const auto& flag : how.before) all += flag + '\n';

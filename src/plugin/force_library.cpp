@@ -68,7 +68,7 @@ class data_of_threads {
     const std::lock_guard lock(mutex_);
     void*& data = opened_[std::this_thread::get_id()];
     if (data == nullptr) data = of_.open();
-    if (data == nullptr) refuse("{}: nysalt_open returned a null pointer", of_.file);
+    if (data == nullptr) refuse("{}: nysalt_open must return a pointer, got null", of_.file);
     return data;
   }
 
@@ -144,7 +144,7 @@ template <class F>
 F* required_function(void* library, const char* name, const std::string& shown) {
   auto* const found = optional_function<F>(library, name);
   if (found == nullptr) {
-    refuse("{}: {} is missing: define the functions of nysalt/c_force.h", shown, name);
+    refuse("{}: the library must define {}; see nysalt/c_force.h for its functions", shown, name);
   }
   return found;
 }

@@ -46,15 +46,18 @@ class translation {
   std::string whole() {
     std::string code = sum();
     skip();
-    if (at_ < text_.size()) fail("an operator is expected");
+    if (at_ < text_.size()) wrong("an operator", "follow");
     return code;
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
+  /// What must be at this place, and what to do where that does not say it.
+  [[noreturn]] void wrong(const std::string& what, const std::string& condition,
+                          const std::string& remedy = {}) const {
     const std::string found =
         at_ < text_.size() ? fmt::format("'{}'", std::string(text_.substr(at_, 12))) : "the end of the text";
-    refuse("--potential: {}, found {} at character {}", what, found, at_ + 1);
+    refuse("--potential: {} must {}, got {} at character {}{}{}", what, condition, found, at_ + 1,
+           remedy.empty() ? "" : "; ", remedy);
   }
   void skip() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
@@ -66,12 +69,12 @@ class translation {
     return true;
   }
   void require(char c) {
-    if (!takes(c)) fail(fmt::format("'{}' is expected", c));
+    if (!takes(c)) wrong(fmt::format("'{}'", c), "follow");
   }
   /// Each level of parentheses is a level of the call stack here, and in the compiler.
   struct level {
     explicit level(translation& of) : depth(&of.depth_) {
-      if (++*depth > 100) of.fail("this is nested too deeply");
+      if (++*depth > 100) of.wrong("the text", "be nested less deeply");
     }
     ~level() { --*depth; }
     level(const level&) = delete;
@@ -96,7 +99,7 @@ class translation {
     std::string code = signed_factor();
     for (;;) {
       if (takes('*')) {
-        if (takes('*')) fail("a power is x^2");
+        if (takes('*')) wrong("a power", "be written as x^2");
         code = "(" + code + " * " + signed_factor() + ")";
       } else if (takes('/')) {
         code = "(" + code + " / " + signed_factor() + ")";
@@ -121,7 +124,7 @@ class translation {
     const std::string exponent = signed_factor();  // a^b^c is a^(b^c)
     if (depends_) {
       at_ = from;
-      fail("an exponent must not depend on the coordinates: write exp(y*log(x))");
+      wrong("an exponent", "not depend on the coordinates", "write exp(y*log(x))");
     }
     depends_ = depended;
     int n = 0;
@@ -137,7 +140,7 @@ class translation {
   }
   std::string primary() {
     skip();
-    if (at_ >= text_.size()) fail("a number, a name or a parenthesis is expected");
+    if (at_ >= text_.size()) wrong("a number, a name or a parenthesis", "follow");
     const char c = text_[at_];
     if (takes('(')) {
       std::string code = sum();
@@ -146,14 +149,15 @@ class translation {
     }
     if (is_digit(c) || c == '.') return number();
     if (begins_name(c)) return named();
-    fail("a number, a name or a parenthesis is expected");
+    wrong("a number, a name or a parenthesis", "follow");
   }
   std::string number() {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
-    if (error != std::errc{} || !std::isfinite(value)) fail("this is not a finite number");
+    if (error != std::errc{} || !std::isfinite(value)) wrong("a number", "be finite");
     at_ = static_cast<std::size_t>(end - text_.data());
-    if (at_ < text_.size() && is_in_name(text_[at_])) fail("write 2*x, not 2x: an operator is expected");
+    if (at_ < text_.size() && is_in_name(text_[at_]))
+      wrong("an operator", "follow a number", "write 2*x, not 2x");
     std::string code = fmt::format("{}", value);
     if (code.find_first_of(".e") == std::string::npos) code += ".0";
     return code;
@@ -183,21 +187,23 @@ class translation {
     }
     if (known == "pi") return "nysalt_pi";
     at_ = from;
-    fail(fmt::format("'{}' is no function, coordinate (--variables) or parameter (--parameter)", known));
+    wrong(fmt::format("'{}'", known),
+          "be a function, a coordinate (--variables) or a parameter (--parameter)");
   }
   std::string of(const variable& coordinate, std::size_t from) {
     depends_ = true;
     if (!coordinate.is_list) return fmt::format("q[{}]", coordinate.first);
     if (!takes('[')) {
       at_ = from;
-      fail(fmt::format("'{0}' is a list: write {0}[1]", coordinate.name));
+      wrong(fmt::format("'{}'", coordinate.name), "have an index, as a list has",
+            fmt::format("write {}[1]", coordinate.name));
     }
     const index which = index_sum();
     require(']');
     if (which.least < 1 || which.most > coordinate.count) {
       at_ = from;
-      fail(fmt::format("the coordinates are {0}[1] to {0}[{1}], and this goes from {2} to {3}",
-                       coordinate.name, coordinate.count, which.least, which.most));
+      wrong("the coordinates", fmt::format("be {0}[1] to {0}[{1}], not {0}[{2}] to {0}[{3}]", coordinate.name,
+                                           coordinate.count, which.least, which.most));
     }
     return fmt::format("q[{} + {}]", coordinate.first - 1, which.code);
   }
@@ -215,7 +221,7 @@ class translation {
                          std::ranges::count(*variables_, counter, &variable::name) == 0;
     if (!is_free) {
       at_ = from;
-      fail("sum(i, first, last, term) needs a counter with a name of its own");
+      wrong("the counter of sum(i, first, last, term)", "have a name of its own");
     }
     require(',');
     const index first = index_sum();
@@ -236,7 +242,7 @@ class translation {
     constexpr std::int64_t far = 1'000'000'000;  // beyond it ranges could overflow
     index total = index_factor();
     for (;;) {
-      if (total.least < -far || total.most > far) fail("this index goes too far");
+      if (total.least < -far || total.most > far) wrong("an index", "be at most 10^9 in magnitude");
       if (takes('+')) {
         const index more = index_factor();
         total = {fmt::format("({} + {})", total.code, more.code), total.least + more.least,
@@ -261,7 +267,8 @@ class translation {
     if (at_ < text_.size() && is_digit(text_[at_])) {
       std::int64_t value = 0;
       const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
-      if (error != std::errc{} || value > most_coordinates) fail("this number is too large for an index");
+      if (error != std::errc{} || value > most_coordinates)
+        wrong("a number in an index", fmt::format("be at most {}", most_coordinates));
       at_ = static_cast<std::size_t>(end - text_.data());
       return {fmt::format("{}", value), value, value};
     }
@@ -271,7 +278,7 @@ class translation {
       if (counter.name == known) return {"i_" + known, counter.first, counter.last};
     }
     at_ = from;
-    fail("an index is made of whole numbers, counters of sums, + and -");
+    wrong("an index", "be made of whole numbers, counters of sums, + and -");
   }
 
   std::string_view text_;

@@ -40,7 +40,7 @@ F* function_in(void* library, const char* name, const std::string& path) {
   auto* const found = reinterpret_cast<F*>(dlsym(library, name));
   if (found == nullptr)
     refuse(
-        "{}: the library declares no system: NYSALT_SYSTEM(...) is missing, or the functions of "
+        "{}: the library must declare a system; write NYSALT_SYSTEM(...), or the functions of "
         "nysalt/c_force.h",
         path);
   return found;
@@ -66,16 +66,19 @@ void require_sound(const system_declaration& declared, const std::string& path) 
   for (const auto& parameter : declared.parameters) {
     const std::string& name = parameter.name;
     if (!is_plain_name(name)) {
-      refuse("{}: a parameter is called '{}': take lower-case letters, digits and _, a letter first", path,
-             name);
+      refuse("{}: the name of a parameter must be lower-case letters, digits and _, a letter first, got '{}'",
+             path, name);
     }
-    if (is_reserved_name(name)) refuse("{}: the parameter name '{}' is taken: choose another", path, name);
-    if (std::ranges::count(names, name) > 0) refuse("{}: two parameters are called '{}'", path, name);
+    if (is_reserved_name(name))
+      refuse("{}: the name of a parameter must not be one of nysalt's own, got '{}'; choose another", path,
+             name);
+    if (std::ranges::count(names, name) > 0)
+      refuse("{}: parameters must have different names, got '{}' twice", path, name);
     names.push_back(name);
     try {
       parameter.require(parameter.usual);
     } catch (const std::invalid_argument& problem) {
-      refuse("{}: the default is out of bounds: {}", path, problem.what());
+      refuse("{}: a default must be within its bounds: {}", path, problem.what());
     }
   }
 }
@@ -94,19 +97,21 @@ void require_named(const std::string& letters, const std::string& path) {
 system_declaration declared_in(const fs::path& library_file, const std::string& shown) {
   const fs::path file = fs::absolute(library_file);
   std::error_code ignored;
-  if (!fs::exists(file, ignored)) refuse("{}: there is no such file", shown);
-  if (!fs::is_regular_file(file, ignored)) refuse("{}: this is no file", shown);
+  if (!fs::exists(file, ignored))
+    refuse("cannot load {}: there is no such file; name a library or source of a system", shown);
+  if (!fs::is_regular_file(file, ignored))
+    refuse("cannot load {}: it is not a regular file; name a library or source of a system", shown);
   name_signals(shown);
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
-    throw unloadable(message("{}: this is no library that can be loaded: {}", shown, why_not_loaded(file)));
+    throw unloadable(message("cannot load {} as a library: {}; build it again", shown, why_not_loaded(file)));
   }
   if (has_c_force(library)) return declaration_of_c_force(library, file.string(), shown);
   auto* const stamp_of = function_in<const char*()>(library, "nysalt_plugin_stamp", shown);
   const std::string stamp = stamp_of();
   if (stamp != detail::plugin_stamp()) {
-    refuse("{}: it was built for '{}', and this is '{}': build it again, by nysalt build", shown, stamp,
-           detail::plugin_stamp());
+    refuse("{}: the library must be built for '{}', got '{}'; build it again, by nysalt build", shown,
+           detail::plugin_stamp(), stamp);
   }
   system_declaration declared;
   auto* const declare = function_in<void(system_declaration&)>(library, "nysalt_plugin_declare", shown);

@@ -28,18 +28,20 @@ std::vector<variable> variables_of(const std::vector<std::string>& typed) {
     const auto bracket = text.find('[');
     variable next{text.substr(0, bracket), first, 1, bracket != std::string::npos};
     if (next.is_list) {
-      if (!text.ends_with(']')) refuse("--variables: '{}' is neither a name nor name[number]", text);
+      if (!text.ends_with(']')) refuse("--variables must be names or name[number], got '{}'", text);
       next.count =
           number_of<std::int64_t>("--variables", text.substr(bracket + 1, text.size() - bracket - 2));
     }
-    if (!is_name(next.name)) refuse("--variables: '{}' is not a name", next.name);
+    if (!is_name(next.name))
+      refuse("--variables must be names of letters, digits and _, got '{}'", next.name);
     if (next.count < 1 || next.count > most_coordinates - first) {
       refuse("--variables must be at least 1 and at most {} coordinates", most_coordinates);
     }
     first += next.count;
     all.push_back(next);
   }
-  if (all.empty()) refuse("--potential needs --variables: the names of its coordinates, joined by commas");
+  if (all.empty())
+    refuse("--potential must come with --variables; give the names of its coordinates, joined by commas");
   return all;
 }
 
@@ -90,7 +92,7 @@ std::vector<std::pair<std::string, std::string>> values_of(const std::vector<std
   std::vector<std::pair<std::string, std::string>> all;
   for (const auto& text : typed) {
     const auto equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) refuse("{}: '{}' is not name=value", option, text);
+    if (equals == std::string::npos || equals == 0) refuse("{} must be name=value, got '{}'", option, text);
     all.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
   return all;
@@ -105,16 +107,22 @@ std::string source_of(const typed_potential& typed) {
   for (const auto& [name, value] : values_of(typed.parameters, "--parameter")) {
     if (name == "deviation_q" || name == "deviation_p") continue;
     if (!is_plain_name(name)) {
-      refuse("--parameter: '{}' is not a name of lower-case letters, digits and _", name);
+      refuse("--parameter must have a name of lower-case letters, digits and _, a letter first, got '{}'",
+             name);
     }
-    if (is_reserved_name(name)) refuse("--parameter: the name '{}' is taken: choose another", name);
+    if (is_reserved_name(name))
+      refuse("--parameter must have a name that is not one of nysalt's own, got '{}'; choose another", name);
     parameters.push_back(name);
   }
   std::vector<std::string> names = parameters;
   for (const auto& coordinate : variables) names.push_back(coordinate.name);
   for (const auto& name : names) {
     const bool is_taken = is_name_of_grammar(name) || std::ranges::count(names, name) > 1;
-    if (is_taken) refuse("the name '{}' is taken: choose another", name);
+    if (is_taken)
+      refuse(
+          "--variables and --parameter must have different names, other than those of functions and pi, got "
+          "'{}'; choose another",
+          name);
   }
   const std::string code = translated(typed.text, variables, parameters);
   const auto masses = masses_of(typed, count);

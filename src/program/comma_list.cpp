@@ -20,7 +20,7 @@ std::vector<std::string> entries_of(const std::vector<std::string>& texts, const
   std::vector<std::string> entries;
   for (const auto& text : texts) {
     for (const auto& entry : split_at_commas(text)) {
-      if (entry.empty()) refuse("{}: there is an empty entry in '{}'", option, text);
+      if (entry.empty()) refuse("{} must have no empty entry, got '{}'", option, text);
       entries.push_back(entry);
     }
   }

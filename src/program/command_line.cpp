@@ -72,7 +72,7 @@ std::vector<subcommand> offer_all(CLI::App& app, common_settings& common) {
   } catch (const CLI::OptionAlreadyAdded& problem) {  // by the parameters of a system that was loaded
     std::string name = problem.what();                // "...: NAME is already added"
     name = name.substr(name.rfind(": ") == std::string::npos ? 0 : name.rfind(": ") + 2);
-    refuse("a parameter of the system is called '{}', as an option is: choose another name",
+    refuse("a parameter of the system must not have the name of an option, got '{}'; choose another name",
            name.substr(0, name.find(' ')));
   }
 }

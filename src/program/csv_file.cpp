@@ -45,7 +45,9 @@ std::string contents_of(const std::string& option, const std::string& file) {
     }
   }
   if (text.empty()) {
-    refuse("{} {}: the file cannot be read, or is empty; name a CSV file with a line of names", option, file);
+    refuse(
+        "cannot read {} {}: the file is missing, empty or not readable; name a CSV file with a line of names",
+        option, file);
   }
   return text;
 }

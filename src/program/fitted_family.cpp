@@ -21,7 +21,7 @@ constexpr std::int64_t first_trajectories = 50;
 
 std::vector<double> steps_of(const learn_command& command) {
   if (command.step.has_value() == !command.steps.empty()) {
-    refuse("give --step, or --steps for a curve, and not both");
+    refuse("learn: --step or --steps must be given, and not both; give --steps for a curve");
   }
   std::vector<double> steps = command.steps;
   if (command.step) steps.push_back(*command.step);
@@ -29,7 +29,8 @@ std::vector<double> steps_of(const learn_command& command) {
     require_positive(command.step ? "--step" : "--steps", step);
     steps_within("--horizon", command.learning.horizon_at(step), step);
     const auto is_same = [&](double other) { return std::abs(other - step) <= 1e-8 * step; };
-    if (std::count_if(steps.begin(), steps.end(), is_same) > 1) refuse("--steps names {} twice", step);
+    if (std::count_if(steps.begin(), steps.end(), is_same) > 1)
+      refuse("--steps must hold different steps, got {} twice", step);
   }
   return steps;
 }
@@ -85,7 +86,8 @@ fitted_family::fitted_family(const learn_command& command, const common_settings
     require_positive("--enough", *command.enough);
     const loss_kind& loss = *loss_named(loss_asked).kind;
     if (!loss.asks_data()) {
-      refuse("--enough says how many trajectories to learn from, and the {} loss asks none", loss.name);
+      refuse("--enough must come with a loss that learns from trajectories, got {}; leave --enough out",
+             loss.name);
     }
   }
   method_source source;

@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& problem) {
     nysalt::program::complain(problem.what());
   } catch (...) {
-    nysalt::program::complain("something was thrown that is no std::exception");
+    nysalt::program::complain("cannot go on: something was thrown that is no std::exception");
   }
   return nysalt::program::bad_input;
 }

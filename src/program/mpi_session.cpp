@@ -34,8 +34,10 @@ void require_agreement(const std::string& what, const std::string& text) {
   broadcast(all_ranks(), of_first);
   collectively(all_ranks(), [&] {
     if (text == of_first) return;
-    refuse("rank {} has other {} than rank 0: start all with one command line, where all see the same files",
-           all_ranks().rank(), what);
+    refuse(
+        "rank {} must have the {} of rank 0; start all ranks with one command line, where all see the same "
+        "files",
+        all_ranks().rank(), what);
   });
 }
 
@@ -132,7 +134,7 @@ int usual_threads() { return is_bound() ? cores() : std::max(1, cores() / ranks_
 std::string advice_on_threads(int threads) {
   if (all_ranks().is_single() || !is_bound() || threads <= cores()) return {};
   return fmt::format(
-      "each rank has {} threads and may use {} core{}: let mpirun --bind-to none, or --map-by "
+      "each rank has {} threads and may use {} core{}; start mpirun with --bind-to none, or --map-by "
       "slot:PE={}",
       threads, cores(), cores() == 1 ? "" : "s", threads);
 }

@@ -42,7 +42,7 @@ std::string without_comment(const std::string& line, int number) {
   char quote = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
-    if (c == '#' && quote != 0) refuse("--config, line {}: a text cannot hold a #: {}", number, line);
+    if (c == '#' && quote != 0) refuse("--config, line {}: a text must hold no #, got {}", number, line);
     if (c == '#') return trimmed(line.substr(0, i));
     if (quote == 0 && (c == '"' || c == '\'')) {
       quote = c;
@@ -73,25 +73,27 @@ std::string plain_toml(std::istream& input) {
   std::istringstream lines(bounded(input));
   for (std::string raw; std::getline(lines, raw);) {
     const std::string line = without_comment(trimmed(raw), ++number);
-    const auto wrong = [&](const char* what) { refuse("--config, line {}: {}: {}", number, what, line); };
+    const auto wrong = [&](const char* what, const char* condition) {
+      refuse("--config, line {}: {} must {}, got {}", number, what, condition, line);
+    };
     plain += line + "\n";
     if (line.empty()) continue;
     if (line.front() == '[') {
-      if (line.back() != ']') wrong("a section must be [NAME] and nothing else on the line");
-      if (!sections.insert(line).second) wrong("this section is there twice");
+      if (line.back() != ']') wrong("a section", "be [NAME] and nothing else on the line");
+      if (!sections.insert(line).second) wrong("a section", "not be there twice");
       names.clear();
       continue;
     }
     const auto equals = line.find('=');
-    if (equals == std::string::npos) wrong("this is neither name = value nor [section]");
-    if (!names.insert(trimmed(line.substr(0, equals))).second) wrong("this option is there twice");
+    if (equals == std::string::npos) wrong("a line", "be name = value or [section]");
+    if (!names.insert(trimmed(line.substr(0, equals))).second) wrong("an option", "not be there twice");
     const std::string value = trimmed(line.substr(equals + 1));
-    if (value.empty()) wrong("there is no value");
+    if (value.empty()) wrong("an option", "have a value");
     const char first = value.front();
     const char last = first == '[' ? ']' : first;
     const bool is_closed = value.size() > 1 && value.back() == last;
     if ((first == '[' || first == '"' || first == '\'') && !is_closed) {
-      wrong("a text or list must end on its line");
+      wrong("a text or list", "end on its line");
     }
   }
   return plain;
@@ -138,7 +140,7 @@ void options_file::require_known(const CLI::ConfigItem& item) const {
         command->get_subcommands([&](const CLI::App* subcommand) { return subcommand->check_name(section); });
     if (found.empty()) {
       const auto commands = command_names(app_);
-      refuse("--config: unknown section [{}]: {}", section,
+      refuse("--config: unknown section '{}': {}", section,
              commands.empty() ? help_of(app_) : did_you_mean(section, commands));
     }
     command = found.front();

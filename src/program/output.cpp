@@ -27,8 +27,7 @@ void print(std::string_view text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return;
   if (errno == EPIPE) std::_Exit(0);  // the reader has seen enough
-  throw nysalt::detail::write_failure(
-      "the standard output cannot be written: is it closed, or the disk full?");
+  throw nysalt::detail::write_failure("cannot write the standard output: it is closed, or the disk is full");
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
@@ -89,15 +88,16 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 }
 
 void require_table(const std::string& output, bool plot, const std::string& method) {
-  if (plot && output.empty()) refuse("--plot needs --output: the picture goes beside it");
+  if (plot && output.empty())
+    refuse("--plot must come with --output; name the file beside which the picture goes");
   if (output.empty()) return;
   require_result(output);
   if (!method.empty() && is_same_file(method, output)) {
-    refuse("--output {} is the file of the method: name another", output);
+    refuse("--output must not be the file of the method, got {}; name another", output);
   }
   const std::string ending = std::filesystem::path(output).extension();
   if (plot && (ending == ".svg" || ending == ".png" || ending == ".dat" || ending == ".gp")) {
-    refuse("--plot makes a file {} of its own: let the --output end in .csv", ending);
+    refuse("--output must not have the ending of a file of --plot, got {}; let --output end in .csv", ending);
   }
 }
 
@@ -187,7 +187,7 @@ void complain(std::string text) {
   to_standard_error("nysalt: " + text + "\n");
 }
 
-void warn(std::string_view text) { complain(fmt::format("warning: {}", text)); }
+void warn(std::string_view text) { complain("warning: " + std::string(text)); }
 
 void warn_of_threads(const common_settings& common) {
   if (const auto advice = advice_on_threads(common.threads); !advice.empty()) warn(advice);

@@ -21,11 +21,14 @@ void refuse_empty_texts(CLI::App& command) {
 /// The first word, where a command is missing: options follow a command.
 [[noreturn]] void refuse_without_command(const CLI::App& app, const std::string& word) {
   if (word.starts_with('-')) {
-    refuse("option '{}' before a command: name the command first, one of {}", word,
+    refuse("option '{}' must follow a command; name the command first, one of {}", word,
            listed(command_names(app)));
   }
   if (word == "reproduce") {
-    refuse("the paper's results are made by nysalt_paper of the source tree: run ./dev reproduce there");
+    refuse(
+        "unknown command '{}': nysalt_paper of the source tree makes the paper's results; run ./dev "
+        "reproduce there",
+        word);
   }
   refuse("unknown command '{}': {}", word, did_you_mean(word, command_names(app)));
 }
@@ -51,9 +54,16 @@ const CLI::App& asked_of(const CLI::App& app) {
   const auto known = option_names(command);
   const std::string name = option->substr(0, option->find('='));
   if (std::ranges::count(known, name) > 0) {
-    refuse("option '{}' must follow the command: nysalt {} {}", name, command.get_name(), name);
+    refuse("option '{}' must follow the command; type nysalt {} {}", name, command.get_name(), name);
   }
   refuse("unknown option '{}': {}", *option, did_you_mean(name, known, help_of(command)));
+}
+
+/// What CLI11 says, with a part of it in our words.
+std::string reworded(const CLI::Error& problem, std::string_view part, std::string_view ours) {
+  std::string text = problem.what();
+  if (const auto at = text.find(part); at != std::string::npos) text.replace(at, part.size(), ours);
+  return text;
 }
 
 }  // namespace
@@ -70,14 +80,22 @@ std::optional<std::string> parse(CLI::App& app, int argc, char** argv) {
   } catch (const CLI::CallForVersion&) {
     return fmt::format("{} {}\n", app.get_name(), version);
   } catch (const CLI::ConfigError& problem) {
-    refuse("--config: {}; is the file TOML, and is each name an option of the command?", problem.what());
+    refuse("cannot read --config: {}; write TOML, with names of options of the command", problem.what());
   } catch (const CLI::ExtrasError&) {
     refuse_extras(app);
   } catch (const CLI::RequiredError& problem) {
     if (!app.remaining(true).empty()) refuse_extras(app);  // a mistyped option is why
-    refuse("{}; {}", problem.what(), help_of(asked_of(app)));
+    refuse("{} must be given; {}", reworded(problem, " is required", ""), help_of(asked_of(app)));
+  } catch (const CLI::FileError& problem) {
+    refuse("cannot read {}: the file is missing, or not readable; {}",
+           reworded(problem, " was not readable (missing?)", ""), help_of(asked_of(app)));
+  } catch (const CLI::ExcludesError& problem) {
+    refuse("{}; {}", reworded(problem, " excludes ", " must come without "), help_of(asked_of(app)));
+  } catch (const CLI::ValidationError& problem) {  // by an objection above
+    refuse("{}: the value must not be empty; {}", reworded(problem, ": it is empty", ""),
+           help_of(asked_of(app)));
   } catch (const CLI::ParseError& problem) {
-    refuse("{}; {}", problem.what(), help_of(asked_of(app)));
+    refuse("cannot read the options: {}; {}", problem.what(), help_of(asked_of(app)));
   }
 }
 

@@ -79,12 +79,12 @@ std::string found_beside(const fs::path& result, const std::string& method) {
 /// Adds what made a result, by its entry in a manifest; the result is read too if it is a scheme.
 void add_entry(const json& entry, const fs::path& result, std::vector<cited_setup>& to) {
   if (!entry.is_object() || !entry.contains("options") || !entry["options"].is_string()) {
-    refuse("this is not a manifest of nysalt");
+    refuse("the entry must be that of a manifest of nysalt");
   }
   const recorded_options given(entry["options"].get<std::string>());
   const std::vector<std::string> known{"learn", "run", "compare", "recommend", "stability", "export"};
   if (std::ranges::find(known, given.command()) == known.end()) {
-    refuse("it was made by '{}', and cite knows what {} rest on", given.command(), listed(known));
+    refuse("the command must be one of {}, got '{}'", listed(known), given.command());
   }
   std::vector<cited_setup> setups{setup_of(given)};
   for (const char* option : {"method", "methods", "METHOD"}) {
@@ -102,7 +102,7 @@ void add_entry(const json& entry, const fs::path& result, const fs::path& manife
   try {
     add_entry(entry, result, to);
   } catch (const std::exception& problem) {  // also what the options cannot be read by
-    refuse("{}, {}: {}", manifest.string(), result.filename().string(), problem.what());
+    refuse("cannot cite {}, {}: {}", manifest.string(), result.filename().string(), problem.what());
   }
 }
 
@@ -136,7 +136,7 @@ void add_entries(const json& entries, const fs::path& manifest, std::vector<cite
     }
   }
   if (!problems.empty() && problems.size() == entries.size()) refuse("{}", problems.front());
-  for (const auto& problem : problems) warn(problem + "; it is left out");
+  for (const auto& problem : problems) warn(problem + "; this entry is left out");
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ void add_file(const std::string& file, std::vector<cited_setup>& to) {
   } else if (is_file(path)) {
     add_method(path.string(), to);
   } else {
-    refuse("{}: there is no such file, and no report in a folder of that name", file);
+    refuse("cannot read {}: there is no such file, and no report in a folder of that name", file);
   }
 }
 

@@ -29,18 +29,20 @@ int exit_code_of(const std::function<int()>& work) {
     return work();
   } catch (const interrupted&) {
     complain(
-        fmt::format("ended by signal {}: the checkpoint is there, and --resume goes on", noted_signal()));
+        fmt::format("cannot finish the run: signal {} ended it; take --resume to go on from the checkpoint",
+                    noted_signal()));
     return 128 + noted_signal();
   } catch (const std::bad_alloc&) {
     return reported(
-        "this does not fit into memory: take fewer trajectories, a shorter horizon or a smaller system",
+        "the command must fit into memory; take fewer trajectories, a shorter horizon or a smaller system",
         bad_input);
   } catch (const nysalt::detail::write_failure& problem) {
     return reported(problem.what(), not_written);
   } catch (const std::exception& problem) {
     return reported(problem.what(), bad_input);
   } catch (...) {  // by a system of the user's own
-    return reported("an exception that is no std::exception was thrown, which has no message", bad_input);
+    return reported("cannot go on: an exception was thrown that is no std::exception, and has no message",
+                    bad_input);
   }
 }
 

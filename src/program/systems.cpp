@@ -26,15 +26,15 @@ namespace {
 
 bath bath_of(const bath_settings& settings, bool takes_temperature) {
   if (settings.sigma && settings.temperature) {
-    refuse("--sigma and --temperature say the same twice: give one (kT = sigma^2/(2 friction))");
+    refuse("--sigma must come without --temperature; give one of them (kT = sigma^2/(2 friction))");
   }
   if (!settings.friction) {
-    if (settings.sigma) refuse("--sigma needs --friction, 0 for none");
-    if (settings.temperature && !takes_temperature) refuse("--temperature needs --friction");
+    if (settings.sigma) refuse("--sigma must come with --friction; give 0 for none");
+    if (settings.temperature && !takes_temperature) refuse("--temperature must come with --friction");
     return bath::of_sigma(0.0, 0.0);
   }
   if (!settings.sigma && !settings.temperature) {
-    refuse("--friction needs --sigma or --temperature, 0 for damping without noise");
+    refuse("--friction must come with --sigma or --temperature; give 0 for damping without noise");
   }
   const auto require = [](const char* option, double value) {
     if (value >= 0.0 && std::isfinite(value)) return;
@@ -54,8 +54,7 @@ double spread_of(const std::optional<double>& asked, start where) {
   if (!(*asked > 0.0) || !std::isfinite(*asked)) {
     refuse("--spread must be positive and finite, got {}", *asked);
   }
-  if (where != start::law)
-    refuse("--spread needs --start law: it scales the distribution of the initial states");
+  if (where != start::law) refuse("--spread must come with --start law, which --spread scales");
   return *asked;
 }
 
@@ -64,11 +63,12 @@ start start_of(const std::string& asked, const bath& heat_bath) {
   if (asked.empty()) return is_warm ? start::gibbs : start::law;
   if (asked == "law" || is_file_of_starts(asked)) return start::law;
   if (asked != "gibbs" && asked != "trajectory") {
-    refuse("unknown --start '{}': it is one of law, gibbs, trajectory, or a file of positions NAME.csv",
+    refuse("unknown start '{}': --start is one of law, gibbs, trajectory, or a file of positions NAME.csv",
            asked);
   }
   if (!is_warm) {
-    refuse("--start {} needs a bath with a temperature above 0: give --friction and --temperature", asked);
+    refuse("--start {} must come with a bath of a temperature above 0; give --friction and --temperature",
+           asked);
   }
   return asked == "gibbs" ? start::gibbs : start::trajectory;
 }
@@ -77,7 +77,8 @@ surroundings surroundings_of(const system_settings& settings) {
   const bath heat_bath = bath_of(settings.bath, is_file_of_starts(settings.start));
   const start where = start_of(settings.start, heat_bath);
   if (is_file_of_starts(settings.start) && settings.spread) {
-    refuse("--spread needs --start law: {} has the positions", settings.start);
+    refuse("--spread must come with --start law, got the positions in {}; leave --spread out",
+           settings.start);
   }
   return {heat_bath, where, spread_of(settings.spread, where)};
 }
@@ -97,7 +98,7 @@ const system_declaration& declared_by(const system_settings& settings) {
   if (!potential.text.empty()) return plugin_at(kept_source(source_of(potential)).string(), "--potential");
   const bool has_more = !potential.variables.empty() || !potential.parameters.empty() ||
                         !potential.masses.empty() || !potential.around.empty();
-  if (has_more) refuse("--variables, --parameter, --mass and --around belong to --potential");
+  if (has_more) refuse("--variables, --parameter, --mass and --around must come with --potential");
   return declaration_of(settings.name);
 }
 
@@ -105,7 +106,7 @@ const system_declaration& declared_by(const system_settings& settings) {
 std::map<std::string, std::string> typed_values(const system_settings& settings) {
   auto all = settings.parameters;
   for (const auto& [name, text] : values_of(settings.potential.parameters, "--parameter")) {
-    if (!all.emplace(name, text).second) refuse("--parameter {} is given twice", name);
+    if (!all.emplace(name, text).second) refuse("--parameter must have different names, got {} twice", name);
   }
   return all;
 }
@@ -118,8 +119,8 @@ void require_options(const system_settings& settings, const std::map<std::string
   const auto require = [&](const std::string& name) {
     const std::string option = "--" + name;
     if (std::ranges::find(takes, option) != takes.end()) return;
-    refuse("the system {} has no {}: it takes {}",
-           settings.potential.text.empty() ? settings.name : declared.name, option,
+    refuse("unknown parameter '{}' of the system {}: it takes {}", option,
+           settings.potential.text.empty() ? settings.name : declared.name,
            takes.empty() ? "no options of its own" : listed(takes));
   };
   for (const auto& [name, text] : typed) require(name);

@@ -23,7 +23,7 @@ std::vector<std::size_t> columns_of_positions(const std::string& file, const std
   for (Eigen::Index i = 1; i <= count; ++i) {
     const auto found = std::ranges::find(names, fmt::format("q{}", i));
     if (found == names.end()) {
-      refuse("{}: its first line must name the columns q1 to q{}, and q{} is not there", file, count, i);
+      refuse("{}: the first line must name the columns q1 to q{}, got no q{}", file, count, i);
     }
     columns.push_back(static_cast<std::size_t>(found - names.begin()));
   }
@@ -49,7 +49,7 @@ initial_states starts_in(const std::string& file, const model& system, double te
   try {
     return thermal_positions<Eigen::Dynamic>(system, std::move(positions), temperature);
   } catch (const std::invalid_argument& problem) {
-    refuse("--start {}: {}", file, problem.what());
+    refuse("cannot take --start {}: {}", file, problem.what());
   }
 }
 

@@ -57,7 +57,7 @@ void comparison::write(const std::filesystem::path& folder) const {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure)
-    throw std::runtime_error("comparison: cannot make " + folder.string() + ": " + failure.message());
+    throw std::runtime_error("cannot make the folder " + folder.string() + ": " + failure.message());
   write_report(found_->all, folder);
 }
 

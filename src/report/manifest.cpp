@@ -166,9 +166,10 @@ void record_results(const std::vector<fs::path>& files, const common_settings& c
   try {
     add_entries(manifest, files, entry, patience);
   } catch (const std::runtime_error& problem) {
-    const std::string others = files.size() == 1 ? " is" : fmt::format(" and {} more are", files.size() - 1);
-    throw nysalt::detail::write_failure(
-        message("{}{} whole, but not the manifest: {}", files.front().string(), others, problem.what()));
+    const std::string others =
+        files.size() == 1 ? ", which is" : fmt::format(" and {} more, which are", files.size() - 1);
+    throw nysalt::detail::write_failure(message("cannot write the manifest of {}{} whole: {}",
+                                                files.front().string(), others, problem.what()));
   }
   for (const auto& path : files) remove_earlier(path);
 }
@@ -194,8 +195,9 @@ void remove_earlier_pictures(const figure& picture, const fs::path& folder) {
 
 std::string write_pictures(const figure& picture, const fs::path& folder, const common_settings& common) {
   if (!draw(picture, folder)) {
-    return fmt::format("gnuplot could not draw {}: is it installed? The script and the data are there",
-                       picture.name);
+    return fmt::format(
+        "gnuplot could not draw {}, and may not be installed; the script and the data are there",
+        picture.name);
   }
   std::vector<fs::path> files;
   for (const char* kind : kinds_of_pictures) files.push_back(folder / (picture.name + kind));

@@ -32,8 +32,8 @@ void page::code(std::string text) { blocks_.push_back(code_block{std::move(text)
 void page::picture(figure drawing, std::string caption) {
   detail::require_plain(drawing.name);
   if (std::ranges::find(figures_, drawing.name, &figure::name) != figures_.end()) {
-    throw std::invalid_argument(
-        fmt::format("page: two pictures are named {}: give each a name of its own", drawing.name));
+    throw std::invalid_argument(fmt::format(
+        "page: pictures must have different names, got {} twice; give each a name of its own", drawing.name));
   }
   blocks_.push_back(picture_block{drawing.name, std::move(caption)});
   figures_.push_back(std::move(drawing));

@@ -26,7 +26,7 @@ void detail::require_plain(const std::string& name) {
   };
   if (name.empty() || !std::all_of(name.begin(), name.end(), plain)) {
     throw std::invalid_argument(
-        fmt::format("draw: the name of a figure is of letters, digits, _ and -, not \"{}\"", name));
+        fmt::format("draw: the name of a figure must be letters, digits, _ and -, got '{}'", name));
   }
 }
 

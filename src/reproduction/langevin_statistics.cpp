@@ -28,7 +28,7 @@ estimate at_gap(const error_curve& curve, double gap) {
   for (std::size_t i = 0; i < curve.at.size(); ++i) {
     if (curve.at[i] == gap) return curve.errors[i];
   }
-  throw std::logic_error("no such gap");
+  throw std::logic_error("a curve must hold the gap");
 }
 
 table table_of_laws(const std::vector<named_curve>& methods, double floor) {

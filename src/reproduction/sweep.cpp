@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "sweep.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +12,7 @@ namespace nysalt::program::paper {
 
 const error_curve& curve_named(const std::string& name, const std::vector<named_curve>& all) {
   const auto found = std::ranges::find(all, name, &named_curve::name);
-  if (found == all.end()) throw std::logic_error("no such method: " + name);
+  if (found == all.end()) throw std::logic_error(fmt::format("unknown method '{}'", name));
   return found->curve;
 }
 

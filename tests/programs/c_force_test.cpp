@@ -134,15 +134,16 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told) {
     BOOST_TEST(std::ranges::count(done.err, '\n') == 1, done.err);
   };
   const std::string whole = henon_heiles;
-  must_be_told(replaced(whole, "nysalt_potential", "my_potential"), "nysalt_potential is missing");
-  must_be_told(replaced(whole, "nysalt_start", "my_start"), "nysalt_start is missing");
-  must_be_told(replaced(whole, "nysalt_dimension", "my_dimension"), "nysalt_dimension is missing");
+  must_be_told(replaced(whole, "nysalt_potential", "my_potential"), "must define nysalt_potential");
+  must_be_told(replaced(whole, "nysalt_start", "my_start"), "must define nysalt_start");
+  must_be_told(replaced(whole, "nysalt_dimension", "my_dimension"), "must define nysalt_dimension");
   must_be_told(replaced(whole, "return 2;", "return 0;"), "nysalt_dimension must be 1 to");
   must_be_told(replaced(whole, "-q[0] - 2.0", "-q[0] + 2.0"), "force");
   must_be_told(replaced(whole, "0.1 * normals[i]", "0.0 / 0.0"), "must be finite");
   must_be_told(whole + "double nysalt_inverse_mass(int64_t i) { return i - 1.0; }\n",
                "nysalt_inverse_mass(0) must be");
   must_be_told(whole + "double nysalt_frequency(void) { return -1.0; }\n", "nysalt_frequency must be");
-  must_be_told(whole + "void* nysalt_open(void) { return NULL; }\n", "nysalt_open returned a null pointer");
+  must_be_told(whole + "void* nysalt_open(void) { return NULL; }\n",
+               "nysalt_open must return a pointer, got null");
   must_be_told("int nothing;\n", "c_force.h");
 }

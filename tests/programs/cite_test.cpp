@@ -152,10 +152,14 @@ BOOST_AUTO_TEST_CASE(entries_of_other_commands_hide_no_others) {
   const auto done = run(folder, "cite --json manifest.json");
   BOOST_TEST((keys(done) == with(random_numbers, {"aoki_kusnezov_2002", "omelyan_mryglod_folk_2002"})));
   BOOST_TEST(done.err.find("draws.csv") != std::string::npos, done.err);
-  must_be_told(folder, "draws.csv", "draws.csv: it was made by 'sample'");
+  must_be_told(folder, "draws.csv",
+               "draws.csv: the command must be one of learn, run, compare, recommend, stability, export, got "
+               "'sample'");
   manifest["files"].erase("new.csv");
   std::ofstream(folder / "manifest.json") << manifest;
-  must_be_told(folder, "manifest.json", "draws.csv: it was made by 'sample'");  // nothing is left
+  must_be_told(folder, "manifest.json",
+               "draws.csv: the command must be one of learn, run, compare, recommend, stability, export, got "
+               "'sample'");  // nothing is left
 }
 
 // FILE.manifest.json, of one file.
@@ -203,9 +207,9 @@ BOOST_AUTO_TEST_CASE(what_is_not_known_is_told) {
   must_be_told(folder, "--methods verlet@above", "unknown placement 'above'");
   must_be_told(folder, "--system earth", "unknown system 'earth'");
   must_be_told(folder, "--metric taste", "unknown metric 'taste'");
-  must_be_told(folder, "gone.json", "gone.json: there is no such file");
+  must_be_told(folder, "gone.json", "cannot read gone.json: there is no such file");
   BOOST_TEST_REQUIRE(shell(folder, "echo '{}' > odd.manifest.json").code == 0);
-  must_be_told(folder, "odd.manifest.json", "not a manifest of nysalt");
+  must_be_told(folder, "odd.manifest.json", "the entry must be that of a manifest of nysalt");
   BOOST_TEST_REQUIRE(shell(folder, "mkdir folder folder.manifest.json").code == 0);
   must_be_told(folder, "folder", "folder: there is no such file, and no report in a folder");
   must_be_told(folder, std::string(5000, 'a'), "there is no such file");

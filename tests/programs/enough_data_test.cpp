@@ -91,8 +91,8 @@ BOOST_AUTO_TEST_CASE(what_contradicts_it_is_refused) {
   BOOST_TEST(refused("--enough 0.01 --trajectories 50", "leave --trajectories away"));
   BOOST_TEST(refused("--enough 0", "--enough must be a positive"));
   BOOST_TEST(refused("--enough nan", "--enough"));
-  BOOST_TEST(
-      refused("--enough 0.01 --loss covariance --friction 1 --temperature 1", "covariance loss asks none"));
+  BOOST_TEST(refused("--enough 0.01 --loss covariance --friction 1 --temperature 1",
+                     "must come with a loss that learns from trajectories, got covariance"));
 }
 
 BOOST_FIXTURE_TEST_CASE(starts_like_those_that_were_learned_from_give_no_warning, learned) {

@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(a_signal_makes_a_checkpoint_where_one_was_asked_for) {
   BOOST_TEST(run(folder, whole + "--output whole.csv").code == 0);
   const std::string command = whole + "--output a.csv --checkpoint c --every 1000000000";
   BOOST_TEST(code_after(folder, command, "c", "TERM") == 128 + 15);
-  BOOST_TEST(contents(folder / "err").find("--resume goes on") != std::string::npos,
+  BOOST_TEST(contents(folder / "err").find("take --resume to go on from the checkpoint") != std::string::npos,
              contents(folder / "err"));
   BOOST_TEST(contents(folder / "c").find("\"first\":0,\"step\":0,") ==
              std::string::npos);  // not the first one
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(killed_while_a_file_is_laid_out_it_begins_again) {
     BOOST_TEST(std::filesystem::exists(folder / "d"));
     const auto again = run(folder, large);
     BOOST_TEST(again.code == 2);
-    BOOST_TEST(again.err.find("--resume goes on") != std::string::npos, again.err);
+    BOOST_TEST(again.err.find("take --resume to go on with the run") != std::string::npos, again.err);
     // Of the same state for the small run: its first checkpoint, with nothing laid out.
     const std::string small =
         "run --method verlet --step 0.01 --horizon 20 --trajectories 50 --sample-every 10 "

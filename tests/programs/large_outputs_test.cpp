@@ -214,11 +214,11 @@ BOOST_AUTO_TEST_CASE(an_output_under_way_that_is_another_is_refused) {
     try_out("");
     std::ofstream(part, std::ios::binary) << sound;
     refused(folder, command.substr(0, command.find("--checkpoint")) + "--checkpoint other --every 100",
-            "left by a run that was stopped");
+            "a run that was stopped left it");
     done(folder, longer + "--output a" + kind);  // a run without a checkpoint leaves it alone
     BOOST_TEST((contents(part) == sound));
     std::filesystem::remove(part);
-    refused(folder, command + "--resume", "there is no a" + kind + ".part");
+    refused(folder, command + "--resume", "cannot resume from a" + kind + ".part: there is no such file");
   }
 }
 
@@ -242,9 +242,9 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused_and_leaves_nothing) {
     constexpr int not_written = 4;  // an exit code
     const std::string limited =
         "export LLVM_PROFILE_FILE=/dev/null; ulimit -f 100; ";  // counts of lines elsewhere
-    refused(folder, limited + command + in_bath + "--output a" + kind, "not full?", not_written);
-    refused(folder, limited + command + in_bath + "--checkpoint c --every 100 --output a" + kind, "not full?",
-            not_written);
+    refused(folder, limited + command + in_bath + "--output a" + kind, "not writable, or full", not_written);
+    refused(folder, limited + command + in_bath + "--checkpoint c --every 100 --output a" + kind,
+            "not writable, or full", not_written);
   }
   const scratch folder("arrays_large");
   refused(folder, command + of_length("1e5", 1) + "--output a.npy --checkpoint c --every 1000",

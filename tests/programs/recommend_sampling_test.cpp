@@ -124,21 +124,22 @@ BOOST_AUTO_TEST_CASE(where_nothing_is_rejected_it_says_so) {
 BOOST_AUTO_TEST_CASE(what_no_sampler_can_be_recommended_for_is_one_line) {
   const scratch folder("recommend_sampling_bad");
   const std::string sampling = "--for sampling " + chain;
-  all_refused(folder,
-              after("recommend",
-                    {
-                        {"--for fun " + chain, {"unknown purpose 'fun'", "runs, sampling"}},
-                        {sampling, {"--length"}},
-                        {sampling + "--length 0", {"--length must be"}},
-                        {sampling + "--length 1 --acceptance 1", {"--acceptance must be between 0 and 1"}},
-                        {sampling + "--length 1 --times-larger 0", {"--times-larger must be"}},
-                        {sampling + "--length 1 --trajectories 3", {"--trajectories must be at least 16"}},
-                        {sampling + "--length 1 --budget 3", {"--budget is for runs"}},
-                        {sampling + "--length 1 --horizon 3", {"--horizon is for runs"}},
-                        {sampling + "--length 1 --friction 1 --temperature 1", {"must have no bath"}},
-                        {sampling + "--length 1 --families aba3_free", {"not reversible"}},
-                        {sampling + "--length 1 --families bab33", {"unknown family"}},
-                        {chain + "--length 1 --horizon 1 --budget 3", {"--length belongs to --for sampling"}},
-                        {chain + "--budget 3", {"--horizon is required"}},
-                    }));
+  all_refused(
+      folder,
+      after("recommend",
+            {
+                {"--for fun " + chain, {"unknown purpose 'fun'", "runs, sampling"}},
+                {sampling, {"--length must be given"}},
+                {sampling + "--length 0", {"--length must be"}},
+                {sampling + "--length 1 --acceptance 1", {"--acceptance must be between 0 and 1"}},
+                {sampling + "--length 1 --times-larger 0", {"--times-larger must be"}},
+                {sampling + "--length 1 --trajectories 3", {"--trajectories must be at least 16"}},
+                {sampling + "--length 1 --budget 3", {"--budget must come with --for runs"}},
+                {sampling + "--length 1 --horizon 3", {"--horizon must come with --for runs"}},
+                {sampling + "--length 1 --friction 1 --temperature 1", {"must have no bath"}},
+                {sampling + "--length 1 --families aba3_free", {"not reversible"}},
+                {sampling + "--length 1 --families bab33", {"unknown family"}},
+                {chain + "--length 1 --horizon 1 --budget 3", {"--length must come with --for sampling"}},
+                {chain + "--budget 3", {"--horizon must be given"}},
+            }));
 }

@@ -127,11 +127,11 @@ BOOST_AUTO_TEST_CASE(a_finished_run_ends_well_and_is_left_alone) {
   BOOST_TEST(contents(folder / "cut.csv") == output);
   const auto told = run(folder, command + "--resume");
   BOOST_TEST(told.out.find("finished already") != std::string::npos, told.out);
-  BOOST_TEST(told.err.find("it was changed since") != std::string::npos, told.err);
+  BOOST_TEST(told.err.find("cut.csv was changed after") != std::string::npos, told.err);
   std::ofstream(folder / "other.csv") << "hello";
-  refused(folder, with_checkpoint(with_losses, "other", 10000) + "--resume", "there is no checkpoint");
+  refused(folder, with_checkpoint(with_losses, "other", 10000) + "--resume", "there is no such checkpoint");
   std::filesystem::copy(folder / "cut.checkpoint", folder / "other.checkpoint");
-  refused(folder, with_checkpoint(with_losses, "other", 10000) + "--resume", "with the --output cut.csv");
+  refused(folder, with_checkpoint(with_losses, "other", 10000) + "--resume", "--output must be cut.csv");
   std::filesystem::remove(folder / "cut.csv");
   refused(folder, command + "--resume", "there is no cut.csv");
   // Starts that it takes work to find are not looked for.
@@ -143,10 +143,10 @@ BOOST_AUTO_TEST_CASE(a_finished_run_ends_well_and_is_left_alone) {
 
 BOOST_AUTO_TEST_CASE(what_is_half_asked_is_refused) {
   const scratch folder("restart_asked");
-  refused(folder, alone + "--output a.csv --resume", "--resume needs the --checkpoint");
-  refused(folder, alone + "--output a.csv --every 10", "name its file");
-  refused(folder, alone + "--output a.csv --checkpoint c", "--checkpoint needs --every");
-  refused(folder, alone + "--checkpoint c --every 10", "--checkpoint needs --output");
+  refused(folder, alone + "--output a.csv --resume", "--resume must come with --checkpoint");
+  refused(folder, alone + "--output a.csv --every 10", "--every must come with --checkpoint");
+  refused(folder, alone + "--output a.csv --checkpoint c", "--checkpoint must come with --every");
+  refused(folder, alone + "--checkpoint c --every 10", "--checkpoint must come with --output");
   refused(folder, alone + "--output a.csv --checkpoint c --every 0", "--every must be at least 1");
   refused(folder, alone + "--output a.csv --checkpoint ./a.csv --every 10", "name another file");
   refused(folder, alone + "--output a.csv --checkpoint a.csv.part --every 10", "name another file");
@@ -154,7 +154,8 @@ BOOST_AUTO_TEST_CASE(what_is_half_asked_is_refused) {
   refused(folder, alone + "--output a.csv --checkpoint manifest.json --every 10", "name another file");
   refused(folder, alone + "--plot --output a.csv --checkpoint a.svg --every 10", "name another file");
   refused(folder, alone + "--output a.csv --checkpoint none/c --every 10", "there is no folder none");
-  refused(folder, with_checkpoint(alone, "cut") + "--resume", "there is no checkpoint cut.checkpoint");
+  refused(folder, with_checkpoint(alone, "cut") + "--resume",
+          "cannot resume from cut.checkpoint: there is no such checkpoint");
   BOOST_TEST(folder.files().empty());
 }
 
@@ -171,9 +172,9 @@ BOOST_AUTO_TEST_CASE(checkpoints_that_are_not_whole_foreign_or_newer_are_refused
     if (text != sound) refused(folder, command, why);  // nor begins it anew over somebody's file
     BOOST_TEST((contents(file) == text));
   };
-  refused(folder, command, "--resume goes on with it");
+  refused(folder, command, "take --resume to go on with the run");
   refused(folder, in_bath + "--output cut.csv --checkpoint another --every 100",
-          "left by a run that was stopped");
+          "a run that was stopped left it");
   for (const std::size_t length : {sound.size() - 1, sound.size() / 2, sound.find('\n') + 1}) {
     try_out(sound.substr(0, length), "not whole, or was edited");
   }
@@ -184,7 +185,7 @@ BOOST_AUTO_TEST_CASE(checkpoints_that_are_not_whole_foreign_or_newer_are_refused
   }
   std::string newer = sound;
   newer.replace(newer.find("\"version\":1"), 11, "\"version\":2");
-  try_out(newer, "written by a newer nysalt");
+  try_out(newer, "a newer nysalt wrote the checkpoint");
   for (const std::string& foreign :
        {std::string("some notes\n"), std::string(), std::string("{\"format\": 1}\n")}) {
     try_out(foreign, "is no checkpoint of nysalt");
@@ -207,7 +208,7 @@ BOOST_AUTO_TEST_CASE(checkpoints_that_are_not_whole_foreign_or_newer_are_refused
   std::ofstream(part) << edited;
   refused(folder, command + "--resume", "edited or cut");
   std::filesystem::remove(part);
-  refused(folder, command + "--resume", "there is no cut.csv.part");
+  refused(folder, command + "--resume", "cannot resume from cut.csv.part: there is no such file");
   // What was written after the checkpoint does not count.
   std::ofstream(part) << written << "half a row,1";
   BOOST_TEST(run(folder, with_checkpoint(in_bath, "cut", 10000) + "--resume").code == 0);

@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(journals_of_others_are_refused) {
   refused(line + "run", "--resume goes on");
   refused(line + "run --resume --seed 2", "another question (seed)");
   refused(line + "run --resume --bins 50", "another question (bins)");
-  refused("compare --methods verlet --steps 0.02 --resume", "name it as --output");
+  refused("compare --methods verlet --steps 0.02 --resume", "--resume must come with --output");
   BOOST_TEST(contents(journal) == text);  // and nothing was lost
   refused(line + "run --resume --levels 0.5", "another question (levels)");
   // What is no journal is left as it is, whatever is asked; so is one that was edited.

@@ -154,7 +154,7 @@ BOOST_AUTO_TEST_CASE(ranks_may_have_other_threads_and_nothing_else) {
   BOOST_TEST((contents(folder / "b.csv") == contents(folder / "a.csv")));
   const auto seeds = unlike("--seed ", "c.csv");
   BOOST_TEST(seeds.code == 2);
-  BOOST_TEST(count(seeds.err, "rank 1 has other options than rank 0") == 1U, seeds.err);
+  BOOST_TEST(count(seeds.err, "rank 1 must have the options of rank 0") == 1U, seeds.err);
   BOOST_TEST(!std::filesystem::exists(folder / "c.csv"));
 }
 

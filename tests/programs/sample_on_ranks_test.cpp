@@ -62,7 +62,8 @@ BOOST_AUTO_TEST_CASE(more_ranks_go_on_with_what_was_killed) {
   const auto other = run_on(2, folder, checkpointed + "--resume --seed 2");
   BOOST_TEST(other.code == 2);
   BOOST_TEST(said(other.err) ==
-             "nysalt: c is of another run (seed): ask for the same, or name another --checkpoint\n");
+             "nysalt: c must be a checkpoint of this run, got that of another run (seed); ask for the same, "
+             "or name another --checkpoint\n");
   const auto resumed = run_on(3, folder, checkpointed + "--resume");
   BOOST_TEST_REQUIRE(resumed.code == 0, resumed.err);
   BOOST_TEST((contents(folder / "out.csv") == expected));

@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(killed_chains_go_on_to_the_same_bytes) {
     json found = json_of(resumed);
     for (json* document : {&expected, &found}) document->erase("output");
     BOOST_TEST(found == expected);
-    all_refused(folder, {{checkpointed + "--resume", {"there is no checkpoint"}}});
+    all_refused(folder, {{checkpointed + "--resume", {"there is no such checkpoint"}}});
   }
 }
 
@@ -149,16 +149,16 @@ BOOST_AUTO_TEST_CASE(a_logistic_regression_is_read_from_a_file) {
   std::ofstream(folder / "one.csv") << "y\n1\n0\n";
   std::ofstream(folder / "empty.csv") << "";
   const std::string data = "sample --system logistic_regression --length 0.5 --data ";
-  all_refused(folder, {{data + "missing.csv", {"missing.csv", "cannot be read"}},
-                       {data + ".", {"cannot be read"}},
-                       {data + "empty.csv", {"is empty"}},
+  all_refused(folder, {{data + "missing.csv", {"cannot read --data missing.csv"}},
+                       {data + ".", {"cannot read --data ."}},
+                       {data + "empty.csv", {"cannot read --data empty.csv", "empty or"}},
                        {data + "text.csv", {"line 3, x", "'foo'"}},
                        {data + "short.csv", {"line 3 must have 2 columns", "got 1"}},
                        {data + "label.csv", {"line 3, y must be 0 or 1", "got 3"}},
                        {data + "flat.csv", {"predictor 1 must vary"}},
                        {data + "names.csv", {"must have a row"}},
                        {data + "one.csv", {"one column"}},
-                       {data + "label.csv --label z", {"--label z", "x, y"}},
+                       {data + "label.csv --label z", {"unknown label 'z'", "x, y"}},
                        {data + "label.csv --variance 0", {"--variance must be positive"}}});
 }
 
@@ -170,31 +170,32 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_sampled_is_one_line) {
       << R"({"format": "nysalt table", "version": 1, "name": "one_way", "letters": "AB", "coefficients": [1, 1]})";
   all_refused(
       folder,
-      after(
-          "sample",
-          {
-              {"--system pendulum", {"--length"}},
-              {"--system pendulum --length 1 --method aba3_free", {"unknown method"}},
-              {"--system pendulum --length 1 --method learned:fg4", {"must be learned first"}},
-              {"--system pendulum --length 1 --method one_way.json", {"must be reversible"}},
-              {"--system pendulum --length 1 --resume", {"--resume needs the --checkpoint"}},
-              {"--system pendulum --length 1 --every 5", {"name its file"}},
-              {"--system pendulum --length 1 --checkpoint c", {"--checkpoint needs --every"}},
-              {"--system pendulum --length 1 --checkpoint c --every 0", {"--every must be"}},
-              {"--system pendulum --length 1 --checkpoint c --every 5 --output c", {"a name of its own"}},
-              {"--system pendulum --length 1 --checkpoint c --every 5 --resume", {"there is no checkpoint"}},
-              {"--system pendulum --length 0", {"--length must be"}},
-              {"--system pendulum --length 1 --step 1e-300", {"length must be at most", "larger step"}},
-              {"--system henon_heiles --length 1 --start far.csv", {"must be finite at a start"}},
-              {"--system pendulum --length 1 --chains 0", {"--chains must be"}},
-              {"--system pendulum --length 1 --acceptance 1.2", {"acceptance must be between 0 and 1"}},
-              {"--system pendulum --length 1 --friction 1 --temperature 1", {"leave the bath away"}},
-              {"--system pendulum --length 1 --step 0.1 --acceptance 0.9 --burn-in 3",
-               {"burn_in must be at least 100"}},
-              {"--system pendulum --length 1 --draws 100000000", {"would not fit into memory"}},
-              {"--system pendulum --length 1 --start positions.csv", {"line 3"}},
-              {"--system henon_heiles --length 1 --start positions.csv", {"q2 is not there"}},
-              {"--system pendulum --length 1 --start missing.csv", {"cannot be read"}},
-              {"--system pendulum --length 1 --start positions.csv --spread 2", {"--spread"}},
-          }));
+      after("sample",
+            {
+                {"--system pendulum", {"--length"}},
+                {"--system pendulum --length 1 --method aba3_free", {"unknown method"}},
+                {"--system pendulum --length 1 --method learned:fg4", {"must be learned first"}},
+                {"--system pendulum --length 1 --method one_way.json", {"must be reversible"}},
+                {"--system pendulum --length 1 --resume", {"--resume must come with --checkpoint"}},
+                {"--system pendulum --length 1 --every 5", {"--every must come with --checkpoint"}},
+                {"--system pendulum --length 1 --checkpoint c", {"--checkpoint must come with --every"}},
+                {"--system pendulum --length 1 --checkpoint c --every 0", {"--every must be"}},
+                {"--system pendulum --length 1 --checkpoint c --every 5 --output c",
+                 {"must not take the name of another file"}},
+                {"--system pendulum --length 1 --checkpoint c --every 5 --resume",
+                 {"there is no such checkpoint"}},
+                {"--system pendulum --length 0", {"--length must be"}},
+                {"--system pendulum --length 1 --step 1e-300", {"length must be at most", "larger step"}},
+                {"--system henon_heiles --length 1 --start far.csv", {"must be finite at a start"}},
+                {"--system pendulum --length 1 --chains 0", {"--chains must be"}},
+                {"--system pendulum --length 1 --acceptance 1.2", {"acceptance must be between 0 and 1"}},
+                {"--system pendulum --length 1 --friction 1 --temperature 1", {"must have no bath"}},
+                {"--system pendulum --length 1 --step 0.1 --acceptance 0.9 --burn-in 3",
+                 {"burn_in must be at least 100"}},
+                {"--system pendulum --length 1 --draws 100000000", {"must fit into memory"}},
+                {"--system pendulum --length 1 --start positions.csv", {"line 3"}},
+                {"--system henon_heiles --length 1 --start positions.csv", {"q1 to q2, got no q2"}},
+                {"--system pendulum --length 1 --start missing.csv", {"cannot read --start missing.csv"}},
+                {"--system pendulum --length 1 --start positions.csv --spread 2", {"--spread"}},
+            }));
 }

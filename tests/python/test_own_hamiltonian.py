@@ -137,7 +137,7 @@ def test_what_is_no_force_is_told_in_a_sentence(trouble, sentence):
     (dict(dimension=10**7 + 1), "dimension must be at most 10000000, or states do not fit into memory, got 10000001"),
     (dict(dimension=2**62), "dimension must be at most 10000000, .*, got 4611686018427387904"),
     (dict(dimension=10**30), "dimension must be a whole number that can be counted"),
-    (dict(friction=0.1), "friction needs sigma or temperature"),
+    (dict(friction=0.1), "friction must come with sigma or temperature"),
     (dict(name=""), "a Hamiltonian must have a name"),
     (dict(name="two\nlines"), r"must be one line that can be printed, got 'two\\nlines'"),
     (dict(name="a\x1b[2J"), "must be one line that can be printed"),

@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(a_writer_that_never_ends_is_not_waited_for_without_end) {
   write_file(folder / "a.csv", "1\n");
   BOOST_TEST(refuses<nysalt::detail::write_failure>(
       [&] { record_results({folder / "a.csv"}, made_by("first"), {}, std::chrono::milliseconds(20)); },
-      {"a.csv is whole, but not the manifest", "another process writes it"}));
+      {"a.csv, which is whole: ", "another process writes it"}));
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_ours_is_never_replaced) {
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_ours_is_never_replaced) {
         refuses<refusal>([&] { require_manifest(folder / "a.csv"); }, {"cannot write", "manifest.json"}));
     BOOST_TEST(refuses<nysalt::detail::write_failure>(
         [&] { write_result(folder / "a.csv", "1\n", made_by("first")); },
-        {"a.csv is whole", "manifest.json"}));
+        {"a.csv, which is whole: ", "manifest.json"}));
     BOOST_TEST(contents(folder / "manifest.json") == text);
     BOOST_TEST(contents(folder / "a.csv") == "1\n");
   }

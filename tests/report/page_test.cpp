@@ -241,7 +241,8 @@ BOOST_AUTO_TEST_CASE(more_than_three_sections_have_a_list_of_contents) {
 
 BOOST_AUTO_TEST_CASE(two_pictures_of_one_name_are_refused) {
   auto report = example();
-  BOOST_TEST(refuses<std::invalid_argument>([&] { report.picture(named("p"), "c"); }, {"two pictures", "p"}));
+  BOOST_TEST(refuses<std::invalid_argument>([&] { report.picture(named("p"), "c"); },
+                                            {"pictures must have different names", "got p twice"}));
   BOOST_TEST(refuses<std::invalid_argument>([&] { report.picture(named("../p"), "c"); }, {"letters"}));
   BOOST_TEST(report.figures().size() == 1U);
 }

@@ -55,7 +55,8 @@ void measure_in(const std::filesystem::path& folder, comparison& all, bool resum
   try {
     all.learn_and_measure(kept);
   } catch (const json::exception&) {
-    refuse("{} is not whole, or was edited: remove it to begin anew", (folder / journal_name).string());
+    refuse("cannot resume from {}: the file is not whole, or was edited; remove it to begin anew",
+           (folder / journal_name).string());
   } catch (...) {
     if (kept.is_empty()) {  // only rank 0 has something to remove
       kept.remove();
@@ -83,7 +84,8 @@ int compare(const compare_command& command, const common_settings& common) {
   warn_of_threads(common);
   const std::filesystem::path folder(command.output);
   if (command.output.empty()) {
-    if (command.resume) refuse("--resume continues a comparison in a folder: name it as --output");
+    if (command.resume)
+      refuse("--resume must come with --output; name the folder of the comparison to go on with");
     journal nowhere;
     all.learn_and_measure(nowhere);
   } else {

@@ -104,7 +104,8 @@ int new_system(const new_command& command, const common_settings& common) {
   const std::filesystem::path file = command.name + ".hpp";
   std::error_code ignored;
   if (std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) {
-    refuse("{}: this file is there already: take another name, or move it", file.string());
+    refuse("cannot write {}: a file of that name is there; take another name, or move the file",
+           file.string());
   }
   std::string text = beginning;
   for (auto at = text.find("NAME"); at != std::string::npos; at = text.find("NAME", at)) {

@@ -35,8 +35,10 @@ void require_room(const run_command& command, std::int64_t steps, bool whole_doc
   const std::int64_t at_a_time = whole_document ? command.trajectories : default_lanes * threads;
   const auto trajectories = static_cast<double>(std::min(command.trajectories, at_a_time));
   if (columns * samples * trajectories <= most) return;
-  refuse("{:g} samples of {} trajectories would not fit into memory: take a larger --sample-every{}", samples,
-         command.trajectories, whole_document ? ", or --output to a file" : ", or a --checkpoint");
+  refuse(
+      "run: samples must fit into memory, got {:g} of each of {} trajectories; take a larger "
+      "--sample-every{}",
+      samples, command.trajectories, whole_document ? ", or --output to a file" : ", or a --checkpoint");
 }
 
 /// NAME.svg and NAME.png beside the output NAME.csv: the observables along the first trajectory, in some
@@ -64,13 +66,15 @@ void draw_run(const run_command& command, const run_output& output, std::int64_t
 void require_files(const run_command& command) {
   require_table(command.output, command.plot, command.method);
   if (command.checkpoint.empty()) {
-    if (command.resume) refuse("--resume needs the --checkpoint to go on from");
-    if (command.every) refuse("--every says how often a --checkpoint is made: name its file");
+    if (command.resume) refuse("--resume must come with --checkpoint; name the file to go on from");
+    if (command.every) refuse("--every must come with --checkpoint; name the file of the checkpoint");
     return;
   }
-  if (!command.every) refuse("--checkpoint needs --every: after how many steps is one made?");
+  if (!command.every)
+    refuse("--checkpoint must come with --every; give the number of steps between two checkpoints");
   require_at_least_one("--every", *command.every);
-  if (command.output.empty()) refuse("--checkpoint needs --output: printed results cannot be continued");
+  if (command.output.empty())
+    refuse("--checkpoint must come with --output; name a file, as printed results cannot be continued");
   require_writable(command.checkpoint);
   std::vector<std::string> others{command.method, command.output, manifest_of(command.output)};
   for (const char* beside : {".part", ".new.part", ".sorted.part"}) others.push_back(command.output + beside);
@@ -81,8 +85,8 @@ void require_files(const run_command& command) {
   for (const std::string& name : {command.checkpoint, command.checkpoint + ".next.part"}) {
     for (const std::string& other : others) {
       if (is_same_file(name, other))
-        refuse("--checkpoint {} needs the name {}, which is taken: name another file", command.checkpoint,
-               other);
+        refuse("--checkpoint {} must not take the name of another file of the run, got {}; name another file",
+               command.checkpoint, other);
     }
   }
 }
@@ -212,7 +216,7 @@ int run(const run_command& asked, const common_settings& common) {
       print_result(command, document, was_finished);
     }
     if (was_finished && output->was_changed()) {
-      warn(fmt::format("{} is not as the run left it: it was changed since", command.output));
+      warn(fmt::format("{} was changed after the run had finished", command.output));
     }
   });
   const bool all_diverged = agreed(output && std::ssize(output->lost()) == command.trajectories);

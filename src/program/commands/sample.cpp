@@ -72,22 +72,25 @@ hmc_options options_of(const sample_command& command, const prepared_problem& sy
 void require_files(const sample_command& command) {
   require_table(command.output, false, command.method);
   if (command.checkpoint.empty()) {
-    if (command.resume) refuse("--resume needs the --checkpoint to go on from");
-    if (command.every) refuse("--every says how often a --checkpoint is made: name its file");
+    if (command.resume) refuse("--resume must come with --checkpoint; name the file to go on from");
+    if (command.every) refuse("--every must come with --checkpoint; name the file of the checkpoint");
     return;
   }
-  if (!command.every) refuse("--checkpoint needs --every: after how many trajectories is one made?");
+  if (!command.every)
+    refuse("--checkpoint must come with --every; give the number of trajectories between two checkpoints");
   require_at_least_one("--every", *command.every);
   require_writable(command.checkpoint);
   for (const std::string& other : {command.output, manifest_of(command.output).string(), command.method}) {
     if (is_same_file(command.checkpoint, other))
-      refuse("--checkpoint {} needs a name of its own, which {} has: name another file", command.checkpoint,
-             other);
+      refuse("--checkpoint {} must not take the name of another file of the run, got {}; name another file",
+             command.checkpoint, other);
   }
   std::error_code ignored;
   if (!command.resume && std::filesystem::exists(command.checkpoint, ignored)) {
-    refuse("{} is of chains that were stopped: --resume goes on with them, or remove the file to begin anew",
-           command.checkpoint);
+    refuse(
+        "cannot write {}: the checkpoint is of chains that were stopped; take --resume to go on with the "
+        "chains, or remove the file to begin anew",
+        command.checkpoint);
   }
 }
 
@@ -242,7 +245,7 @@ tabulated method_for(const method_source& source, const prepared_problem& system
         source.typed, *source.family);
   }
   if (options.acceptance && !source.fixed && !force) {
-    refuse("{} is valid at its own step: give --step without --acceptance, or --force", source.typed);
+    refuse("{} must run at its own step; give --step without --acceptance, or --force", source.typed);
   }
   tabulated method =
       source.fixed ? *source.fixed : coefficients_at(source, system, options.step, force, {}, warnings);
@@ -263,7 +266,7 @@ void require_room(const sample_command& command, std::int64_t shown) {
   const double numbers = static_cast<double>(command.chains) * static_cast<double>(command.draws) *
                          static_cast<double>(shown + 1);
   if (numbers <= most) return;
-  refuse("{:g} draws of {} coordinates would not fit into memory: take fewer --draws or --chains",
+  refuse("sample: draws must fit into memory, got {:g} of {} coordinates; take fewer --draws or --chains",
          static_cast<double>(command.chains) * static_cast<double>(command.draws), shown);
 }
 
@@ -273,7 +276,10 @@ int sample(const sample_command& command, const common_settings& common) {
   require_numbers(command);
   on_first(all_ranks(), [&] { require_files(command); });
   const auto system = make_system(command.system);
-  if (system->heat_bath().acts()) refuse("sample: --hmc-temperature is the temperature: leave the bath away");
+  if (system->heat_bath().acts())
+    refuse(
+        "sample: the system must have no bath, as --hmc-temperature is the temperature; leave --friction "
+        "away");
   method_source source;
   collectively(all_ranks(), [&] { source = find_method(command.method, {}, system->letters()); });
   charge(source, *system);

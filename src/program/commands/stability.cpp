@@ -34,10 +34,10 @@ detail::named_letters letters_of(const prepared_problem* system) {
 
 subject subject_of(const stability_command& command, const prepared_problem* system, bool force,
                    std::vector<std::string>& warnings) {
-  if (command.family && command.method) refuse("--family and --method contradict each other: give one");
+  if (command.family && command.method) refuse("--method must come without --family; give one of them");
   if (!command.method) {
     if (!command.family && command.parameters.empty()) {
-      refuse("whose stability? Give --method NAME or FILE, or --family with --parameters");
+      refuse("stability: a method must be given; give --method NAME or FILE, or --family with --parameters");
     }
     const std::string family = command.family.value_or("nystrom");
     const tabulated method = family_member(family, command.parameters, letters_of(system));
@@ -47,14 +47,14 @@ subject subject_of(const stability_command& command, const prepared_problem* sys
     }
     return {family, method};
   }
-  if (!command.parameters.empty()) refuse("--parameters belong to a --family, not to --method");
+  if (!command.parameters.empty()) refuse("--parameters must come with --family, got --method");
   const method_source source = find_method(*command.method, {}, letters_of(system));
   if (system != nullptr)
     return {source.typed, coefficients_at(source, *system, *command.step, force, {}, warnings)};
   if (source.learned) return {source.typed, source.learned->at(source.learned->curve.steps().back())};
   if (source.fixed) return {source.typed, *source.fixed};
   if (source.adaptive != nullptr) {
-    refuse("{} depends on step and highest frequency: give --step, and --system if it is not fpu",
+    refuse("{} must have a step and a highest frequency; give --step, and --system unless the system is fpu",
            source.typed);
   }
   refuse("{} must be learned first: nysalt learn --family {} --step STEP --output scheme.json", source.typed,
@@ -278,7 +278,7 @@ void write_curve(const stability_command& command, const subject& target, const 
 int stability(const stability_command& command, const common_settings& common) {
   if (command.step) require_positive("--step", *command.step);
   if (command.system && !command.step) {
-    refuse("--system needs --step: together they say which frequencies must be stable");
+    refuse("--system must come with --step; give the step at which its frequencies must be stable");
   }
   require_table(command.output, command.plot, command.method.value_or(""));
   const auto system = command.system ? make_system(*command.system) : nullptr;
@@ -287,17 +287,20 @@ int stability(const stability_command& command, const common_settings& common) {
   const bool rotates = has_rotation(target.method.letters());
   const bool has_own_letters = target.method.letters().has_own_letters();
   if (has_own_letters && !command.output.empty()) {
-    refuse("{}: the action of letters of one's own on oscillators is not known: leave out --output",
-           target.name);
+    refuse(
+        "{}: --output must come without letters of one's own, whose action on oscillators is not known; "
+        "leave --output out",
+        target.name);
   }
   if (has_own_letters && !system) {
     refuse(
-        "{}: the stability of a word with letters of one's own is tried on their system: give --system "
+        "{}: letters of one's own must come with their system, on which stability is tried; give --system "
         "and --step",
         target.name);
   }
   if (rotates && !command.output.empty()) {
-    refuse("{} rotates, so trace/2 is cos z and there is nothing to draw; leave out --output", target.name);
+    refuse("{}: --output must come without rotations, whose trace/2 is cos z; leave --output out",
+           target.name);
   }
   const stability_chart chart = rotates || has_own_letters ? stability_chart() : chart_of(target.method);
   answer result = about(target, chart);

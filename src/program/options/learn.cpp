@@ -41,7 +41,9 @@ subcommand offer_learn(CLI::App& app, common_settings& common) {
   const auto run_it = [typed, &asked, &command, &common] {
     asked.steps = numbers_of(typed->steps, "--steps");
     if (command.count("--enough") > 0 && command.count("--trajectories") > 0) {
-      refuse("--enough finds how many trajectories it takes: leave --trajectories away");
+      refuse(
+          "--enough must come without --trajectories, as it finds how many it takes; leave --trajectories "
+          "away");
     }
     return learn(asked, common);
   };

@@ -60,10 +60,11 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
     if (asked.purpose == "sampling") {
       for (const char* option : {"--budget", "--budget-seconds", "--error", "--horizon", "--metric",
                                  "--observable", "--looks", "--reversible", "--placement"}) {
-        if (command.count(option) > 0) refuse("{} is for runs, not for sampling: leave it away", option);
+        if (command.count(option) > 0)
+          refuse("{0} must come with --for runs, got sampling; leave {0} out", option);
       }
       if (command.count("--length") == 0) {
-        refuse("--length: how long should a trajectory be? A quarter of the slowest period is a good start");
+        refuse("--length must be given with --for sampling; a quarter of the slowest period is a good start");
       }
       sampling_options& sampling = asked.sampling;
       sampling.temperature = asked.hmc_temperature;
@@ -81,12 +82,13 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
     if (asked.purpose != "runs")
       refuse("unknown purpose '{}': --for is one of runs, sampling", asked.purpose);
     for (const char* option : {"--length", "--acceptance", "--times-larger"}) {
-      if (command.count(option) > 0) refuse("{} belongs to --for sampling", option);
+      if (command.count(option) > 0) refuse("{} must come with --for sampling, got runs", option);
     }
-    if (command.count("--horizon") == 0) refuse("--horizon is required: how long are the runs to come?");
+    if (command.count("--horizon") == 0)
+      refuse("--horizon must be given; name the length of the runs to come");
     const auto belongs = [&](const char* option, const char* metric) {
       if (command.count(option) == 0 || asked.metric == metric) return;
-      refuse("{} belongs to the metric {}, not to {}", option, metric, asked.metric);
+      refuse("{} must come with the metric {}, got {}", option, metric, asked.metric);
     };
     belongs("--observable", "path");
     belongs("--hmc-temperature", "acceptance");

@@ -47,19 +47,22 @@ void write_checkpoint_file(const std::filesystem::path& file, const json& head,
 checkpoint_file read_checkpoint_file(const std::filesystem::path& file, const std::string& command) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
-    refuse("there is no checkpoint {}: leave --resume away to begin", file.string());
+    refuse("cannot resume from {}: there is no such checkpoint; leave --resume out to begin", file.string());
   }
   std::ifstream input(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(input), {}};
   json head = json::parse(text.substr(0, text.find('\n')), nullptr, false);
   if (!head.is_object() || head.value("format", json()) != format_of_checkpoint) {
-    refuse("{} is no checkpoint of nysalt, or was cut off: name another file", file.string());
+    refuse("cannot read {}: the file is no checkpoint of nysalt, or was cut off; name another file",
+           file.string());
   }
   const json file_version = head.value("version", json());
   if (!file_version.is_number()) refuse_edited_checkpoint(file);
   if (file_version > version_of_checkpoint) {
-    refuse("{} was written by a newer nysalt (format {}, this one reads {}): go on with that one",
-           file.string(), file_version.dump(), version_of_checkpoint);
+    refuse(
+        "cannot read {}: a newer nysalt wrote the checkpoint (format {}, this one reads {}); go on with that "
+        "nysalt",
+        file.string(), file_version.dump(), version_of_checkpoint);
   }
   const std::size_t end = text.size() - std::min(text.size(), last_line("").size());
   const auto before = std::string_view(text).substr(0, end);
@@ -69,8 +72,8 @@ checkpoint_file read_checkpoint_file(const std::filesystem::path& file, const st
   }
   const json of_command = head.value("command", json("run"));  // older ones do not say
   if (of_command != command) {
-    refuse("{} is a checkpoint of nysalt {}, not {}: name another file", file.string(),
-           of_command.is_string() ? of_command.get<std::string>() : "of another kind", command);
+    refuse("{} must be a checkpoint of nysalt {}, got {}; name another file", file.string(), command,
+           of_command.is_string() ? of_command.get<std::string>() : "another kind");
   }
   checkpoint_file result{std::move(head), std::vector<double>(bytes.size() / sizeof(double))};
   bytes.copy(reinterpret_cast<char*>(result.numbers.data()), bytes.size());
@@ -78,12 +81,15 @@ checkpoint_file read_checkpoint_file(const std::filesystem::path& file, const st
 }
 
 void refuse_edited_checkpoint(const std::filesystem::path& file) {
-  refuse("{} is not whole, or was edited: take an older copy, or remove it and begin anew", file.string());
+  refuse(
+      "cannot read {}: the checkpoint is not whole, or was edited; take an older copy, or remove the file "
+      "and begin anew",
+      file.string());
 }
 
 std::int64_t count_in(const json& value) {
   const auto number = value.get_ref<const json::number_integer_t&>();
-  if (number < 0) throw std::out_of_range("a count is negative");
+  if (number < 0) throw std::out_of_range("a count must not be negative");
   return number;
 }
 
@@ -94,8 +100,10 @@ void require_question(const json& asked_then, const json& question, const std::f
     if (asked_then.value(name, json()) == value) continue;
     changed += changed.empty() ? name : ", " + name;
   }
-  refuse("{} is of another run ({}): ask for the same, or name another --checkpoint", file.string(),
-         changed.empty() ? "it has more" : changed);
+  refuse(
+      "{} must be a checkpoint of this run, got that of another run ({}); ask for the same, or name another "
+      "--checkpoint",
+      file.string(), changed.empty() ? "it has more" : changed);
 }
 
 void warn_of_version(const std::string& version_then, const std::filesystem::path& file) {

@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little,
 namespace {
 
 void require_done(std::int64_t result) {
-  if (result < 0) throw std::runtime_error("HDF5 failed");
+  if (result < 0) throw std::runtime_error("cannot use HDF5: a call of it failed");
 }
 
 /// An object that the library knows by a number, closed when the handle goes.
@@ -128,7 +128,7 @@ std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path& file,
   for (const auto& one : datasets) {
     const handle found(H5Dopen2(opened, one.name.c_str(), H5P_DEFAULT), H5Dclose);
     places.push_back(H5Dget_offset(found));
-    if (places.back() == HADDR_UNDEF) throw std::runtime_error("a dataset without a place");
+    if (places.back() == HADDR_UNDEF) throw std::runtime_error("a dataset must have a place");
   }
   return places;
 }

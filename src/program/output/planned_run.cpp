@@ -22,7 +22,7 @@ void require_observables(const run_command& command, const prepared_problem& sys
   for (std::size_t i = 1; i < command.observables.size(); ++i) {
     const auto earlier = std::span(command.observables).first(i);
     if (std::ranges::find(earlier, command.observables[i]) == earlier.end()) continue;
-    refuse("--observables names {} twice", command.observables[i]);
+    refuse("--observables must be different, got {} twice", command.observables[i]);
   }
 }
 

@@ -55,8 +55,10 @@ run_output::~run_output() {
 
 void run_output::make_part(const json& question) {
   if (is_there(checkpoint_) && !read_checkpoint(checkpoint_).finished) {
-    refuse("{} is of a run that was stopped: --resume goes on with it, or remove the file to begin anew",
-           checkpoint_.string());
+    refuse(
+        "cannot write {}: the checkpoint is of a run that was stopped; take --resume to go on with the run, "
+        "or remove the file to begin anew",
+        checkpoint_.string());
   }
   if (checkpoint_.empty()) {
     part_.emplace(output_, unfinished_file::origin::disposable);
@@ -91,13 +93,15 @@ void run_output::go_on(const json& question) {
   state_ = read_checkpoint(checkpoint_);
   require_question(state_.question, question, checkpoint_);
   if (!state_.output.empty() && state_.output != std::filesystem::path(output_).filename()) {
-    refuse("{} is of a run with the --output {}, not {}", checkpoint_.string(), state_.output, output_);
+    refuse("--output must be {}, as in the run of {}, got {}", state_.output, checkpoint_.string(), output_);
   }
   const auto part = unfinished_file::part_of(output_);
   if (state_.finished) {
     if (!is_there(output_)) {
-      refuse("{} says that the run is finished, but there is no {}: remove the checkpoint to begin anew",
-             checkpoint_.string(), output_);
+      refuse(
+          "cannot resume from {}: the run is finished, but there is no {}; remove the checkpoint to begin "
+          "anew",
+          checkpoint_.string(), output_);
     }
     // The run was stopped right before it took away what it had sorted.
     if (!state_.in_order && is_there(part)) std::filesystem::remove(part);
@@ -113,8 +117,8 @@ void run_output::go_on(const json& question) {
   part_.emplace(output_, unfinished_file::origin::left_by_another);
   if (samples_->go_on(*part_, state_.written)) return;
   refuse(
-      "{} is not what the run to resume left there: it was edited or cut; remove the checkpoint to begin "
-      "anew",
+      "cannot resume from {}: the file was edited or cut after the run had been stopped; remove the "
+      "checkpoint to begin anew",
       part.string());
 }
 

@@ -34,11 +34,12 @@ class sample_arrays final : public sample_writer {
     const double size = 8.0 * static_cast<double>(shape_.trajectories) * static_cast<double>(shape_.samples) *
                         static_cast<double>(shape_.observables.size());
     if (is_npy_ && size > most_of_npy) {
-      refuse("{} would have {:.3g} bytes, and .npy is for two gigabytes at most: let --output end in .h5",
+      refuse("{} must have at most two gigabytes as .npy, got {:.3g} bytes; let --output end in .h5",
              file.string(), size);
     }
     if (size > most_of_all)
-      refuse("{} would have {:.3g} bytes: take a larger --sample-every", file.string(), size);
+      refuse("{} must be shorter than 2^62 bytes, got {:.3g}; take a larger --sample-every", file.string(),
+             size);
   }
 
   void take(std::int64_t trajectory, const record& segment) override {
@@ -86,7 +87,7 @@ class sample_arrays final : public sample_writer {
         make_hdf5(file.part(), datasets(), about_);
       } catch (const std::runtime_error&) {
         throw nysalt::detail::write_failure(
-            message("cannot write {}: is the folder writable, and its disk not full?", file.part().string()));
+            message("cannot write {}: the folder is not there, not writable, or full", file.part().string()));
       }
     }
     write_into(file);
@@ -129,7 +130,7 @@ class sample_arrays final : public sample_writer {
         input.read(reinterpret_cast<char*>(row.data() + a * columns),
                    static_cast<std::streamsize>(8 * columns));
       }
-      if (!input) refuse("{} cannot be read again to be drawn", file.string());
+      if (!input) refuse("cannot draw {}: the file cannot be read again", file.string());
       if (std::ranges::all_of(row, [](double x) { return std::isnan(x); })) break;  // the trajectory diverged
       result.t.push_back(static_cast<double>(n * shape_.every) * shape_.step);
       for (std::size_t k = 0; k < row.size(); ++k) result.values[k].push_back(row[k]);
@@ -184,7 +185,7 @@ class sample_arrays final : public sample_writer {
       const auto first = is_npy_ ? std::vector<std::uint64_t>{npy_head().size()} : places_in_hdf5(file, all);
       for (std::size_t k = 0; k < all.size(); ++k) places.push_back({first[k], all[k].count()});
     } catch (const std::runtime_error&) {
-      refuse("{} is not the file of arrays that the run left there", file.string());
+      refuse("cannot read {}: the file is not that of the arrays of the run", file.string());
     }
     return places;
   }

@@ -69,7 +69,7 @@ class sample_table final : public sample_writer {
       result.t.push_back(number(2));
       for (std::size_t k = 0; k < result.values.size(); ++k) result.values[k].push_back(number(3 + k));
     }
-    if (result.t.empty()) refuse("{} cannot be read again to be drawn", file.string());
+    if (result.t.empty()) refuse("cannot draw {}: the file cannot be read again", file.string());
     return result;
   }
 

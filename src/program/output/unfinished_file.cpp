@@ -88,7 +88,7 @@ unfinished_file::unfinished_file(const std::filesystem::path& file, origin from)
   file_.number = open(part_.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC | create, 0666);
   if (file_.number < 0 && from == origin::left_by_another && errno == ENOENT) {
     refuse(
-        "there is no {}, in which the run to resume left its output: is it this --output, and this folder?",
+        "cannot resume from {}: there is no such file; name the --output of the run to resume, in its folder",
         part_.string());
   }
   if (file_.number < 0 && errno == ELOOP) {
@@ -96,17 +96,21 @@ unfinished_file::unfinished_file(const std::filesystem::path& file, origin from)
   }
   if (file_.number < 0) fail();
   if (flock(file_.number, LOCK_EX | LOCK_NB) != 0) {
-    refuse("{} is being written by another run: wait for it, or name another --output", part_.string());
+    refuse("cannot write {}: another run is writing it; wait for that run, or name another --output",
+           part_.string());
   }
   struct stat opened {};
   struct stat named {};  // who held the lock before may have given the file its name meanwhile
   const bool is_known = fstat(file_.number, &opened) == 0 && stat(part_.c_str(), &named) == 0;
   if (!is_known || opened.st_ino != named.st_ino || opened.st_dev != named.st_dev) {
-    refuse("{} was just finished by another run", path_.string());
+    refuse("cannot write {}: another run has just finished it; take that file, or name another --output",
+           path_.string());
   }
   if (from == origin::made && opened.st_size > 0) {
-    refuse("{} was left by a run that was stopped: go on with its checkpoint, or remove the file",
-           part_.string());
+    refuse(
+        "cannot write {}: a run that was stopped left it; go on with the checkpoint of that run, or remove "
+        "the file",
+        part_.string());
   }
   if (from == origin::begun_anew && ftruncate(file_.number, 0) != 0) fail();
   if (!is_kept_) name_.emplace(part_);
@@ -174,9 +178,10 @@ void unfinished_file::remove() {
 }
 
 void unfinished_file::fail() const {
-  throw nysalt::detail::write_failure(message(
-      "cannot write {}: is the folder there, writable, and not full? From a checkpoint --resume goes on",
-      part_.string()));
+  throw nysalt::detail::write_failure(
+      message("cannot write {}: the folder is not there, not writable, or full; mend that, and go on by "
+              "--resume where there is a checkpoint",
+              part_.string()));
 }
 
 }  // namespace nysalt::program

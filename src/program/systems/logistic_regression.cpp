@@ -34,7 +34,7 @@ labelled_rows rows_of(const std::string& file, const std::string& label) {
     if (names.size() < 2) refuse("--data {}: it must have a predictor and a label, got one column", file);
     const auto named = std::ranges::find(names, label);
     if (!label.empty() && named == names.end()) {
-      refuse("--label {}: no column of {} has that name; it has {}", label, file,
+      refuse("unknown label '{}' of {}: it is one of {}", label, file,
              fmt::format("{}", fmt::join(names, ", ")));
     }
     at = label.empty() ? names.size() - 1 : static_cast<std::size_t>(named - names.begin());
