@@ -17,8 +17,21 @@ from words import parts_of_c
 page_name = "docs/run-time-messages.md"
 suffixes = (".hpp", ".cpp")
 
-# A call that ends in an exception: throw TYPE(...), and our functions that throw what they are given.
-call = re.compile(r"\bthrow\s+[\w:]+[({]|\b(?:refuse\w*|require|fail\w*|complain)\(")
+# A call that ends in an exception: throw TYPE(...), and our functions that throw what they are given. A logic_error is
+# for developers: no caller can cause it.
+call = re.compile(r"\bthrow\s+(?!std::logic_error\b)[\w:]+[({]|\b(?:refuse\w*|require|fail\w*|complain)\(")
+
+# Texts that the function which is called puts into a message: conditions and reasons.
+parts_of_messages = {
+    "python/arguments.cpp": {"True or False", "a number", "a text", "a text of whole characters", "a whole number",
+                             "a whole number that can be counted"},
+    "include/nysalt/learning/at_other_size.hpp": {"the systems are not of one kind"},
+    "src/nysalt/ensembles/burn_in.hpp": {"be that of equipartition", "not change afterwards"},
+    "src/nysalt/run_time_family.cpp": {"have a part of H for each coefficient", "leave out what follows |",
+                                       "not have two equal neighbours", "read the same from both ends"},
+    "src/nysalt/systems/lennard_jones_liquid.cpp": {"finite and at least 1", "from 0 to 3", "positive and finite",
+                                                    "the number of threads"},
+}
 
 forms = {
     "value": re.compile(r"\bmust\b"),
@@ -58,8 +71,10 @@ def messages(folder):
     for top in ("include", "src", "python"):
         for path in sorted((folder / top).rglob("*")):
             if path.suffix in suffixes:
+                name = path.relative_to(folder).as_posix()
                 for _, text in thrown(path.read_text()):
-                    found.setdefault(text, path.relative_to(folder).as_posix())
+                    if text not in parts_of_messages.get(name, ()):
+                        found.setdefault(text, name)
     return found
 
 

@@ -118,7 +118,7 @@ system_declaration declared_in(const fs::path& library_file, const std::string& 
   try {
     declare(declared);
   } catch (const std::exception& problem) {  // of the user's code
-    refuse("{}: {}", shown, problem.what());
+    refuse("cannot load {}: {}", shown, problem.what());
   }
   require_sound(declared, shown);
   require_named(declared.letters, shown);

@@ -208,7 +208,7 @@ std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& problem) {  // of the user's code
-    refuse("{}: {}", declared.name, problem.what());
+    refuse("cannot make the system {}: {}", declared.name, problem.what());
   }
 }
 

@@ -26,6 +26,12 @@ class OfTheProject(unittest.TestCase):
                          "docs/site/messages.py --update writes the page")
 
 
+    def test_parts_of_messages_are_in_the_sources(self):
+        for name, parts in messages.parts_of_messages.items():
+            read = {text for _, text in messages.thrown((root / name).read_text())}
+            self.assertEqual(parts - read, set(), name)
+
+
 class InACopy(unittest.TestCase):
     def read(self, code):
         with tempfile.TemporaryDirectory() as folder:
@@ -46,7 +52,8 @@ class InACopy(unittest.TestCase):
                 self.assertEqual(list(self.read(f"void f() {{ {code} }}\nauto b = \"another text\";\n")), [text])
 
     def test_what_is_not_thrown_is_not_read(self):
-        self.assertEqual(self.read('// throw refusal("a b")\nauto a = f("one two");\nrefuse("key");\nrefuse(text);\n'), {})
+        self.assertEqual(self.read('// throw refusal("a b")\nauto a = f("one two");\nrefuse("key");\nrefuse(text);\n'
+                                   'throw std::logic_error("not for users");\n'), {})
 
     def test_forms(self):
         for text, form in {
