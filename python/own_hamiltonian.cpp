@@ -67,7 +67,7 @@ void require_force(const own_functions& functions) {
     points.push_back(sound_start(system, starts, 1, static_cast<std::int64_t>(n)).q);
   }
   const force_check found = check_force(system, points);
-  if (!found.passed()) program::refuse("{}: {}", functions.name, found.report());
+  if (!found.passed()) program::refuse("cannot take {}: {}", functions.name, found.report());
 }
 
 }  // namespace
