@@ -75,7 +75,10 @@ namespace {
          path.string());
 }
 
-void require_same(const json& stored_question, const json& question, const std::filesystem::path& path) {
+}  // namespace
+
+void require_same_question(const json& stored_question, const json& question,
+                           const std::filesystem::path& path) {
   if (stored_question == question) return;
   std::string changed;
   for (const auto& [name, value] : question.items()) {
@@ -89,8 +92,6 @@ void require_same(const json& stored_question, const json& question, const std::
       path.string(), changed.empty() ? "it asks for more" : changed);
 }
 
-}  // namespace
-
 /// Takes the finished parts from the text of a journal; returns the length of its whole lines.
 std::size_t journal::read(const std::string& text, const json& question, const std::string& head) {
   std::size_t at = 0;
@@ -100,7 +101,7 @@ std::size_t journal::read(const std::string& text, const json& question, const s
       if (!line.is_object() || line.value("format", json()) != format || !line.contains("question")) {
         refuse_foreign(path_);
       }
-      require_same(line["question"], question, path_);
+      require_same_question(line["question"], question, path_);
       continue;
     }
     if (!line.is_object() || !line.contains("result") || !line.value("part", json()).is_string()) {

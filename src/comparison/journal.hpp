@@ -14,6 +14,11 @@
 
 namespace nysalt::program {
 
+/// Refuses to go on from a file, a journal or a report, that was made for another question; names what
+/// differs.
+void require_same_question(const json& stored_question, const json& question,
+                           const std::filesystem::path& path);
+
 /// A file of one line a finished part, each written as soon as it is there. Numbers in it come back to the
 /// bit. A last line that was cut off does not count. Without a file nothing is kept. Rank 0 reads and writes
 /// the file, and all ranks know what is in it: they make one together, ask for the same parts, and fail

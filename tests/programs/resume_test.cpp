@@ -91,8 +91,13 @@ BOOST_AUTO_TEST_CASE(a_finished_run_is_left_alone) {
   BOOST_TEST(again.code == 0, again.err);
   BOOST_TEST(again.out.find("finished") != std::string::npos);
   BOOST_TEST(contents(folder / "run/report.json") == report);
-  // Of another question it begins anew.
-  BOOST_TEST(run(folder, line + "run --resume --seed 7").code == 0);
+  // Another question is refused with --resume, and answered in its place without.
+  const auto other = run(folder, line + "run --resume --seed 7");
+  BOOST_TEST(other.code == 2);
+  BOOST_TEST(other.err.find("run/report.json: the file is of another question (seed)") != std::string::npos,
+             other.err);
+  BOOST_TEST(contents(folder / "run/report.json") == report);
+  BOOST_TEST(run(folder, line + "run --seed 7").code == 0);
   BOOST_TEST(contents(folder / "run/report.json") != report);
 }
 

@@ -21,14 +21,15 @@ namespace {
 constexpr const char* journal_name = "journal.jsonl";
 constexpr int unfinished = -1;  // no exit code
 
-/// The report on the very question, if it is there.
+/// The report, if the folder has a whole one. Throws refusal if it answers another question.
 std::optional<json> answer(const std::filesystem::path& folder, const json& question) {
   for (const char* file : {"report.html", "report.md", "rows.csv"}) {
     if (!std::filesystem::exists(folder / file)) return std::nullopt;
   }
   std::ifstream input(folder / "report.json");
   json report = json::parse(input, nullptr, false);
-  if (!report.is_object() || report.value("question", json()) != question) return std::nullopt;
+  if (!report.is_object() || !report.contains("question")) return std::nullopt;
+  require_same_question(report["question"], question, folder / "report.json");
   report.erase("question");
   return report;
 }
@@ -38,7 +39,7 @@ bool has_value(const json& report) {
   return std::ranges::any_of(rows, [](const json& row) { return !row.contains("reason"); });
 }
 
-/// Prints the report on the very question, if it is there: the exit code.
+/// Prints the report, if the folder has a whole one: the exit code.
 int print_answer(const std::filesystem::path& folder, const comparison& all) {
   if (std::filesystem::exists(folder / journal_name)) return unfinished;
   const auto there = answer(folder, all.question());
