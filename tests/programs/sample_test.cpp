@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(killed_chains_go_on_to_the_same_bytes) {
                          {checkpointed + "--resume --draws 200", {"draws"}},
                          {"run --method verlet --step 0.1 --horizon 1 --output cut.csv --every 5 --resume "
                           "--checkpoint cut.checkpoint",
-                          {"checkpoint of nysalt sample, not run"}}});
+                          {"must be a checkpoint of nysalt run, got sample"}}});
     const auto resumed = run(folder, checkpointed + "--resume --threads 2");
     BOOST_TEST_REQUIRE(resumed.code == 0, resumed.err);
     BOOST_TEST((contents(folder / "cut.csv") == contents(folder / "whole.csv")));

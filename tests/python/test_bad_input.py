@@ -167,5 +167,5 @@ def test_unknown_arguments_are_type_errors():
 
 
 def test_unknown_parameters_are_refused_with_the_known_ones():
-    with pytest.raises(ValueError, match="the system fpu has no omgea: it takes pairs, omega, spread"):
+    with pytest.raises(ValueError, match="unknown parameter 'omgea' of the system fpu: it takes pairs, omega, spread"):
         nysalt.system("fpu", omgea=3)
