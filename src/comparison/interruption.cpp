@@ -6,6 +6,7 @@
 #include <atomic>
 #include <csignal>
 
+#include "child_process.hpp"
 #include "nysalt/detail/unfinished_names.hpp"
 
 namespace nysalt::program {
@@ -18,6 +19,7 @@ std::atomic<bool> is_noting = false;
 extern "C" void end_by_signal(int number) {
   int none = 0;
   if (is_noting && noted.compare_exchange_strong(none, number)) return;
+  end_child();
   nysalt::detail::remove_unfinished_files();
   ::_exit(128 + number);
 }

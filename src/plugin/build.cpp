@@ -2,14 +2,10 @@
 #include "build.hpp"
 
 #include <dlfcn.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -19,14 +15,14 @@
 #include <sstream>
 #include <vector>
 
+#include "comparison/child_process.hpp"
 #include "comparison/refusal.hpp"
 #include "comparison/standard_error.hpp"
+#include "nysalt/detail/unfinished_names.hpp"
 #include "nysalt/detail/write_failure.hpp"
 #include "nysalt/plugin.hpp"
 #include "plugin.hpp"
 #include "report/write_file.hpp"
-
-extern char** environ;
 
 namespace nysalt::program {
 
@@ -146,25 +142,6 @@ fs::path cache_folder() {
   throw nysalt::detail::write_failure(fmt::format("cannot write {}: {}", file.string(), problem.message()));
 }
 
-/// The exit code of a command whose messages go into a file; nothing if it cannot be started.
-std::optional<int> exit_code_of(const std::vector<std::string>& command, const fs::path& messages) {
-  std::vector<char*> arguments;
-  for (const auto& one : command) arguments.push_back(const_cast<char*>(one.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
-    posix_spawn_file_actions_addopen(&actions, stream, messages.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-  }
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return std::nullopt;
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
 /// The message to show first: a sentence of ours if there is one, else the first error.
 std::string first_error(const std::string& messages) {
   std::istringstream lines(messages);
@@ -183,20 +160,24 @@ std::string first_error(const std::string& messages) {
   return first.empty() ? "the compiler says no more" : first;
 }
 
-/// Files that are removed in any case.
+/// A file that is removed in any case, also by a signal.
 struct temporary {
-  fs::path path;
+  explicit temporary(fs::path file) : path(std::move(file)), name(path) {}
   ~temporary() {
     std::error_code ignored;
     fs::remove(path, ignored);
   }
+  temporary(const temporary&) = delete;
+  temporary& operator=(const temporary&) = delete;
+
+  fs::path path;
+  nysalt::detail::unfinished_name name;
 };
 
 void compile(const fs::path& source, const std::string& identity, const fs::path& library,
              const recipe& how) {
   const std::string unique = fmt::format("{}.{}", library.string(), ::getpid());
   const temporary made{unique + ".part"};
-  const temporary messages{unique + ".log"};
   std::vector<std::string> command = how.before;
   for (const char* flag :
        {"-shared", "-fPIC", "-fvisibility=hidden", "-fvisibility-inlines-hidden", "-x", "c++"}) {
@@ -210,13 +191,11 @@ void compile(const fs::path& source, const std::string& identity, const fs::path
   command.push_back(made.path.string());
   command.insert(command.end(), how.libraries.begin(), how.libraries.end());
   if (::isatty(STDERR_FILENO) != 0) to_standard_error(fmt::format("compiling {} ...\n", source.string()));
-  const auto code = exit_code_of(command, messages.path);
-  if (!code || *code == 127)
+  const child_result compiler = run_child(command, {}, error_output::kept);
+  if (!compiler.code || *compiler.code == 127)
     refuse("cannot compile {}: the compiler {} cannot be started; install it", source.string(),
            command.front());
-  if (*code != 0) {
-    refuse("cannot compile {}: {}", source.string(), first_error(text_of_file(messages.path).value_or("")));
-  }
+  if (!compiler.succeeded()) refuse("cannot compile {}: {}", source.string(), first_error(compiler.output));
   std::error_code problem;
   fs::rename(made.path, library, problem);
   if (problem) cannot_write(library, problem);

@@ -4,18 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
 
-#include "nysalt/detail/unfinished_names.hpp"
+#include "comparison/child_process.hpp"
 #include "plot_script.hpp"
-#include "quoted.hpp"
 #include "svg.hpp"
 
 namespace nysalt {
@@ -32,12 +28,7 @@ void detail::require_plain(const std::string& name) {
 
 namespace {
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream input(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(input), {}};
-}
-
-/// gnuplot ends well where its disk was full.
+/// gnuplot also ends well where the output is not whole.
 bool is_whole_picture(const std::string& text, const std::string& kind) {
   const std::string_view end = kind == "png" ? std::string_view("IEND\xae\x42\x60\x82", 8) : "</svg>";
   return text.find(end, text.size() - std::min<std::size_t>(text.size(), 64)) != std::string::npos;
@@ -60,23 +51,19 @@ bool draw(const figure& f, const std::filesystem::path& folder) {
   write_file(folder / (f.name + ".dat"), detail::plot_data(f));
   write_file(folder / (f.name + ".gp"), detail::plot_script(f));
   for (const std::string kind : {"svg", "png"}) {
-    const std::string picture = f.name + "." + kind;
-    const std::string command = fmt::format(
-        "CDPATH= cd -- {} >/dev/null && gnuplot -e \"kind='{}'; target='{}.tmp'\" ./{}.gp 2>/dev/null",
-        detail::quoted_for_shell(folder.string()), kind, picture, f.name);
-    const std::filesystem::path made = folder / (picture + ".tmp");
-    const detail::unfinished_name unfinished(made);
-    std::error_code failure;
-    const bool has_ended = std::system(command.c_str()) == 0;
-    const std::string text = has_ended ? bytes_of(made) : std::string();
-    std::filesystem::remove(made, failure);
-    if (is_whole_picture(text, kind) &&
-        is_written(folder / picture, kind == "svg" ? finished_svg(text, f) : text)) {
+    const std::filesystem::path picture = folder / (f.name + "." + kind);
+    const program::child_result made =
+        program::run_child({"gnuplot", "-e", fmt::format("kind='{}'", kind), "./" + f.name + ".gp"}, folder,
+                           program::error_output::dropped);
+    if (made.succeeded() && is_whole_picture(made.output, kind) &&
+        is_written(picture, kind == "svg" ? finished_svg(made.output, f) : made.output)) {
       continue;
     }
     drawn = false;
-    if (std::filesystem::is_regular_file(folder / picture, failure))
-      std::filesystem::remove(folder / picture, failure);  // that of older data
+    std::error_code failure;
+    if (std::filesystem::is_regular_file(picture, failure)) {
+      std::filesystem::remove(picture, failure);  // that of older data
+    }
   }
   return drawn;
 }

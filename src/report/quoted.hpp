@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Text on its way into gnuplot, and into a shell.
+// Text on the way into gnuplot.
 #pragma once
 
 #include <string>
@@ -11,7 +11,5 @@ std::string on_one_line(std::string text);
 
 /// For gnuplot: a quote is written twice.
 std::string quoted(const std::string& text);
-/// For the shell, where a quote is outside of quotes.
-std::string quoted_for_shell(const std::string& text);
 
 }  // namespace nysalt::detail

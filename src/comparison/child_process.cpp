@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "child_process.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+
+extern char** environ;
+
+namespace nysalt::program {
+
+namespace {
+
+std::atomic<pid_t> running = 0;
+
+/// Signals are held back, so that no handler runs between the start of a child and `running`.
+class held_signals {
+ public:
+  held_signals() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~held_signals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  held_signals(const held_signals&) = delete;
+  held_signals& operator=(const held_signals&) = delete;
+
+  const sigset_t& before() const { return before_; }
+
+ private:
+  sigset_t before_{};
+};
+
+/// A file without a name.
+class anonymous_file {
+ public:
+  anonymous_file() : descriptor_(memfd_create("nysalt", MFD_CLOEXEC)) {}
+  ~anonymous_file() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  anonymous_file(const anonymous_file&) = delete;
+  anonymous_file& operator=(const anonymous_file&) = delete;
+
+  bool is_open() const { return descriptor_ >= 0; }
+  int descriptor() const { return descriptor_; }
+  std::string text() const {
+    std::string all;
+    std::array<char, 65536> some{};
+    off_t at = 0;
+    while (true) {
+      const ssize_t count = ::pread(descriptor_, some.data(), some.size(), at);
+      if (count <= 0) return all;
+      all.append(some.data(), static_cast<std::size_t>(count));
+      at += count;
+    }
+  }
+
+ private:
+  int descriptor_;
+};
+
+/// What the child does before the program begins; it has a process group of its own, which can be ended whole.
+class start {
+ public:
+  start(const std::filesystem::path& folder, const anonymous_file& output, error_output errors,
+        const sigset_t& signals) {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions_, output.descriptor(), STDOUT_FILENO);
+    if (errors == error_output::kept) {
+      posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
+    } else {
+      posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    }
+    if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
+    posix_spawnattr_init(&attributes_);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+    posix_spawnattr_setpgroup(&attributes_, 0);
+    posix_spawnattr_setsigmask(&attributes_, &signals);
+  }
+  ~start() {
+    posix_spawn_file_actions_destroy(&actions_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+  start(const start&) = delete;
+  start& operator=(const start&) = delete;
+
+  bool of(const std::vector<std::string>& command, pid_t& child) const {
+    std::vector<char*> arguments;
+    for (const auto& one : command) arguments.push_back(const_cast<char*>(one.c_str()));
+    arguments.push_back(nullptr);
+    return posix_spawnp(&child, arguments.front(), &actions_, &attributes_, arguments.data(), environ) == 0;
+  }
+
+ private:
+  posix_spawn_file_actions_t actions_{};
+  posix_spawnattr_t attributes_{};
+};
+
+}  // namespace
+
+child_result run_child(const std::vector<std::string>& command, const std::filesystem::path& folder,
+                       error_output errors) {
+  const anonymous_file output;
+  if (!output.is_open()) return {};
+  pid_t child = 0;
+  {
+    const held_signals held;
+    if (!start(folder, output, errors, held.before()).of(command, child)) return {};
+    running = child;
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  running = 0;
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output.text()};
+}
+
+void end_child() noexcept {
+  const pid_t child = running;
+  if (child <= 0) return;
+  ::kill(-child, SIGTERM);
+  for (int n = 0; n < 100; ++n) {
+    if (waitpid(child, nullptr, WNOHANG) != 0) return;
+    ::poll(nullptr, 0, 10);
+  }
+  ::kill(-child, SIGKILL);
+}
+
+}  // namespace nysalt::program
