@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(a_killed_run_goes_on_with_other_ranks_to_the_same_bytes) {
   BOOST_TEST_REQUIRE(std::filesystem::exists(folder / "killed/journal.jsonl"));
   const auto refused = run_on(2, folder, along_paths + "killed");
   BOOST_TEST(refused.code == 2);
-  BOOST_TEST(count(refused.err, "--resume goes on") == 1U, refused.err);
+  BOOST_TEST(count(refused.err, "take --resume") == 1U, refused.err);
   const auto again = run_on(3, folder, along_paths + "killed --resume");
   BOOST_TEST_REQUIRE(again.code == 0, again.err);
   BOOST_TEST(count(again.err, "were taken from the journal") == 1U, again.err);

@@ -124,7 +124,7 @@ BOOST_AUTO_TEST_CASE(journals_of_others_are_refused) {
     BOOST_TEST(done.err.find(why) != std::string::npos, arguments << " said " << done.err);
     BOOST_TEST(std::count(done.err.begin(), done.err.end(), '\n') == 1);
   };
-  refused(line + "run", "--resume goes on");
+  refused(line + "run", "take --resume");
   refused(line + "run --resume --seed 2", "another question (seed)");
   refused(line + "run --resume --bins 50", "another question (bins)");
   refused("compare --methods verlet --steps 0.02 --resume", "--resume must come with --output");
