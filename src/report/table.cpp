@@ -21,8 +21,8 @@ table::table(std::vector<std::string> columns, std::size_t left)
 
 void table::add(std::vector<std::string> cells) {
   if (cells.size() != columns_.size()) {
-    throw std::invalid_argument(fmt::format("table: a row must have a cell for each of {} columns, got {}",
-                                            columns_.size(), cells.size()));
+    throw std::invalid_argument(fmt::format(
+        "table: a row must have a cell for each of {} columns, got {} cells", columns_.size(), cells.size()));
   }
   rows_.push_back(std::move(cells));
 }

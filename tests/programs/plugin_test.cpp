@@ -91,7 +91,8 @@ BOOST_AUTO_TEST_CASE(a_new_system_builds_and_runs) {
            {"--masses 2.5", "must be a whole number, got '2.5'"},
            {"--masses 1001", "at most 1000, got 1001"},
            {"--omega 3",
-            "unknown parameter '--omega' of the system ./morse_chain.so: it takes --masses, --depth, --width, "
+            "unknown parameter '--omega' of the system ./morse_chain.so: it takes --masses, --depth, "
+            "--width, "
             "--spread"},
            {"--bond 3", "unknown option '--bond'"},
            {"--observables last_bond", "did you mean first_bond?"}}) {
