@@ -106,7 +106,7 @@ class thread_communicator final : public communicator {
     std::vector<std::size_t> first_of;
     for (std::size_t r = 0; r <= all.size(); ++r) first_of.push_back(r * sizeof(value));
     all[static_cast<std::size_t>(rank_)] = value;
-    gather(std::as_writable_bytes(std::span(all)), first_of);
+    all_gather(std::as_writable_bytes(std::span(all)), first_of);
     return all;
   }
 
