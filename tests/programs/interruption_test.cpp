@@ -56,6 +56,43 @@ BOOST_AUTO_TEST_CASE(a_signal_makes_a_checkpoint_where_one_was_asked_for) {
   BOOST_TEST((contents(folder / "a.csv") == contents(folder / "whole.csv")));
 }
 
+// A gnuplot that takes long: the signal ends it, and what it would have done later is not done.
+BOOST_AUTO_TEST_CASE(a_signal_ends_a_child_that_draws) {
+  for (const auto& [signal, number] : {std::pair{"INT", 2}, {"TERM", 15}, {"HUP", 1}}) {
+    const scratch folder("signal_drawing");
+    const auto done =
+        shell(folder, R"(printf '#!/bin/sh\ntouch begun\nsleep 3\ntouch ended\n' >gnuplot; chmod +x gnuplot
+PATH=$PWD:$PATH env --default-signal=INT "$nysalt" run --method verlet --step 0.01 --horizon 1 --output a.csv --plot \
+  >/dev/null 2>&1 & p=$!
+for i in $(seq 500); do [ -e begun ] && break; sleep 0.01; done
+kill -)" + std::string(signal) +
+                          " $p; wait $p; echo $?; sleep 4; ls");
+    BOOST_TEST(done.out.starts_with(std::to_string(128 + number) + "\n"), done.out);
+    BOOST_TEST(done.out.find("begun") != std::string::npos);
+    BOOST_TEST(done.out.find("ended") == std::string::npos, signal);
+    BOOST_TEST(done.out.find(".svg") == std::string::npos, done.out);
+    BOOST_TEST(done.out.find("tmp") == std::string::npos, done.out);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_signal_ends_the_compiler_of_a_plug_in) {
+  const scratch folder("signal_compiling");
+  const auto done =
+      shell(folder, "cp " NYSALT_SOURCE_DIR
+                    "/examples/plugins/toda.hpp mine.hpp\n"
+                    "XDG_CACHE_HOME=$PWD/cache \"$nysalt\" build mine.hpp >/dev/null 2>&1 & p=$!\n"
+                    "sleep 0.5; kill -TERM $p; wait $p; echo $?; sleep 8; find cache -type f; ls *.so*");
+  BOOST_TEST(done.out == "143\n", done.out);
+}
+
+// gnuplot gets no name to write to: what lies under the names that it once had stays as it is.
+BOOST_AUTO_TEST_CASE(pictures_are_not_drawn_through_links) {
+  const scratch folder("picture_links");
+  const auto done = shell(folder, R"(echo precious >p; ln -s p a.svg.tmp; ln p a.png.tmp
+"$nysalt" run --method verlet --step 0.01 --horizon 1 --output a.csv --plot >/dev/null 2>&1; echo $?; cat p)");
+  BOOST_TEST(done.out == "0\nprecious\n", done.out);
+}
+
 BOOST_AUTO_TEST_CASE(a_signal_that_is_ignored_stays_so) {
   const scratch folder("signal_ignored");
   const auto done =
