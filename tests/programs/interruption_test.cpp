@@ -77,11 +77,13 @@ kill -)" + std::string(signal) +
 
 BOOST_AUTO_TEST_CASE(a_signal_ends_the_compiler_of_a_plug_in) {
   const scratch folder("signal_compiling");
-  const auto done = shell(folder, "cp " NYSALT_SOURCE_DIR R"(/examples/plugins/toda.hpp mine.hpp
+  const auto done = shell(folder, "cp " NYSALT_SOURCE_DIR R"sh(/examples/plugins/toda.hpp mine.hpp
 compilers() { cat /proc/[0-9]*/cmdline 2>/dev/null | tr '\0' ' ' | grep -c '[c]c1plus.*signal_compiling'; }
 XDG_CACHE_HOME=$PWD/cache "$nysalt" build mine.hpp >/dev/null 2>&1 & p=$!
 for i in $(seq 500); do [ "$(compilers)" = 0 ] || break; sleep 0.01; done
-kill -TERM $p; wait $p; echo $?; compilers; find cache -type f; find . -name '*.so*')");
+kill -TERM $p; wait $p; echo $?
+for i in $(seq 100); do [ "$(compilers)" = 0 ] && break; sleep 0.01; done
+compilers; find cache -type f; find . -name '*.so*')sh");
   BOOST_TEST(done.out == "143\n0\n", done.out);
 }
 
