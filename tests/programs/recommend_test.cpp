@@ -306,7 +306,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
              {"--budget 0.1 --horizon 1", {"--horizon", "at least one step"}},
              {sound + "--metric acf", {"acf", "path, state, exchange, energy"}},
              {sound + "--metric nosuch", {"nosuch", "path, relative, state, exchange, energy"}},
-             {sound + "--observable energy", {"--observable", "path", "not to state"}},
+             {sound + "--observable energy", {"--observable", "path", "got state"}},
              {sound + "--families nosuch", {"family 'nosuch'", "nysalt list"}},
              {sound + "--families r_aba2 --system pendulum", {"r_aba2", "quadratic part"}},
              {sound + "--families aba3_free --reversible", {"aba3_free", "not reversible"}},

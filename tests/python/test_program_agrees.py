@@ -140,7 +140,7 @@ def test_an_unusable_fit_is_said_to_be_one(program, tmp_path):
     # Both kicks in the middle of the step: Verlet again, unstable at z = 2.5, and nothing is left to learn.
     fit = nysalt.learn(nysalt.system("fpu"), "nystrom", step=0.05, trajectories=3, fix={"b1": 0.5, "beta1": 0.25})
     assert not fit.usable and fit.reason
-    with pytest.raises(ValueError, match="the fit is not usable"):
+    with pytest.raises(ValueError, match="it is not usable"):
         fit.save(tmp_path / "fit.json")
     fit.save(tmp_path / "fit.json", force=True)
     assert nysalt.load(tmp_path / "fit.json").reason == fit.reason
