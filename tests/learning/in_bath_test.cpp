@@ -9,8 +9,6 @@
 #include "../support/one_step.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "../support/seeds.hpp"
-#include "../support/statistics.hpp"
 #include "../support/steps_in_bath.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
@@ -34,8 +32,6 @@ using parameters = parameters_of<nystrom>;
 constexpr double h = 0.5;
 const galaxy warm(henon_heiles(), bath::of_sigma(0.7, 0.1));
 const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
-/// Of a mean energy of .0125: with 192 starts of a trial run one is above the saddle, 1/6, once in 10^5 runs.
-const normal_around<2> gentle_starts({{0.0, 0.0}, {0.0, 0.0}}, 0.05, 0.1);
 
 struct data_sets {
   flow_map_data data, held_out;
@@ -46,13 +42,13 @@ data_sets made_by(const auto& method, const galaxy& system = warm) {
   };
   return {make(1), make(2)};
 }
-data_sets followed(const auto& reference, std::uint64_t first = 1) {
+data_sets followed(const auto& reference, std::uint64_t seed = 1) {
   const auto make = [&](std::uint64_t data_seed) {
     return make_flow_map_data(
-        warm, gentle_starts, reference,
-        {.step = h, .horizon = 2.5, .trajectories = 30, .seed = seed(data_seed), .noise_parts = 2});
+        warm, starts, reference,
+        {.step = h, .horizon = 2.5, .trajectories = 30, .seed = data_seed, .noise_parts = 2});
   };
-  return {make(first), make(first + 1)};
+  return {make(seed), make(seed + 1)};
 }
 learned<family> fit_to(const data_sets& sets, const galaxy& system = warm,
                        const learn_options<family>& options = {}) {
@@ -123,9 +119,8 @@ BOOST_AUTO_TEST_CASE(whatever_makes_the_paths_the_same_is_learned) {
       error = std::max(error, parameter.standard_error);
     BOOST_TEST(off(by_aboba) <= 0.05 * error);
     BOOST_TEST(off(by_finer) <= 0.05 * error);
-    // Two normal parameters are both within .001 errors once in 10^6.
-    BOOST_TEST(off(by_other_seed) > 1e-3 * error);
-    BOOST_TEST(off(by_other_seed) <= standard_errors(false_alarms / 2, 29) * std::sqrt(2.0) * error);
+    BOOST_TEST(off(by_other_seed) > 0.05 * error);
+    BOOST_TEST(off(by_other_seed) <= 4.0 * std::sqrt(2.0) * error);
     BOOST_TEST(by_baoab.summary.reference_checked);
     BOOST_TEST(by_baoab.summary.reference_error < 0.05 * by_baoab.summary.one_step_error);
     BOOST_TEST(by_baoab.summary.reference == "baoab with step 0.0025");
