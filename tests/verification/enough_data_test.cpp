@@ -10,8 +10,6 @@
 #include <cmath>
 #include <vector>
 
-#include "../support/seeds.hpp"
-#include "../support/statistics.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/fg_chin.hpp"
@@ -38,11 +36,8 @@ data_options options_of(std::int64_t trajectories, std::uint64_t seed) {
 flow_map_data data_of(std::int64_t trajectories, std::uint64_t seed) {
   return make_flow_map_data(chain, law, reference, options_of(trajectories, seed));
 }
-flow_map_data drawn_data(std::int64_t trajectories, std::uint64_t number) {
-  return data_of(trajectories, test::seed(number));
-}
 const flow_map_data& many() {
-  static const auto data = drawn_data(20'000, 1'000'000);
+  static const auto data = data_of(20'000, 1'000'000);
   return data;
 }
 
@@ -52,7 +47,7 @@ class fits_of {
   explicit fits_of(const run_time_family& family) : family_(family), truth(to(many())) {}
 
   fit to(const flow_map_data& data) const {
-    static const auto held_out = drawn_data(4, 999'999);
+    static const auto held_out = data_of(4, 999'999);
     return learn(family_, chain, data, held_out, {.loss = loss_named("state:1"), .threads = 2});
   }
 
@@ -73,7 +68,7 @@ flow_map_data taken_apart(flow_map_data data) {
 /// How many intervals of M = 100 cover the truth, and the sum of squared distances in standard errors.
 struct coverage {
   int by_interval = 0;
-  int by_quarter = 0;
+  int by_half = 0;
   double squares = 0.0;
   double squares_taken_apart = 0.0;
 };
@@ -84,13 +79,13 @@ std::vector<coverage> coverage_of(const run_time_family& family) {
   std::vector<coverage> result(count);
   const double quantile_95 = quantile(boost::math::students_t(usual - 1), 0.975);
   for (int n = 0; n < seeds; ++n) {
-    const auto data = drawn_data(usual, 1 + static_cast<std::uint64_t>(n));
+    const auto data = data_of(usual, 1 + static_cast<std::uint64_t>(n));
     const auto clustered = fits.to(data).summary.parameters;
     const auto apart = fits.to(taken_apart(data)).summary.parameters;
     for (std::size_t k = 0; k < count; ++k) {
       const double off = std::abs(clustered[k].value - fits.truth.summary.parameters[k].value);
       result[k].by_interval += off <= quantile_95 * clustered[k].standard_error;
-      result[k].by_quarter += off <= 0.25 * quantile_95 * clustered[k].standard_error;
+      result[k].by_half += off <= 0.5 * quantile_95 * clustered[k].standard_error;
       result[k].squares += std::pow(off / clustered[k].standard_error, 2);
       result[k].squares_taken_apart += std::pow(off / apart[k].standard_error, 2);
     }
@@ -100,25 +95,24 @@ std::vector<coverage> coverage_of(const run_time_family& family) {
 
 }  // namespace
 
+// If each covers with probability .95, fewer than 43 of 50 do once in 500 times.
 BOOST_AUTO_TEST_CASE(intervals_of_a_hundred_trajectories_cover_the_value_of_twenty_thousand) {
   for (const auto& family : {run_time_family(nystrom()), run_time_family(fg_chin())}) {
     const auto all = coverage_of(family);
     for (std::size_t k = 0; k < all.size(); ++k) {
       const auto& covered = all[k];
       BOOST_TEST_CONTEXT(family.name << " " << family.parameter_names[k] << ": " << covered.by_interval
-                                     << ", of a quarter of the width " << covered.by_quarter << ", squares "
+                                     << ", of half the width " << covered.by_half << ", squares "
                                      << covered.squares << ", with pairs taken apart "
                                      << covered.squares_taken_apart) {
-        constexpr double each = test::false_alarms / 12;  // four parameters, three comparisons
-        const int least = seeds - test::most_of(seeds, 0.05, each);
-        BOOST_TEST(covered.by_interval >= least);
-        BOOST_TEST(covered.by_quarter < least);  // 19 are expected
+        BOOST_TEST(covered.by_interval >= 43);
+        BOOST_TEST(covered.by_half < 43);
         // The squares are chi-squared; a reported variance is 15 % off at most in the mean. Errors of pairs
         // cancel along a trajectory here: taken for independent they make intervals that are far too wide.
         const boost::math::chi_squared squares(seeds);
-        BOOST_TEST(covered.squares > 0.85 * quantile(squares, each));
-        BOOST_TEST(covered.squares < 1.15 * quantile(complement(squares, each)));
-        BOOST_TEST(covered.squares_taken_apart < 0.85 * quantile(squares, each));
+        BOOST_TEST(covered.squares > 0.85 * quantile(squares, 1e-3));
+        BOOST_TEST(covered.squares < 1.15 * quantile(squares, 1.0 - 1e-3));
+        BOOST_TEST(covered.squares_taken_apart < quantile(squares, 1e-3));
       }
     }
   }
@@ -129,16 +123,14 @@ BOOST_AUTO_TEST_CASE(the_loss_is_larger_by_what_is_expected_and_that_falls_as_on
   const fits_of fits(family);
   // On new data, in the measure that many data tell.
   const metric measure(chain, many(), coordinates::qp);
-  const auto unseen = drawn_data(4000, 2'000'000);
+  const auto unseen = data_of(4000, 2'000'000);
   const after_steps loss(family, chain, unseen, state_error(measure), {.threads = 2});
   const double least = loss_value(loss, fits.truth.theta);
-  const double allowed =
-      test::standard_errors(test::false_alarms / 4, seeds - 1);  // three numbers and a slope
   std::vector<double> log_count, log_lost, log_expected, relative_errors;
   for (const std::int64_t trajectories : {25, 100, 400}) {
     std::vector<double> lost, expected;
     for (int n = 0; n < seeds; ++n) {
-      const auto found = fits.to(drawn_data(trajectories, 1 + static_cast<std::uint64_t>(n)));
+      const auto found = fits.to(data_of(trajectories, 1 + static_cast<std::uint64_t>(n)));
       lost.push_back(loss_value(loss, found.theta) - least);
       expected.push_back(found.summary.expected_excess);
     }
@@ -147,8 +139,8 @@ BOOST_AUTO_TEST_CASE(the_loss_is_larger_by_what_is_expected_and_that_falls_as_on
     const double error = std::hypot(mean_lost.standard_error, mean_expected.standard_error);
     BOOST_TEST_CONTEXT(trajectories << ": " << mean_lost.mean << " +- " << mean_lost.standard_error << ", "
                                     << mean_expected.mean << " expected") {
-      BOOST_TEST(std::abs(mean_lost.mean - mean_expected.mean) <= allowed * error);
-      BOOST_TEST(std::abs(mean_lost.mean - 4.0 * mean_expected.mean) > allowed * error);
+      BOOST_TEST(std::abs(mean_lost.mean - mean_expected.mean) <= 3.0 * error);
+      BOOST_TEST(std::abs(mean_lost.mean - 2.0 * mean_expected.mean) > 3.0 * error);  // without the half
     }
     log_count.push_back(std::log(static_cast<double>(trajectories)));
     log_lost.push_back(std::log(mean_lost.mean));
@@ -160,8 +152,8 @@ BOOST_AUTO_TEST_CASE(the_loss_is_larger_by_what_is_expected_and_that_falls_as_on
   const double error = *std::max_element(relative_errors.begin(), relative_errors.end()) / std::sqrt(spread);
   BOOST_TEST_CONTEXT("slopes " << slope(log_count, log_lost) << " and " << slope(log_count, log_expected)
                                << " +- " << error) {
-    BOOST_TEST(std::abs(slope(log_count, log_lost) + 1.0) <= allowed * error);
-    BOOST_TEST(std::abs(slope(log_count, log_lost)) > allowed * error);
+    BOOST_TEST(std::abs(slope(log_count, log_lost) + 1.0) <= 3.0 * error);
+    BOOST_TEST(std::abs(slope(log_count, log_lost) + 0.5) > 3.0 * error);
     BOOST_TEST(std::abs(slope(log_count, log_expected) + 1.0) <= 0.1);  // a variance from 25 is 7 % low
   }
 }
