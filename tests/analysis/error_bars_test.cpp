@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "../support/seeds.hpp"
+#include "../support/statistics.hpp"
 #include "nysalt/analysis/ensemble_statistics.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/threshold.hpp"
@@ -115,12 +117,12 @@ double expected_coverage(double z, double m, double skewness = 0.0, double kurto
   return std::erf(z / std::numbers::sqrt2) + 2.0 * f * z * by_shape / m;
 }
 
-/// Within 3.5 binomial deviations: beyond with a probability of 0.0005.
+/// Within what the normal distribution allows one of five counts.
 bool is_near(int count, double expected, double more = 0.0) {
   const double deviation = std::sqrt(expected * (1.0 - expected) / ensembles);
   const double found = static_cast<double>(count) / ensembles;
   BOOST_TEST_MESSAGE("covers " << found << ", expected " << expected);
-  return std::abs(found - expected) < 3.5 * deviation + more;
+  return std::abs(found - expected) < test::standard_errors(test::false_alarms / 5) * deviation + more;
 }
 
 }  // namespace
@@ -143,8 +145,10 @@ BOOST_AUTO_TEST_CASE(bars_of_errors_and_of_their_crossing_cover) {
   for (int n = 0; n < ensembles; ++n) {
     std::vector<error_at> rows;
     for (const double step : h) {
-      const trajectory_options options{
-          .step = step, .steps = steps, .trajectories = trajectories, .seed = static_cast<std::uint64_t>(n)};
+      const trajectory_options options{.step = step,
+                                       .steps = steps,
+                                       .trajectories = trajectories,
+                                       .seed = test::seed(static_cast<std::uint64_t>(n))};
       const auto found = trajectory_errors(all, exact_turn(), law, verlet(), std::span(measures), options);
       const estimate error = found[0].methods[0].error;
       rows.push_back({step, error.mean, error.standard_error});
@@ -179,7 +183,7 @@ BOOST_AUTO_TEST_CASE(bars_of_means_cover) {
   const auto stepper = make_stepper(all, verlet(), 0.4);
   coverage found;
   for (std::uint64_t n = 0; n < ensembles; ++n) {
-    const ensemble_options options{.trajectories = trajectories, .steps = steps, .seed = n};
+    const ensemble_options options{.trajectories = trajectories, .steps = steps, .seed = test::seed(n)};
     found.count(ensemble_statistics(stepper, law, options, position, {.moments = true}).mean, 0.0);
   }
   BOOST_TEST(is_near(found.whole, expected_coverage(factor, trajectories - 1)));
@@ -192,12 +196,12 @@ namespace {
 constexpr int samples = 256;  // in 64 groups of 4
 
 /// Histograms of starts of one oscillator, normal around a mean.
-std::vector<histogram> groups_around(double mean, std::uint64_t seed, const equal_bins& bins) {
+std::vector<histogram> groups_around(double mean, std::uint64_t number, const equal_bins& bins) {
   static const harmonic_oscillator oscillator(1.0);
   static const auto stepper = make_stepper(oscillator, verlet(), 0.1);
   const auto position = over_lanes([](const auto& x) { return x.q[0]; });
   const normal_around<1> starts({vector<double, 1>(mean), vector<double, 1>(0.0)}, 1.0, 0.0);
-  const ensemble_options options{.trajectories = samples, .steps = 0, .seed = seed};
+  const ensemble_options options{.trajectories = samples, .steps = 0, .seed = test::seed(number)};
   return ensemble_statistics(stepper, starts, options, position, {.histogram = bins}).histogram_of_groups;
 }
 
@@ -250,7 +254,7 @@ BOOST_AUTO_TEST_CASE(bars_at_the_floor_are_too_long) {
     said += distance.standard_error / 400.0;
   }
   const double scatter = mean_and_error(distances).standard_error * std::sqrt(400.0);
-  const auto near = boost::test_tools::tolerance(4 * .035);
+  const auto near = boost::test_tools::tolerance(test::standard_errors(test::false_alarms) * .035);
   BOOST_TEST(scatter == std::sqrt(1.0 - 2.0 / std::numbers::pi) * said, near);
   BOOST_TEST(scatter != said, near);
 }

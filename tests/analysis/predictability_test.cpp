@@ -10,6 +10,8 @@
 
 #include "../support/in_lanes.hpp"
 #include "../support/rounding.hpp"
+#include "../support/seeds.hpp"
+#include "../support/statistics.hpp"
 #include "nysalt/analysis/error_measures/path.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
@@ -212,15 +214,16 @@ BOOST_AUTO_TEST_CASE(perturbations_are_relative_and_independent) {
   double squares = 0.0;
   double products = 0.0;
   for (std::uint64_t m = 0; m < 1000; ++m) {
-    const star y = perturbed(x, 0.01, 1, m);
+    const star y = perturbed(x, 0.01, seed(1), m);
     BOOST_TEST(y.q[1] == 0.0);
     const double a = (y.p[0] / x.p[0] - 1.0) / 0.01;
     const double b = (y.q[0] / x.q[0] - 1.0) / 0.01;
     squares += a * a + b * b;
     products += a * b;
   }
-  BOOST_TEST(std::abs(squares / 2000.0 - 1.0) < 4.0 * std::sqrt(2.0 / 2000.0));
-  BOOST_TEST(std::abs(products / 1000.0) < 4.0 / std::sqrt(1000.0));
+  const double allowed = standard_errors(false_alarms / 2);
+  BOOST_TEST(std::abs(squares / 2000.0 - 1.0) < allowed * std::sqrt(2.0 / 2000.0));
+  BOOST_TEST(std::abs(products / 1000.0) < allowed / std::sqrt(1000.0));
   BOOST_TEST(perturbed(x, 0.01, 1, 0).q[0] != perturbed(x, 0.01, 2, 0).q[0]);
   // Not with the numbers of a start: else what is far out would move far.
   const normal_around<2> law({{1.0, 1.0}, {1.0, 1.0}}, 0.01, 0.01);

@@ -7,6 +7,8 @@
 
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
+#include "../support/seeds.hpp"
+#include "../support/statistics.hpp"
 #include "nysalt/analysis/tail.hpp"
 
 using namespace nysalt;
@@ -56,7 +58,7 @@ BOOST_AUTO_TEST_CASE(what_is_equal_or_nothing_has_no_tail) {
 // Without a variance the skewness of a sample grows like the root of its size, and no size is enough; that of
 // a uniform law is 0, with a standard error of sqrt(6/400) = .12: .8 is beyond six of them.
 BOOST_AUTO_TEST_CASE(a_law_without_variance_is_heavy_at_any_size) {
-  draws random;
+  draws random(seed(1));
   for (const int count : {100, 400, 6400}) {
     int heavy = 0;
     int light = 0;
@@ -66,8 +68,8 @@ BOOST_AUTO_TEST_CASE(a_law_without_variance_is_heavy_at_any_size) {
       for (int i = 0; i < count; ++i) uniform.push_back(random.uniform(0.0, 1.0));
       light += tail_of(uniform).is_heavy();
     }
-    BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << count) {
-      BOOST_TEST(heavy >= 18);  // each is with a probability above .99
+    BOOST_TEST_CONTEXT(count << " numbers: " << heavy) {
+      BOOST_TEST(20 - heavy <= most_of(20, 0.01, false_alarms / 3));  // each is with a probability above .99
       BOOST_TEST(light == 0);
     }
   }
@@ -75,15 +77,16 @@ BOOST_AUTO_TEST_CASE(a_law_without_variance_is_heavy_at_any_size) {
 
 // Exponential numbers have skewness 2: a hundred are just enough, and more are.
 BOOST_AUTO_TEST_CASE(a_light_tail_needs_a_larger_sample) {
-  draws random;
+  draws random(seed(1));
   const auto exponential = [&](int count) {
     numbers result;
     for (int i = 0; i < count; ++i) result.push_back(-std::log(random.uniform(0.0, 1.0)));
     return tail_of(result);
   };
-  BOOST_TEST_CONTEXT("seed " << draws::seed) {
-    BOOST_TEST(exponential(20).enough() > 1.0);
-    BOOST_TEST(!exponential(10000).is_heavy());
-    BOOST_TEST(std::abs(exponential(10000).skewness - 2.0) < 0.5);  // its standard error is about .1
-  }
+  int too_small = 0;
+  for (int k = 0; k < 100; ++k) too_small += exponential(20).enough() > 1.0;
+  BOOST_TEST(too_small > 50);
+  BOOST_TEST(!exponential(10000).is_heavy());
+  const double skewness = exponential(40000).skewness;
+  BOOST_TEST(std::abs(skewness - 2.0) < 0.5);
 }

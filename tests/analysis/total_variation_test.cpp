@@ -10,6 +10,8 @@
 
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
+#include "../support/seeds.hpp"
+#include "../support/statistics.hpp"
 #include "nysalt/noises/counter_based.hpp"
 
 using namespace nysalt;
@@ -27,9 +29,9 @@ histogram of(const std::vector<double>& numbers) {
 }
 
 /// n normal numbers around a mean, independent for each seed.
-histogram normal_around(double mean, std::uint64_t seed) {
+histogram normal_around(double mean, std::uint64_t number) {
   std::vector<double> numbers(n);
-  standard_normals(seed, {.purpose = noise_purpose::initial_state}, std::span(numbers));
+  standard_normals(seed(number), {.purpose = noise_purpose::initial_state}, std::span(numbers));
   for (double& x : numbers) x += mean;
   return of(numbers);
 }
@@ -84,7 +86,7 @@ BOOST_AUTO_TEST_CASE(the_distance_of_two_normal_laws) {
   const double found = total_variation(normal_around(-0.5, 1), normal_around(0.5, 2));
   // The sign of p - q is known in nearly all bins, so that noise is that of one binomial: 2 x 1/(4 n); where
   // it is not, noise adds less than the floor.
-  const double tolerance = 4.0 * std::sqrt(0.5 / n) + 0.25 * expected_floor();
+  const double tolerance = standard_errors(false_alarms) * std::sqrt(0.5 / n) + 0.25 * expected_floor();
   BOOST_TEST(std::abs(found - expected) < tolerance);
   const double farther = total_variation(normal_around(-0.5, 1), normal_around(0.8, 2));
   BOOST_TEST(std::abs(farther - expected) > tolerance);
@@ -95,17 +97,18 @@ BOOST_AUTO_TEST_CASE(the_distance_of_two_normal_laws) {
 BOOST_AUTO_TEST_CASE(samples_of_one_law_are_a_floor_apart) {
   const auto some = ensembles(6);
   const double floor = sampling_floor(some);
-  BOOST_TEST(std::abs(floor - expected_floor()) < 4.0 * deviation_of_floor());
-  BOOST_TEST(std::abs(2.0 * floor - expected_floor()) > 4.0 * deviation_of_floor());
+  const double allowed = standard_errors(false_alarms) * deviation_of_floor();
+  BOOST_TEST(std::abs(floor - expected_floor()) < allowed);
+  BOOST_TEST(std::abs(2.0 * floor - expected_floor()) > allowed);
 }
 
 // The same law is at the floor, and another above it.
 BOOST_AUTO_TEST_CASE(a_histogram_is_compared_with_all_ensembles) {
   const auto some = ensembles(6);
   const double floor = sampling_floor(some);
-  BOOST_TEST(std::abs(mean_total_variation(normal_around(0.0, 7), some) - floor) <
-             4.0 * deviation_of_floor());
-  BOOST_TEST(mean_total_variation(normal_around(0.2, 7), some) > floor + 4.0 * deviation_of_floor());
+  const double allowed = standard_errors(false_alarms) * deviation_of_floor();
+  BOOST_TEST(std::abs(mean_total_variation(normal_around(0.0, 7), some) - floor) < allowed);
+  BOOST_TEST(mean_total_variation(normal_around(0.4, 7), some) > floor + allowed);
   BOOST_TEST(mean_total_variation(some[0], std::span(some).subspan(1, 1)) ==
              total_variation(some[0], some[1]));
 }

@@ -20,6 +20,11 @@ check() {
         recorded fuzz "${target##*/}" check_fuzz_target "${target##*/}" "$runs"
       done
       ;;
+    seeds)
+      local seeds=${argument:-200}
+      [[ $seeds =~ ^[1-9][0-9]{0,5}$ ]] || refuse "check seeds takes a number of seeds, got '$seeds'"
+      recorded seeds "$seeds" check_seeds "$seeds"
+      ;;
     tidy | faults | coverage)
       [[ -z $argument ]] || refuse "check $what takes no argument, got '$argument'"
       recorded "$what" 1/1 "check_$what"
@@ -27,10 +32,10 @@ check() {
     all)
       [[ -z $argument ]] || refuse "check all takes no argument, got '$argument'"
       local one
-      for one in gcc clang tidy threads address fuzz faults coverage; do check "$one"; done
+      for one in gcc clang tidy threads address fuzz faults coverage seeds; do check "$one"; done
       ;;
     table) tests/checks/outcomes.py table build/check ;;
-    *) refuse "unknown check '$what': it is gcc, clang, address, threads, tidy, fuzz, faults, coverage, table or all" ;;
+    *) refuse "unknown check '$what': it is gcc, clang, address, threads, tidy, fuzz, faults, coverage, seeds, table or all" ;;
   esac
 }
 
@@ -116,6 +121,17 @@ check_faults() {
   build nysalt_program
   tests/faults/faults.py build/release/nysalt build/check/faults | tee build/check/faults.log
   tail -n 1 build/check/faults.log >"$counts"
+}
+
+# check_seeds N: stochastic tests at N seeds each, and how often they fail.
+check_seeds() {
+  preset=release
+  configure -D NYSALT_TEST_PICTURES=OFF
+  local needed=()
+  mapfile -t needed < <(ctest --preset "$preset" -N -L '^stochastic$' | sed -n 's/^ *Test *#[0-9]*: //p')
+  build "${needed[@]}"
+  say "${#needed[@]} tests, each at $1 seeds"
+  tests/checks/seeds.py "build/$preset" "$1" --counts "$counts"
 }
 
 check_coverage() {

@@ -27,6 +27,7 @@ CHECKS = {
     "fuzz": "libFuzzer, with both sanitizers of addresses",
     "faults": "failures of each call that writes",
     "coverage": "lines that tests run",
+    "seeds": "stochastic tests at many seeds",
 }
 
 

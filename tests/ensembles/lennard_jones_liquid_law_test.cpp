@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "../support/rounding.hpp"
+#include "../support/seeds.hpp"
+#include "../support/statistics.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -37,7 +39,7 @@ BOOST_AUTO_TEST_CASE(the_whole_rests_and_has_the_temperature) {
   double sum = 0.0;
   constexpr int starts = 200;
   for (std::uint64_t n = 0; n < starts; ++n) {
-    const auto x = law(3, n);
+    const auto x = law(seed(3), n);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       double momentum = 0.0;
       for (Eigen::Index i = axis; i < x.size(); i += 3) momentum += x.p[i];
@@ -46,9 +48,12 @@ BOOST_AUTO_TEST_CASE(the_whole_rests_and_has_the_temperature) {
     }
     sum += x.p.squaredNorm() / 1.44;
   }
-  // A sum of that many squares of standard normals, of variance twice their number; five standard deviations.
+  // A sum of that many squares of standard normals, of variance twice their number.
   const double directions = starts * 3.0 * 255.0;
-  BOOST_TEST(std::abs(sum - directions) <= 5.0 * std::sqrt(2.0 * directions));
+  const double allowed = standard_errors(false_alarms) * std::sqrt(2.0 * directions);
+  BOOST_TEST(std::abs(sum - directions) <= allowed);
+  BOOST_TEST(std::abs(1.05 * sum - directions) >
+             allowed);  // a temperature 5 % too high: 14 standard deviations
   BOOST_TEST(same_bits(law(3, 5), law(3, 5)));
   BOOST_TEST(!same_bits(law(3, 5), law(3, 6)));
   BOOST_TEST(!same_bits(law(3, 5), law(4, 5)));

@@ -5,6 +5,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../support/rounding.hpp"
+#include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 
@@ -80,9 +81,11 @@ BOOST_AUTO_TEST_CASE(eighths_are_the_whole) {
 
 BOOST_AUTO_TEST_CASE(halves_are_standard_normal_and_independent) {
   constexpr std::int64_t count = 40'000;
+  constexpr double each = false_alarms / (9 * 15);  // 9 sources, 15 comparisons
+  const double allowed = standard_errors(each);
   for (const double damping : {0.0, 0.7, 5.0}) {
     for (const int halvings : {1, 2, 3}) {
-      const finer_noise fine(7, damping, halvings);
+      const finer_noise fine(seed(7), damping, halvings);
       std::array<sample, 3> x;
       for (std::int64_t n = 0; n < count; ++n) {
         const numbers xi = at(fine, n);
@@ -92,15 +95,15 @@ BOOST_AUTO_TEST_CASE(halves_are_standard_normal_and_independent) {
         return std::pair(sample(x[0].begin(), x[0].end() - by), sample(x[0].begin() + by, x[0].end()));
       };
       BOOST_TEST_CONTEXT("damping " << damping << ", " << halvings << " halvings") {
-        BOOST_TEST(mean_off(x[0], 0.0, 1.0) <= 4.0);
-        BOOST_TEST(deviation_off(x[0], 1.0) <= 4.0);
-        BOOST_TEST(kolmogorov_smirnov(x[0]) <= 2.0);
-        BOOST_TEST(off(x[0], x[1]) <= 4.0);
-        BOOST_TEST(off(x[1], x[2]) <= 4.0);
+        BOOST_TEST(mean_off(x[0], 0.0, 1.0) <= allowed);
+        BOOST_TEST(deviation_off(x[0], 1.0) <= allowed);
+        BOOST_TEST(kolmogorov_smirnov(x[0]) <= kolmogorov_smirnov_limit(each));
+        BOOST_TEST(off(x[0], x[1]) <= allowed);
+        BOOST_TEST(off(x[1], x[2]) <= allowed);
         for (const std::int64_t by : {1, 2, 3, 4, 8}) {
           const auto [now, later] = shifted(by);
-          BOOST_TEST(off(now, later) <= 4.0);
-          BOOST_TEST(off(squares(now), squares(later)) <= 4.0);
+          BOOST_TEST(off(now, later) <= allowed);
+          BOOST_TEST(off(squares(now), squares(later)) <= allowed);
         }
       }
     }
@@ -110,7 +113,7 @@ BOOST_AUTO_TEST_CASE(halves_are_standard_normal_and_independent) {
 // At the beginning of many trajectories, where steps of all levels have the same small numbers.
 BOOST_AUTO_TEST_CASE(neighbours_of_all_levels_are_independent) {
   constexpr std::uint64_t count = 4000;
-  const finer_noise fine(7, 0.7, 3);
+  const finer_noise fine(seed(7), 0.7, 3);
   std::array<sample, 24> x;
   for (std::uint64_t m = 0; m < count; ++m) {
     for (std::size_t n = 0; n < x.size(); ++n) {
@@ -122,9 +125,10 @@ BOOST_AUTO_TEST_CASE(neighbours_of_all_levels_are_independent) {
     worst = std::max(worst, deviation_off(x[n], 1.0));
     for (std::size_t k = 0; k < n; ++k) worst = std::max(worst, off(x[n], x[k]));
   }
-  BOOST_TEST(worst <= 4.5);  // 300 of them: passed with a probability of .998
-  for (std::size_t k = 0; k < count; ++k) x[17][k] += 0.1 * x[3][k];
-  BOOST_TEST(off(x[17], x[3]) > 4.5);
+  const double allowed = standard_errors(false_alarms / 300);  // 24 deviations, 276 correlations
+  BOOST_TEST(worst <= allowed);
+  for (std::size_t k = 0; k < count; ++k) x[17][k] += 0.2 * x[3][k];  // 12 standard errors
+  BOOST_TEST(off(x[17], x[3]) > allowed);
 }
 
 BOOST_AUTO_TEST_CASE(what_halves_is_no_noise_of_a_run) {
@@ -143,16 +147,16 @@ BOOST_AUTO_TEST_CASE(levels_share_the_path_and_nothing_else) {
   constexpr std::int64_t count = 20'000;
   sample whole, first, second, of_the_next;
   for (std::int64_t n = 0; n < count; ++n) {
-    whole.push_back(at(finer_noise(7, 0.7, 0), n)[0]);
-    first.push_back(at(finer_noise(7, 0.7, 1), 2 * n)[0]);
-    second.push_back(at(finer_noise(7, 0.7, 1), 2 * n + 1)[0]);
-    of_the_next.push_back(at(finer_noise(7, 0.7, 1), 2 * n + 2)[0]);
+    whole.push_back(at(finer_noise(seed(7), 0.7, 0), n)[0]);
+    first.push_back(at(finer_noise(seed(7), 0.7, 1), 2 * n)[0]);
+    second.push_back(at(finer_noise(seed(7), 0.7, 1), 2 * n + 1)[0]);
+    of_the_next.push_back(at(finer_noise(seed(7), 0.7, 1), 2 * n + 2)[0]);
   }
   // With a = exp(-.35) the halves are a/sqrt(1 + a^2) and 1/sqrt(1 + a^2) of the whole; a correlation r has
   // the standard error (1 - r^2)/sqrt(n).
   const double a = std::exp(-0.35);
   const double scale = 1.0 / std::sqrt(1.0 + a * a);
-  const double allowed = 4.0 / std::sqrt(static_cast<double>(count));
+  const double allowed = standard_errors(false_alarms / 3) / std::sqrt(static_cast<double>(count));
   BOOST_TEST(std::abs(correlation(whole, first) - a * scale) <= allowed * (1.0 - a * scale * a * scale));
   BOOST_TEST(std::abs(correlation(whole, second) - scale) <= allowed * (1.0 - scale * scale));
   BOOST_TEST(std::abs(correlation(whole, of_the_next)) <= allowed);

@@ -7,8 +7,12 @@
 #include <vector>
 
 #include "../../src/comparison/paired_ratio.hpp"
+#include "../support/seeds.hpp"
+#include "../support/statistics.hpp"
 
 using namespace nysalt::program;
+using nysalt::test::false_alarms;
+using nysalt::test::most_of;
 
 namespace {
 
@@ -38,34 +42,36 @@ pair_of_methods drawn(std::mt19937_64& draw, int n, double width, double ratio) 
 
 }  // namespace
 
-// 200 samples: an interval of 95 % misses 10 of them, in 99.9 % of such tests fewer than 21; the bootstrap of
-// a hundred trajectories may miss half as often again.
+// 400 samples: an interval of 95 % misses 20 of them; the bootstrap of a hundred trajectories may miss half
+// as often again.
 BOOST_AUTO_TEST_CASE(the_interval_covers_the_ratio) {
   for (const auto& statistic : {mean, quantile}) {
-    std::mt19937_64 draw(5);
+    std::mt19937_64 draw(nysalt::test::seed(5));
     int misses = 0;
     double width = 0.0;
-    for (int k = 0; k < 200; ++k) {
+    constexpr int times = 400;
+    for (int k = 0; k < times; ++k) {
       const auto [a, b] = drawn(draw, 100, 0.5, 3.0);
       const auto found = paired_ratio(a, b, statistic);
       misses += found.low > 3.0 || found.high < 3.0;
-      width += (found.high - found.low) / 200.0;
+      width += (found.high - found.low) / times;
     }
-    BOOST_TEST(misses <= 24);
+    BOOST_TEST(misses <= most_of(times, 0.075, false_alarms / 2));
     BOOST_TEST(misses >= 1);  // an interval that never misses says nothing
     BOOST_TEST(width < 1.5);
   }
 }
 
-// A ratio of 1.05 is three standard errors where pairs are kept, and one where they are not.
+// Logarithms differ by .5 sqrt(2 (1 - .95^2)) = .22 where pairs are kept, a third of .5 sqrt(2) where they
+// are not: a ratio of 1.15 is nine standard errors of 200 pairs.
 BOOST_AUTO_TEST_CASE(what_trajectories_share_cancels) {
-  std::mt19937_64 draw(6);
-  auto [a, b] = drawn(draw, 200, 0.5, 1.05);
+  std::mt19937_64 draw(nysalt::test::seed(6));
+  auto [a, b] = drawn(draw, 200, 0.5, 1.15);
   const auto paired = paired_ratio(a, b, mean);
   BOOST_TEST(paired.is_above_one());
   std::ranges::shuffle(b, draw);
   const auto apart = paired_ratio(a, b, mean);
-  BOOST_TEST(!apart.is_above_one());
+  BOOST_TEST(apart.high - apart.low > 2.0 * (paired.high - paired.low));
   BOOST_TEST(apart.value == paired.value, boost::test_tools::tolerance(1e-12));
 }
 
@@ -85,9 +91,9 @@ BOOST_AUTO_TEST_CASE(a_root_is_the_root_and_equal_methods_tie) {
   BOOST_TEST(!paired_ratio(two, one, mean).is_above_one());
 }
 
-// 1,000 samples: a bound of 97.7 % fails in 23 of them, in 99.9 % of such tests in fewer than 39.
+// 1,000 samples: a bound of 97.7 % fails in 23 of them.
 BOOST_AUTO_TEST_CASE(the_upper_bound_of_a_quantile_holds_for_any_tail) {
-  std::mt19937_64 draw(8);
+  std::mt19937_64 draw(nysalt::test::seed(8));
   const double exact = std::exp(3.0 * 1.6448536269514722);  // z of .95 [R 4.2, qnorm(.95)]
   int failures = 0;
   int below = 0;
@@ -96,14 +102,15 @@ BOOST_AUTO_TEST_CASE(the_upper_bound_of_a_quantile_holds_for_any_tail) {
     failures += quantile.upper_bound(scores) < exact;
     below += quantile.lower_bound(scores) > exact;
   }
-  BOOST_TEST(failures < 39);
-  BOOST_TEST(below < 39);
+  const int allowed = most_of(1000, 0.023, false_alarms / 2);
+  BOOST_TEST(failures <= allowed);
+  BOOST_TEST(below <= allowed);
   BOOST_TEST(failures > 0);
 }
 
 // The mean of such a law is not found from a hundred, and its bound does not hold: why tails are looked at.
 BOOST_AUTO_TEST_CASE(the_upper_bound_of_a_mean_fails_where_the_tail_is_heavy) {
-  std::mt19937_64 draw(9);
+  std::mt19937_64 draw(nysalt::test::seed(9));
   int failures = 0;
   for (int k = 0; k < 200; ++k) failures += mean.upper_bound(drawn(draw, 100, 3.0, 1.0).b) < std::exp(4.5);
   BOOST_TEST(failures > 60);

@@ -23,7 +23,8 @@ class draws {
  public:
   static constexpr std::uint64_t seed = 20260721;
 
-  draws() { show_seed(); }
+  draws() : draws(seed) {}
+  explicit draws(std::uint64_t from) : bits_(from) { show_seed(from); }
 
   std::uint64_t bits() { return bits_(); }
 
@@ -51,16 +52,16 @@ class draws {
 
  private:
   /// Whatever fails in this test case from now on tells the seed, also when the draws are gone.
-  static void show_seed() {
+  static void show_seed(std::uint64_t from) {
     namespace framework = boost::unit_test::framework;
     static boost::unit_test::test_unit_id shown_in = boost::unit_test::INV_TEST_UNIT_ID;
     const auto here = framework::current_test_case_id();
     if (here == shown_in) return;
     shown_in = here;
-    framework::add_context(BOOST_TEST_LAZY_MSG("random parameters from seed " << seed), true);
+    framework::add_context(BOOST_TEST_LAZY_MSG("random parameters from seed " << from), true);
   }
 
-  std::mt19937_64 bits_{seed};
+  std::mt19937_64 bits_;
 };
 
 }  // namespace nysalt::test

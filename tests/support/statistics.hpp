@@ -1,13 +1,37 @@
 // SPDX-License-Identifier: BSL-1.0
-// Sample moments, and how far they may be off: thresholds of statistical tests are 4 standard errors, which
-// a right program passes at a fixed seed with a probability of 0.99994.
+// Sample moments, and how far they may be off: thresholds of statistical tests follow from the rate of false
+// alarms that a test states.
 #pragma once
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace nysalt::test {
+
+/// The probability with which a stochastic test case fails although all is right, at a random seed: two
+/// hundred cases together fail in fewer than one of 1000 runs. A case of N comparisons has 1/N of it for each
+/// (Bonferroni). tests/stochastic.md lists the cases.
+constexpr double false_alarms = 5e-6;
+
+/// The number of standard errors by which a right mean is off, to either side, with that probability; of
+/// Student's distribution where the standard error was estimated, with that many degrees of freedom.
+inline double standard_errors(double probability, double degrees = std::numeric_limits<double>::infinity()) {
+  return quantile(complement(boost::math::students_t(degrees), 0.5 * probability));
+}
+
+/// What kolmogorov_smirnov() exceeds with that probability, 2 exp(-2 x^2), or less.
+inline double kolmogorov_smirnov_limit(double probability) {
+  return std::sqrt(0.5 * std::log(2.0 / probability));
+}
+
+/// The number of n independent events of probability p that is exceeded with that probability, or less.
+inline int most_of(int n, double p, double probability) {
+  return static_cast<int>(quantile(complement(boost::math::binomial(n, p), probability)));
+}
 
 inline double mean(const std::vector<double>& x) {
   double sum = 0.0;
@@ -35,8 +59,7 @@ inline double deviation_off(const std::vector<double>& x, double sd) {
   return std::abs(std::sqrt(covariance(x, x)) / sd - 1.0) * std::sqrt(2.0 * static_cast<double>(x.size()));
 }
 
-/// Kolmogorov and Smirnov's sqrt(n) sup |F_n - F| for the standard normal law; beyond 2.0 with a
-/// probability of 2 exp(-8) = 0.0007.
+/// Kolmogorov and Smirnov's sqrt(n) sup |F_n - F| for the standard normal distribution.
 inline double kolmogorov_smirnov(std::vector<double> x) {
   std::sort(x.begin(), x.end());
   const auto n = static_cast<double>(x.size());

@@ -16,8 +16,8 @@ namespace nysalt {
 /// A few always have. If all are of one distribution, their n + M energies are in any order equally likely,
 /// and the number outside is beta-binomial [n; 2, M - 1], 2 n/(M + 1) in the mean. How far the largest of n
 /// passes that of M depends on the distribution; where that falls exponentially, as Gibbs distributions do,
-/// or faster, it is farther than x with a probability below n/(M + 1) exp(-x/kT), and the range is some kT
-/// log(M + 1) wide. Chance is left aside if it would do this once in a thousand times.
+/// or faster, it is farther than t - 1 times the width of the range with a probability below n Gamma(1 + t)
+/// M!/ Gamma(M + 1 + t). Chance is left aside if it would do this once in a thousand times.
 struct energies_outside {
   static constexpr double chance = 1e-3;  ///< a probability below which chance is left aside
 

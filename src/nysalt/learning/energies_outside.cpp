@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -23,11 +22,23 @@ double energies_outside::probability() const {
   return rest;
 }
 
+// The largest of M exponential energies, the widest that are allowed for, is H with E exp(-t H) = Gamma(1 +
+// t) M!/ Gamma(M + 1 + t): one of n others is beyond t H with n times that probability, or less.
 double energies_outside::far() const {
-  const double m = static_cast<double>(trajectories) + 1.0;
   if (trajectories < 2) return std::numeric_limits<double>::infinity();
-  return (seen.high - seen.low) *
-         std::max(0.0, std::log(static_cast<double>(examined) / (m * chance)) / std::log(m));
+  const double m = static_cast<double>(trajectories) + 1.0;
+  const double n = static_cast<double>(examined);
+  const auto is_likely = [&](double t) {
+    return std::log(n / chance) + std::lgamma(1.0 + t) + std::lgamma(m) - std::lgamma(m + t) > 0.0;
+  };
+  double near = 1.0;
+  double beyond = 1.0;
+  while (is_likely(beyond)) beyond *= 2.0;
+  for (int k = 0; k < 50; ++k) {  // to rounding
+    const double middle = 0.5 * (near + beyond);
+    (is_likely(middle) ? near : beyond) = middle;
+  }
+  return (seen.high - seen.low) * (beyond - 1.0);
 }
 
 std::string energies_outside::report() const {
