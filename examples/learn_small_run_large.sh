@@ -26,6 +26,8 @@ nysalt run --system lennard_jones --atoms 13 --method pair.json --step 0.06 --ho
 #
 # state error
 #
+# Nothing beats small.json at 67.77 force evaluations per unit time: the error of phase_fitted_mclachlan5 is 2.83 ± 0.05 times larger.
+#
 # step sizes  reference                           its own error, at most  null model, at least  predictable until
 # ----------  ----------------------------------  ----------------------  --------------------  -----------------
 # 0.0148~srkn11b with step~the end

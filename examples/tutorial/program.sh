@@ -59,6 +59,8 @@ nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observ
 #
 # state error
 #
+# Who is best depends on the cost: phase_fitted_mclachlan5 at 66.77, learned:fg_chin at 200.1 force evaluations per unit time.
+#
 # step sizes  reference                           its own error, at most  null model, at least  predictable until
 # ----------  ----------------------------------  ----------------------  --------------------  -----------------
 # 0.005       srkn11b with step 0.005                           1.74e-08              5.17e+00            the end

@@ -322,7 +322,7 @@ BOOST_AUTO_TEST_CASE(a_kink_is_told_from_a_mistake) {
   BOOST_TEST_CONTEXT(result.report()) {
     BOOST_TEST(!result.passed());
     BOOST_TEST(says(result, "not -grad V"));
-    BOOST_TEST(says(result, "is there a kink"));
+    BOOST_TEST(says(result, "where there is a kink"));
   }
   BOOST_TEST(!says(check(wrong_force()), "kink"));
 }

@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(noise_cannot_go_back_in_time) {
   const auto cold = bath::of_sigma(0.4, 0.0);
   for (const auto& heat_bath : {noisy, heating}) {
     BOOST_TEST(refuses<std::invalid_argument>([&] { ornstein_uhlenbeck::prepare(1.0, -0.2, heat_bath); },
-                                              {"letter O", "back in time", "-0.2", "same sign"}));
+                                              {"letter O", "back in time", "-0.2", "the sign of the step"}));
     BOOST_TEST(refuses<std::invalid_argument>([&] { ornstein_uhlenbeck::prepare(-1.0, 0.2, heat_bath); },
                                               {"back in time"}));
     BOOST_TEST(ornstein_uhlenbeck::prepare(0.0, 0.2, heat_bath).deviation == 0.0);

@@ -139,9 +139,9 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_the_family_is_refused) {
     return refuses<wrong>([&] { learn(family, galaxy, sets.data, sets.held_out, options); }, words);
   };
   const run_time_family four{aba<4>()};
-  BOOST_TEST(refused(four, {.start = Eigen::Vector2d(0.1, 0.2)}, {"aba4", "3 parameters"}));
+  BOOST_TEST(refused(four, {.start = Eigen::Vector2d(0.1, 0.2)}, {"aba4", "must be 3"}));
   BOOST_TEST(refused(four, {.start = Eigen::Vector3d(0.1, 9.0, 0.2)}, {"aba4", "b1", "9"}));
-  BOOST_TEST(refused(four, {.fixed = {0.1, 0.2}}, {"aba4", "3 parameters"}));
+  BOOST_TEST(refused(four, {.fixed = {0.1, 0.2}}, {"aba4", "must be 3"}));
   BOOST_TEST(refused(four, {.random_starts = -1}, {"random_starts", "-1"}));
   BOOST_TEST(refused(four, {.loss = loss_named("state:6")}, {"6 steps", "longer horizon"}));
   BOOST_TEST(refused(four, {.loss = loss_named("covariance")}, {"covariance", "henon_heiles"}));

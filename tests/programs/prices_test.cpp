@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(prices_that_are_none_are_refused) {
   refused(of_parts + "--steps 0.01 --prices 1", "--prices must be 2 numbers");
   refused(of_parts + "--steps 0.01 --prices 1,2,3", "--prices must be 2 numbers");
   refused(of_parts + "--steps 0.01 --prices 1,-2", "--prices must be finite numbers >= 0, got -2");
-  refused(of_parts + "--steps 0.01 --prices 1,inf", "--prices: 'inf' is not a finite number");
+  refused(of_parts + "--steps 0.01 --prices 1,inf", "--prices must be a finite number, got 'inf'");
   refused(of_parts + "--steps 0.01 --prices 0,0", "--prices must have a positive and finite sum, got 0");
   refused(of_parts + "--steps 0.01 --prices 1e308,1e308",
           "--prices must have a positive and finite sum, got inf");
