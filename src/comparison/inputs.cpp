@@ -6,6 +6,8 @@
 #include <string>
 #include <system_error>
 
+#include "nysalt/atomic_file.hpp"
+#include "nysalt/detail/objection_to_replacing.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -35,9 +37,26 @@ bool is_input(const std::filesystem::path& file) {
   return all().contains(whole(file));
 }
 
+std::vector<std::filesystem::path> names_while_written(const std::filesystem::path& output) {
+  const std::string file = nysalt::detail::behind_links(output).string();
+  std::vector<std::filesystem::path> names{file};
+  for (const char* ending : {".part", ".new.part", ".next.part", ".sorted.part"}) {
+    names.emplace_back(file + ending);
+  }
+  return names;
+}
+
 void require_no_input(const std::filesystem::path& output) {
-  if (!is_input(output)) return;
-  refuse("cannot write {}: it was read as input; name another file", output.string());
+  for (const auto& name : names_while_written(output)) {
+    if (is_input(name)) refuse("cannot write {}: it was read as input; name another file", name.string());
+  }
+}
+
+void require_replaceable(const std::filesystem::path& output) {
+  require_no_input(output);
+  if (const auto why = nysalt::detail::objection_to_replacing(output); !why.empty()) {
+    refuse("cannot write {}: {}", output.string(), why);
+  }
 }
 
 }  // namespace nysalt::program

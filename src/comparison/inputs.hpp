@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 namespace nysalt::program {
 
@@ -12,7 +13,13 @@ void note_input(const std::filesystem::path& file);
 /// Whether the path leads to a file that was read.
 bool is_input(const std::filesystem::path& file);
 
-/// Throws refusal if the path leads to a file that was read.
+/// The name of an output, behind links, and the names beside it of what is unfinished of it.
+std::vector<std::filesystem::path> names_while_written(const std::filesystem::path& output);
+
+/// Throws refusal if a file that was read has the name of the output, or one beside it of what is unfinished.
 void require_no_input(const std::filesystem::path& output);
+
+/// The same, and if something is there that is no regular file.
+void require_replaceable(const std::filesystem::path& output);
 
 }  // namespace nysalt::program

@@ -77,8 +77,9 @@ namespace {
 
 }  // namespace
 
-void require_same_question(const json& stored_question, const json& question,
+void require_same_question(const json& stored_question, const json& asked,
                            const std::filesystem::path& path) {
+  const json question = as_kept(asked);
   if (stored_question == question) return;
   std::string changed;
   for (const auto& [name, value] : question.items()) {

@@ -12,4 +12,7 @@ using json = nlohmann::ordered_json;
 /// For people and files; bytes that are no UTF-8, as names of files may hold, become U+FFFD.
 std::string text_of(const json& document);
 
+/// The document as it is read again from a file, where bytes that are no UTF-8 became U+FFFD.
+json as_kept(const json& document);
+
 }  // namespace nysalt::program

@@ -15,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include "nysalt/detail/objection_to_replacing.hpp"
 #include "nysalt/detail/write_failure.hpp"
 
 namespace nysalt {
@@ -69,7 +70,20 @@ void remove_left(const std::filesystem::path& part, const std::filesystem::path&
 
 }  // namespace
 
+std::string objection_to_replacing(const std::filesystem::path& file) {
+  struct stat found {};
+  if (lstat(behind_links(file).c_str(), &found) != 0 || S_ISREG(found.st_mode)) return {};
+  if (S_ISDIR(found.st_mode)) return "it is a folder; name another file";
+  if (S_ISLNK(found.st_mode)) return "it is a link that leads back to itself; remove it";
+  return "it is not a regular file; name another";
+}
+
 int make_part(const std::filesystem::path& part, const std::filesystem::path& target) {
+  if (target.native().find('\0') != std::string::npos) {
+    cannot_write(std::string(target.c_str()) + "...",
+                 "the name must hold no zero byte, got one; name another file");
+  }
+  if (const auto why = objection_to_replacing(target); !why.empty()) cannot_write(target, why);
   constexpr int attempts = 8;  // others may make and remove theirs meanwhile
   for (int i = 0; i < attempts; ++i) {
     const int file = open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -132,6 +146,8 @@ void atomic_file::write_gathered() {
 void atomic_file::commit(bool durable) {
   write_gathered();
   if (durable && fsync(file_) != 0) fail();
+  if (const auto why = detail::objection_to_replacing(path_); !why.empty())
+    throw detail::write_failure(fmt::format("cannot write {}: {}", path_.string(), why));
   std::error_code failure;
   std::filesystem::rename(part_, path_, failure);
   if (failure) fail();

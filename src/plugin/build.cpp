@@ -16,8 +16,10 @@
 #include <vector>
 
 #include "comparison/child_process.hpp"
+#include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
 #include "comparison/standard_error.hpp"
+#include "nysalt/detail/objection_to_replacing.hpp"
 #include "nysalt/detail/unfinished_names.hpp"
 #include "nysalt/detail/write_failure.hpp"
 #include "nysalt/plugin.hpp"
@@ -97,6 +99,7 @@ void append_sources(const fs::path& file, std::set<fs::path>& seen, std::string&
   }
   const auto text = text_of_file(file);
   if (!text) return;
+  note_input(file);
   to += fmt::format("{} {}\n", text->size(), *text);
   std::istringstream lines(*text);
   for (std::string line; std::getline(lines, line);) {
@@ -231,19 +234,27 @@ fs::path kept_source(const std::string& text) {
   return file;
 }
 
-std::string build_library(const std::string& source, const std::string& output) {
+std::string library_of(const std::string& source, const std::string& output) {
   if (!is_source(source)) refuse("{}: a source must end in .hpp", source);
   fs::path to = output.empty() ? fs::path(source).stem() += ".so" : fs::path(output);
   if (to.extension() != ".so") refuse("--output must end in .so, got {}", to.string());
   if (!to.has_parent_path()) to = "." / to;
+  return to.string();
+}
+
+std::string build_library(const std::string& source, const std::string& output) {
+  const std::string to = library_of(source, output);
+  if (const auto why = nysalt::detail::objection_to_replacing(to); !why.empty())
+    refuse("cannot write {}: {}", to, why);
+  std::error_code ignored;
+  if (fs::equivalent(source, to, ignored))
+    refuse("cannot write {}: it was read as input; name another file", to);
   const fs::path library = compiled(source);
   require_plugin(library.string(), source);
-  const temporary copy{fmt::format("{}.{}.part", to.string(), ::getpid())};
-  std::error_code problem;
-  fs::copy_file(library, copy.path, fs::copy_options::overwrite_existing, problem);
-  if (!problem) fs::rename(copy.path, to, problem);
-  if (problem) cannot_write(to, problem);
-  return to.string();
+  const auto text = text_of_file(library);
+  if (!text) refuse("cannot read {}: it was removed meanwhile; build again", library.string());
+  write_file(to, *text);
+  return to;
 }
 
 }  // namespace nysalt::program

@@ -19,8 +19,11 @@ std::filesystem::path compiled(const std::filesystem::path& source);
 /// A source that was made, as a file in the user's cache. Throws refusal if it cannot be written.
 std::filesystem::path kept_source(const std::string& text);
 
-/// The same as a file of its own, which is replaced as a whole: the output, or if that is empty ./SOURCE.so.
-/// Returns its path, which has a slash in it.
+/// Where the library of a source goes: the output, or if that is empty ./SOURCE.so; the path has a slash in
+/// it. Throws refusal for other endings than .hpp and .so.
+std::string library_of(const std::string& source, const std::string& output);
+
+/// The library as a file there, which is replaced as a whole; a link is followed. Returns the path.
 std::string build_library(const std::string& source, const std::string& output);
 
 }  // namespace nysalt::program

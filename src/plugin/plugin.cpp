@@ -95,8 +95,8 @@ void require_named(const std::string& letters, const std::string& path) {
 }
 
 system_declaration declared_in(const fs::path& library_file, const std::string& shown) {
-  const fs::path file = fs::absolute(library_file);
   std::error_code ignored;
+  const fs::path file = fs::absolute(library_file, ignored);
   if (!fs::exists(file, ignored))
     refuse("cannot load {}: there is no such file; name a library or source of a system", shown);
   if (!fs::is_regular_file(file, ignored))

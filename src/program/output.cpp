@@ -17,6 +17,7 @@
 #include "mpi_session.hpp"
 #include "nysalt/atomic_file.hpp"
 #include "nysalt/detail/write_failure.hpp"
+#include "report/comparison_report.hpp"
 #include "report/manifest.hpp"
 
 namespace nysalt::program {
@@ -47,25 +48,30 @@ void require_room_for_name(const std::filesystem::path& file) {
       file.string(), longest, needed);
 }
 
+/// Throws refusal for a path in the current folder, if that is no more.
+std::filesystem::path whole_path(const std::filesystem::path& path) {
+  std::error_code failure;
+  const auto whole = std::filesystem::absolute(path, failure);
+  if (failure) {
+    refuse("cannot write {}: the current folder cannot be found ({}); change to one that is there",
+           path.string(), failure.message());
+  }
+  return whole;
+}
+
 }  // namespace
 
 void require_writable(const std::filesystem::path& named) {
   namespace fs = std::filesystem;
-  std::error_code ignored;
-  const std::string whole = fs::absolute(named, ignored).lexically_normal().string();
+  const std::string whole = whole_path(named).lexically_normal().string();
   if (whole.starts_with("/dev/") || whole.starts_with("/proc/")) {
     refuse("cannot write {}: it is not a regular file; name another, or leave out --output", named.string());
   }
+  require_replaceable(named);
   const fs::path file = nysalt::detail::behind_links(named);
-  require_no_input(file);
   require_room_for_name(file);
-  if (fs::is_directory(file, ignored)) {
-    refuse("cannot write {}: it is a folder; name another file", file.string());
-  }
-  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) {
-    refuse("cannot write {}: it is not a regular file; name another, or leave out --output", file.string());
-  }
   const fs::path folder = folder_of(file);
+  std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) {
     refuse("cannot write {}: there is no folder {}; make it first", file.string(), folder.string());
   }
@@ -87,17 +93,35 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
   return whole(a) == whole(b);
 }
 
-void require_table(const std::string& output, bool plot, const std::string& method) {
+void require_table(const std::string& output, bool plot) {
   if (plot && output.empty())
     refuse("--plot must come with --output; name the file beside which the picture goes");
   if (output.empty()) return;
   require_result(output);
-  if (!method.empty() && is_same_file(method, output)) {
-    refuse("--output must not be the file of the method, got {}; name another", output);
-  }
   const std::string ending = std::filesystem::path(output).extension();
   if (plot && (ending == ".svg" || ending == ".png" || ending == ".dat" || ending == ".gp")) {
     refuse("--output must not have the ending of a file of --plot, got {}; let --output end in .csv", ending);
+  }
+  if (plot) require_picture(picture_name(output), folder_of(output));
+}
+
+void require_checkpoint(const std::string& checkpoint, const std::string& output, bool plot) {
+  require_writable(checkpoint);
+  std::vector<std::filesystem::path> others;
+  if (!output.empty()) others = {output, manifest_of(output)};
+  if (plot) {
+    const auto pictures = files_of_picture(picture_name(output), folder_of(output));
+    others.insert(others.end(), pictures.begin(), pictures.end());
+  }
+  const std::string own = nysalt::detail::behind_links(checkpoint).string();
+  for (const auto& other : others) {
+    for (const auto& taken : names_while_written(other)) {
+      for (const std::string& name : {own, own + ".next.part"}) {
+        if (!is_same_file(name, taken)) continue;
+        refuse("--checkpoint {} must not take the name of another file of the run, got {}; name another file",
+               checkpoint, taken.string());
+      }
+    }
   }
 }
 
@@ -110,8 +134,9 @@ std::string picture_name(const std::filesystem::path& table) {
 void require_folder(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::error_code ignored;
-  fs::path there = fs::absolute(folder);
-  while (!fs::exists(there, ignored) && there.has_relative_path()) there = there.parent_path();
+  fs::path there = whole_path(folder);
+  while (!fs::exists(fs::symlink_status(there, ignored)) && there.has_relative_path())
+    there = there.parent_path();
   if (!fs::is_directory(there, ignored)) {
     refuse("cannot write into {}: {} is not a folder; name another", folder.string(), there.string());
   }
@@ -120,11 +145,22 @@ void require_folder(const std::filesystem::path& folder) {
   }
 }
 
+void require_report(const std::filesystem::path& folder, const std::vector<std::string>& files) {
+  const auto pictures = folder / folder_of_pictures;
+  for (const auto& of_results : {folder, pictures}) {
+    require_folder(of_results);
+    require_manifest(of_results / files.front());
+  }
+  for (const auto& file : files) require_replaceable(folder / file);
+  require_pictures(pictures);
+}
+
 std::vector<std::filesystem::path> make_folder(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::error_code failure;
   std::vector<fs::path> made;
-  for (fs::path there = fs::absolute(folder); !fs::exists(there, failure); there = there.parent_path()) {
+  for (fs::path there = whole_path(folder); !fs::exists(there, failure) && there.has_relative_path();
+       there = there.parent_path()) {
     if (there.has_filename()) made.insert(made.begin(), there);
   }
   fs::create_directories(folder, failure);

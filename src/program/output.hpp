@@ -23,14 +23,19 @@ void require_result(const std::filesystem::path& file);
 /// Whether two paths lead to one file, be it there or not.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// Throws refusal now if a table could not be written there later, its picture not beside it, or if it is the
-/// file of the method. Nothing is asked of an output that is empty, but that there is no picture.
-void require_table(const std::string& output, bool plot, const std::string& method);
+/// Throws refusal now if a table could not be written there later, or its picture not beside it: after the
+/// inputs were read. Nothing is asked of an output that is empty, but that there is no picture.
+void require_table(const std::string& output, bool plot);
+/// The same of a checkpoint beside such a table, whose names it must not take.
+void require_checkpoint(const std::string& checkpoint, const std::string& output, bool plot);
 /// Of a picture beside a table: that of the table, in letters that gnuplot takes.
 std::string picture_name(const std::filesystem::path& table);
 
 /// Throws refusal now if a folder could not be made there later, or not be written into.
 void require_folder(const std::filesystem::path& folder);
+
+/// The same of a report: files in a folder, the first of which is recorded, and pictures in one below.
+void require_report(const std::filesystem::path& folder, const std::vector<std::string>& files);
 
 /// Makes a folder, and those it lies in, where there is none; which were made, the outermost first.
 std::vector<std::filesystem::path> make_folder(const std::filesystem::path& folder);

@@ -174,7 +174,7 @@ void add_file(const std::string& file, std::vector<cited_setup>& to) {
   }
   if (file.ends_with(earlier_ending)) path.replace_extension().replace_extension();
   const fs::path earlier = earlier_manifest_of(path);
-  const std::string name = path.filename().string();
+  const auto name = as_kept(path.filename().string()).get<std::string>();
   if (entries.contains(name) && !file.ends_with(earlier_ending)) {
     add_entry(entries[name], path, manifest, to);
   } else if (is_file(earlier)) {

@@ -7,6 +7,7 @@
 
 #include "comparison_report.hpp"
 #include "own_problem.hpp"
+#include "write_file.hpp"
 
 namespace nysalt {
 
@@ -54,10 +55,7 @@ std::vector<std::string> comparison::warnings() const {
 }
 
 void comparison::write(const std::filesystem::path& folder) const {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure)
-    throw std::runtime_error("cannot make the folder " + folder.string() + ": " + failure.message());
+  make_folders(folder);
   write_report(found_->all, folder);
 }
 

@@ -328,7 +328,7 @@ std::vector<std::string> write_report(const comparison& all, const std::filesyst
   std::vector<std::string> warnings;
   const page report = report_of(all);
   const auto pictures = folder / folder_of_pictures;
-  std::filesystem::create_directories(pictures);
+  make_folders(pictures);
   for (const figure& picture : report.figures()) {
     if (!all.common().command.empty()) remove_earlier_pictures(picture, folder);
     if (auto warning = write_pictures(picture, pictures, all.common()); !warning.empty()) {

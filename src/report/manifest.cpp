@@ -61,13 +61,17 @@ std::unique_ptr<atomic_file> locked(const fs::path& manifest, std::chrono::milli
   }
 }
 
+/// The name of a file as JSON holds it.
+std::string name_in(const fs::path& file) { return as_kept(file.filename().string()).get<std::string>(); }
+
 /// Whether an earlier version recorded how it made the file.
 bool has_earlier_manifest(const fs::path& file) {
   const fs::path earlier = earlier_manifest_of(file);
-  if (!is_there(earlier)) return false;
+  std::error_code ignored;
+  if (!fs::is_regular_file(earlier, ignored)) return false;
   const json found = parsed(earlier);
   return found.is_object() && found.contains("options") && found.contains("versions") &&
-         found.value("file", json()) == file.filename().string();
+         found.value("file", json()) == name_in(file);
 }
 
 void remove_unless_input(const fs::path& file) {
@@ -100,9 +104,9 @@ void add_entries(const fs::path& manifest, const std::vector<fs::path>& files, c
     if (all["files"].is_null()) throw std::runtime_error(is_foreign(manifest));
   }
   for (const auto& path : files) {
-    json whole{{"file", path.filename().string()}};
+    json whole{{"file", name_in(path)}};
     whole.update(entry);
-    all["files"][path.filename().string()] = whole;
+    all["files"][name_in(path)] = whole;
   }
   file->write(program::text_of(all));
   file->commit(true);
@@ -124,19 +128,20 @@ json entries_in(const fs::path& manifest) {
 
 void require_manifest(const fs::path& file) {
   const fs::path manifest = manifest_of(file);
-  if (nysalt::detail::behind_links(file).filename() == name_of_manifest) {
+  const fs::path name = nysalt::detail::behind_links(file).filename();
+  if (name == name_of_manifest || name == std::string(name_of_manifest) + ".new.part") {
     refuse("cannot write {}: the folder's record of how its files were made has that name; take another",
            file.string());
   }
-  require_no_input(manifest);
   std::error_code ignored;
   if (fs::is_directory(manifest, ignored)) {
     refuse(
         "cannot write {}: it is a folder, and a record of how {} is made goes there; name a file elsewhere",
         manifest.string(), file.string());
   }
+  require_replaceable(manifest);
   if (!is_there(manifest)) return;
-  if (!fs::is_regular_file(manifest, ignored) || entries_in(manifest).is_null()) {
+  if (entries_in(manifest).is_null()) {
     refuse(
         "cannot write {}: {}, where a record of how the file is made would go; name a file in another folder",
         file.string(), is_foreign(manifest));
@@ -184,9 +189,29 @@ void write_result(const fs::path& file, std::string_view text, const common_sett
   record_results({file}, common);
 }
 
+std::vector<fs::path> files_of_picture(const std::string& name, const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const char* kind : kinds_of_pictures) files.push_back(folder / (name + kind));
+  return files;
+}
+
+void require_picture(const std::string& name, const fs::path& folder) {
+  for (const auto& file : files_of_picture(name, folder)) require_replaceable(file);
+}
+
+void require_pictures(const fs::path& folder) {
+  std::error_code failure;
+  for (fs::directory_iterator at(folder, failure), end; !failure && at != end; at.increment(failure)) {
+    const std::string name = at->path().filename().string();
+    for (const char* kind : kinds_of_pictures) {
+      const auto dot = name.rfind(kind);
+      if (dot != std::string::npos) require_picture(name.substr(0, dot), folder);
+    }
+  }
+}
+
 void remove_earlier_pictures(const figure& picture, const fs::path& folder) {
-  for (const char* kind : kinds_of_pictures) {
-    const fs::path file = folder / (picture.name + kind);
+  for (const fs::path& file : files_of_picture(picture.name, folder)) {
     if (!has_earlier_manifest(file)) continue;
     remove_unless_input(file);
     remove_unless_input(earlier_manifest_of(file));
@@ -194,14 +219,13 @@ void remove_earlier_pictures(const figure& picture, const fs::path& folder) {
 }
 
 std::string write_pictures(const figure& picture, const fs::path& folder, const common_settings& common) {
+  require_picture(picture.name, folder);
   if (!draw(picture, folder)) {
     return fmt::format(
         "gnuplot could not draw {}, and may not be installed; the script and the data are there",
         picture.name);
   }
-  std::vector<fs::path> files;
-  for (const char* kind : kinds_of_pictures) files.push_back(folder / (picture.name + kind));
-  record_results(files, common);
+  record_results(files_of_picture(picture.name, folder), common);
   return {};
 }
 

@@ -24,7 +24,7 @@ std::filesystem::path earlier_manifest_of(std::filesystem::path file);
 json entries_in(const std::filesystem::path& manifest);
 
 /// Throws refusal if entries cannot be added in the folder of a file: its manifest.json is an input, a
-/// folder, or not of nysalt, or the file itself has that name, or is a link to one that has.
+/// folder, or not of nysalt, or the file itself has that name or one beside it, or is a link to one that has.
 void require_manifest(const std::filesystem::path& file);
 
 /// Of the program and the libraries in it, by name.
@@ -41,6 +41,17 @@ void write_unrecorded(const std::filesystem::path& file, std::string_view text);
 
 /// A whole file and its entry in the manifest.
 void write_result(const std::filesystem::path& file, std::string_view text, const common_settings& common);
+
+/// What is written of a figure of that name: pictures, script and data.
+std::vector<std::filesystem::path> files_of_picture(const std::string& name,
+                                                    const std::filesystem::path& folder);
+
+/// Throws refusal if one of these cannot be written, as an input or no regular file has a name that is
+/// needed.
+void require_picture(const std::string& name, const std::filesystem::path& folder);
+
+/// The same of every figure of which the folder has something.
+void require_pictures(const std::filesystem::path& folder);
 
 /// Removes pictures of the figure that an earlier version made, in the folder of the report, with their
 /// manifests.

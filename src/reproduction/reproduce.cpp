@@ -61,11 +61,7 @@ int reproduce(const reproduce_command& command, const common_settings& common) {
   if (!all_ranks().is_single()) refuse("nysalt_paper must run as one process; start it without mpirun");
   const auto planned = parts_named(command.parts);
   if (!command.output.empty()) {
-    const std::filesystem::path folder(command.output);
-    for (const auto& of_results : {folder, folder / folder_of_pictures}) {
-      require_folder(of_results);
-      require_manifest(of_results / "paper.json");
-    }
+    require_report(command.output, {"paper.json", "paper.md", "paper.html"});
   }
   progress shown;
   const setting setup(common, command.quick);

@@ -99,6 +99,22 @@ BOOST_AUTO_TEST_CASE(killed_at_random_moments_it_comes_to_the_same_bytes) {
   }
 }
 
+// Bytes that are no UTF-8, which a checkpoint in JSON cannot hold.
+BOOST_AUTO_TEST_CASE(an_output_may_have_any_name) {
+  for (const std::string kind : {".csv", ".npy", ".h5"}) {
+    const scratch folder("restart_name");
+    if (run(folder, alone + "--output whole" + kind).err.find("built without HDF5") != std::string::npos)
+      continue;
+    const std::string name = "o\xff" + kind;
+    const std::string command = alone + "--checkpoint c --every 100 --output ";
+    BOOST_TEST(killed_at(folder, command + name, "c", 500));
+    refused(folder, command + "o" + kind + " --resume", "--output must be o");
+    const auto done = run(folder, command + name + " --resume");
+    BOOST_TEST(done.code == 0, done.err);
+    BOOST_TEST((contents(folder / name) == contents(folder / ("whole" + kind))), kind);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_run_of_other_noise_has_other_bytes) {
   const scratch folder("restart_other");
   BOOST_TEST((whole(folder, in_bath) != whole(folder, in_bath + "--seed 2 ")));

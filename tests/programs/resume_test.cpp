@@ -101,6 +101,19 @@ BOOST_AUTO_TEST_CASE(a_finished_run_is_left_alone) {
   BOOST_TEST(contents(folder / "run/report.json") != report);
 }
 
+// Bytes that are no UTF-8, which a report in JSON cannot hold.
+BOOST_AUTO_TEST_CASE(a_method_file_may_have_any_name) {
+  const scratch folder("resume_name");
+  std::ofstream(folder / "m\xff.json")
+      << R"({"format": "nysalt table", "version": 1, "name": "mine", "letters": "ABA", "coefficients": [0.5, 1, 0.5]})";
+  const std::string compared =
+      "compare --methods m\xff.json --steps 0.01 --trajectories 2 --horizon 0.1 --output r";
+  BOOST_TEST(run(folder, compared).code == 0);
+  const auto again = run(folder, compared + " --resume");
+  BOOST_TEST(again.code == 0, again.err);
+  BOOST_TEST(again.out == "It is finished: r\n");
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_leaves_nothing) {
   const scratch folder("resume_nothing");
   const auto done =

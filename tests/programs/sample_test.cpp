@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(killed_chains_go_on_to_the_same_bytes) {
 BOOST_AUTO_TEST_CASE(a_damaged_checkpoint_is_refused) {
   const scratch folder("sample_damaged");
   const std::string line =
-      "sample --system pendulum --length 1 --draws 100000 --output out.csv --checkpoint c --every 100 ";
+      "sample --system pendulum --length 1 --draws 100000 --output o\xff.csv --checkpoint c --every 100 ";
   const auto killed =
       shell(folder, "\"$nysalt\" " + line + " >/dev/null 2>&1 & pid=$!\n" +
                         "while [ ! -f c ]; do sleep .01; done; kill -9 $pid; wait $pid; [ -f c ]");

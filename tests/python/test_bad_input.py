@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """What cannot be is a ValueError of one sentence, in the words of Python."""
+import os
+
 import numpy as np
 import pytest
 
@@ -145,6 +147,13 @@ def test_files_that_cannot_be(tmp_path):
     scheme = nysalt.learn(PENDULUM, "nystrom", step=0.2, trajectories=5, horizon=2)
     with pytest.raises(OSError):
         scheme.save(tmp_path / "nowhere" / "scheme.json", force=True)
+    with pytest.raises(OSError, match="must hold no zero byte"):
+        scheme.save(str(tmp_path / "a\0b"), force=True)
+    os.mkfifo(tmp_path / "fifo")
+    with pytest.raises(OSError, match="is not a regular file"):
+        scheme.save(tmp_path / "fifo", force=True)
+    assert (tmp_path / "fifo").is_fifo()
+    assert sorted(os.listdir(tmp_path)) == ["fifo", "half.json"]
     path = tmp_path / "edited.json"
     scheme.save(path, force=True)
     path.write_text(path.read_text().replace('"seed": 1', '"seed": 2'))

@@ -13,6 +13,7 @@
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
 #include "nysalt/atomic_file.hpp"
+#include "nysalt/detail/write_failure.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -78,6 +79,27 @@ BOOST_AUTO_TEST_CASE(what_is_in_the_way_is_not_followed) {
   write_file(folder / "a.txt", "text");
   BOOST_TEST(contents(folder / "a.txt") == "text");
   BOOST_TEST((folder.files() == names{"a.txt", "precious"}));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_regular_file_is_not_replaced) {
+  const scratch folder("write_file_node");
+  const auto refused = [&](const std::string& name, const std::string& why) {
+    return refuses<std::runtime_error>([&] { write_file(folder / name, "text"); }, {"cannot write", why});
+  };
+  BOOST_TEST(mkfifo((folder / "fifo").c_str(), 0600) == 0);
+  std::filesystem::create_symlink("fifo", folder / "link");
+  std::filesystem::create_symlink("loop", folder / "loop");
+  for (const char* name : {"fifo", "link"}) BOOST_TEST(refused(name, "is not a regular file"));
+  BOOST_TEST(refused("loop", "leads back to itself"));
+  BOOST_TEST(refused(std::string("a\0b", 3), "no zero byte"));
+  BOOST_TEST(std::filesystem::is_fifo(folder / "fifo"));
+  // What was made while the file was written.
+  atomic_file late(folder / "late");
+  late.write("text");
+  BOOST_TEST(mkfifo((folder / "late").c_str(), 0600) == 0);
+  BOOST_TEST(refuses<detail::write_failure>([&] { late.commit(); }, {"is not a regular file"}));
+  BOOST_TEST(std::filesystem::is_fifo(folder / "late"));
+  BOOST_TEST((folder.files() == names{"fifo", "late", "late.new.part", "link", "loop"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_link_is_followed) {

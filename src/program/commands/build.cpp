@@ -9,6 +9,7 @@
 #include "../commands.hpp"
 #include "../options/subcommand.hpp"
 #include "../output.hpp"
+#include "comparison/inputs.hpp"
 #include "comparison/json.hpp"
 #include "comparison/prepared_problem.hpp"
 #include "nysalt/system_declaration.hpp"
@@ -16,7 +17,10 @@
 namespace nysalt::program {
 
 int build(const build_command& command, const common_settings& common) {
-  const std::string path = build_library(command.source, command.output);
+  const std::string to = library_of(command.source, command.output);
+  note_input(command.source);
+  require_writable(to);
+  const std::string path = build_library(command.source, to);
   const auto& system = declaration_of(path);
   CLI::App all;
   common_settings unused;

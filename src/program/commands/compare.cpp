@@ -21,10 +21,15 @@ namespace {
 constexpr const char* journal_name = "journal.jsonl";
 constexpr int unfinished = -1;  // no exit code
 
+bool is_there(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored);
+}
+
 /// The report, if the folder has a whole one. Throws refusal if it answers another question.
 std::optional<json> answer(const std::filesystem::path& folder, const json& question) {
   for (const char* file : {"report.html", "report.md", "rows.csv"}) {
-    if (!std::filesystem::exists(folder / file)) return std::nullopt;
+    if (!is_there(folder / file)) return std::nullopt;
   }
   std::ifstream input(folder / "report.json");
   json report = json::parse(input, nullptr, false);
@@ -41,7 +46,7 @@ bool has_value(const json& report) {
 
 /// Prints the report, if the folder has a whole one: the exit code.
 int print_answer(const std::filesystem::path& folder, const comparison& all) {
-  if (std::filesystem::exists(folder / journal_name)) return unfinished;
+  if (is_there(folder / journal_name)) return unfinished;
   const auto there = answer(folder, all.question());
   if (!there) return unfinished;
   print(all.common().json ? text_of(*there) : fmt::format("It is finished: {}\n", folder.string()));
@@ -92,10 +97,7 @@ int compare(const compare_command& command, const common_settings& common) {
   } else {
     int code = unfinished;
     on_first(all_ranks(), [&] {
-      for (const auto& of_results : {folder, folder / folder_of_pictures}) {
-        require_folder(of_results);
-        require_manifest(of_results / "report.json");
-      }
+      require_report(folder, {"report.json", "report.md", "report.html", "rows.csv", journal_name});
       if (command.resume) code = print_answer(folder, all);
     });
     broadcast(all_ranks(), code);

@@ -13,8 +13,8 @@ namespace nysalt::program {
 
 int export_method(const export_command& command, const common_settings& common) {
   on_first(all_ranks(), [&] {
-    if (!command.output.empty()) require_result(command.output);
     const method_source source = find_method(command.method);
+    if (!command.output.empty()) require_result(command.output);
     const export_source exported = exported_from(source, command.how);
     const std::string text = export_text(command.host, exported);
     const run_time_word& word = exported.method.letters();

@@ -107,6 +107,7 @@ int new_system(const new_command& command, const common_settings& common) {
     refuse("cannot write {}: a file of that name is there; take another name, or move the file",
            file.string());
   }
+  require_writable(file);
   std::string text = beginning;
   for (auto at = text.find("NAME"); at != std::string::npos; at = text.find("NAME", at)) {
     text.replace(at, 4, command.name);

@@ -64,7 +64,7 @@ void draw_run(const run_command& command, const run_output& output, std::int64_t
 
 /// Throws refusal for bad options of the files of a run, before any work.
 void require_files(const run_command& command) {
-  require_table(command.output, command.plot, command.method);
+  require_table(command.output, command.plot);
   if (command.checkpoint.empty()) {
     if (command.resume) refuse("--resume must come with --checkpoint; name the file to go on from");
     if (command.every) refuse("--every must come with --checkpoint; name the file of the checkpoint");
@@ -75,20 +75,7 @@ void require_files(const run_command& command) {
   require_at_least_one("--every", *command.every);
   if (command.output.empty())
     refuse("--checkpoint must come with --output; name a file, as printed results cannot be continued");
-  require_writable(command.checkpoint);
-  std::vector<std::string> others{command.method, command.output, manifest_of(command.output)};
-  for (const char* beside : {".part", ".new.part", ".sorted.part"}) others.push_back(command.output + beside);
-  for (const char* kind : {".svg", ".png", ".dat", ".gp"}) {
-    if (!command.plot) continue;
-    others.push_back(std::filesystem::path(command.output).replace_extension(kind));
-  }
-  for (const std::string& name : {command.checkpoint, command.checkpoint + ".next.part"}) {
-    for (const std::string& other : others) {
-      if (is_same_file(name, other))
-        refuse("--checkpoint {} must not take the name of another file of the run, got {}; name another file",
-               command.checkpoint, other);
-    }
-  }
+  require_checkpoint(command.checkpoint, command.output, command.plot);
 }
 
 /// Steps between two checks for a signal, some seconds, where there is a checkpoint to make then.

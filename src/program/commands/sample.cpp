@@ -70,7 +70,7 @@ hmc_options options_of(const sample_command& command, const prepared_problem& sy
 
 /// Throws refusal for bad options of files, before any work.
 void require_files(const sample_command& command) {
-  require_table(command.output, false, command.method);
+  require_table(command.output, false);
   if (command.checkpoint.empty()) {
     if (command.resume) refuse("--resume must come with --checkpoint; name the file to go on from");
     if (command.every) refuse("--every must come with --checkpoint; name the file of the checkpoint");
@@ -79,12 +79,7 @@ void require_files(const sample_command& command) {
   if (!command.every)
     refuse("--checkpoint must come with --every; give the number of trajectories between two checkpoints");
   require_at_least_one("--every", *command.every);
-  require_writable(command.checkpoint);
-  for (const std::string& other : {command.output, manifest_of(command.output).string(), command.method}) {
-    if (is_same_file(command.checkpoint, other))
-      refuse("--checkpoint {} must not take the name of another file of the run, got {}; name another file",
-             command.checkpoint, other);
-  }
+  require_checkpoint(command.checkpoint, command.output, false);
   std::error_code ignored;
   if (!command.resume && std::filesystem::exists(command.checkpoint, ignored)) {
     refuse(
@@ -274,7 +269,6 @@ void require_room(const sample_command& command, std::int64_t shown) {
 
 int sample(const sample_command& command, const common_settings& common) {
   require_numbers(command);
-  on_first(all_ranks(), [&] { require_files(command); });
   const auto system = make_system(command.system);
   if (system->heat_bath().acts())
     refuse(
@@ -282,6 +276,7 @@ int sample(const sample_command& command, const common_settings& common) {
         "away");
   method_source source;
   collectively(all_ranks(), [&] { source = find_method(command.method, {}, system->letters()); });
+  on_first(all_ranks(), [&] { require_files(command); });
   charge(source, *system);
   hmc_options options = options_of(command, *system, source, common);
   std::vector<std::string> warnings;
@@ -315,7 +310,8 @@ int sample(const sample_command& command, const common_settings& common) {
     std::vector<summary_of_scalar> all;
     for (std::size_t k = 0; k < draws.scalars(); ++k) all.push_back(summary_of(draws, k));
     if (!command.output.empty()) write_result(command.output, draws.csv(), common);
-    if (!command.checkpoint.empty()) std::filesystem::remove(command.checkpoint);
+    std::error_code ignored;
+    if (!command.checkpoint.empty()) std::filesystem::remove(command.checkpoint, ignored);
     if (common.json) {
       json document = document_of(command, source, *system, options, found, all);
       document["warnings"] = warnings;

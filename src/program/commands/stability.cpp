@@ -280,10 +280,10 @@ int stability(const stability_command& command, const common_settings& common) {
   if (command.system && !command.step) {
     refuse("--system must come with --step; give the step at which its frequencies must be stable");
   }
-  require_table(command.output, command.plot, command.method.value_or(""));
   const auto system = command.system ? make_system(*command.system) : nullptr;
   std::vector<std::string> warnings;
   const subject target = subject_of(command, system.get(), common.force, warnings);
+  require_table(command.output, command.plot);
   const bool rotates = has_rotation(target.method.letters());
   const bool has_own_letters = target.method.letters().has_own_letters();
   if (has_own_letters && !command.output.empty()) {

@@ -93,7 +93,8 @@ std::int64_t count_in(const json& value) {
   return number;
 }
 
-void require_question(const json& asked_then, const json& question, const std::filesystem::path& file) {
+void require_question(const json& asked_then, const json& asked, const std::filesystem::path& file) {
+  const json question = as_kept(asked);
   if (asked_then == question) return;
   std::string changed;
   for (const auto& [name, value] : question.items()) {

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <new>
 #include <stdexcept>
 
 namespace nysalt::program {
@@ -43,6 +45,8 @@ class handle {
 
 /// To be called first.
 void set_up_library() {
+  constexpr std::size_t needed = std::size_t{1} << 24U;  // bytes: far more than the library takes
+  ::operator delete(::operator new(needed));             // where memory is short it crashes in its own set-up
   H5dont_atexit();  // after a full disk the library would try again at exit, and crash
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported by us
 }

@@ -18,6 +18,11 @@ bool is_there(const std::filesystem::path& file) {
   return std::filesystem::exists(file, ignored);
 }
 
+void remove_if_there(const std::filesystem::path& file) {
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+}
+
 }  // namespace
 
 run_output::run_output(const planned_run& planned, bool as_json)
@@ -49,8 +54,7 @@ run_output::run_output(const planned_run& planned, bool as_json)
 }
 
 run_output::~run_output() {
-  std::error_code ignored;
-  if (is_fresh_) std::filesystem::remove(checkpoint_, ignored);
+  if (is_fresh_) remove_if_there(checkpoint_);
 }
 
 void run_output::make_part(const json& question) {
@@ -75,8 +79,7 @@ void run_output::make_part(const json& question) {
   try {
     lay_out();
   } catch (...) {  // a constructor that throws has no destructor
-    std::error_code ignored;
-    std::filesystem::remove(checkpoint_, ignored);
+    remove_if_there(checkpoint_);
     throw;
   }
 }
@@ -92,7 +95,8 @@ void run_output::lay_out() {
 void run_output::go_on(const json& question) {
   state_ = read_checkpoint(checkpoint_);
   require_question(state_.question, question, checkpoint_);
-  if (!state_.output.empty() && state_.output != std::filesystem::path(output_).filename()) {
+  const json name = as_kept(std::filesystem::path(output_).filename().string());
+  if (!state_.output.empty() && state_.output != name) {
     refuse("--output must be {}, as in the run of {}, got {}", state_.output, checkpoint_.string(), output_);
   }
   const auto part = unfinished_file::part_of(output_);
@@ -104,7 +108,7 @@ void run_output::go_on(const json& question) {
           checkpoint_.string(), output_);
     }
     // The run was stopped right before it took away what it had sorted.
-    if (!state_.in_order && is_there(part)) std::filesystem::remove(part);
+    if (!state_.in_order) remove_if_there(part);
     return;
   }
   if (!state_.laid_out) {

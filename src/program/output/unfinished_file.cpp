@@ -15,6 +15,7 @@
 
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
+#include "nysalt/detail/objection_to_replacing.hpp"
 #include "nysalt/detail/write_failure.hpp"
 
 namespace nysalt::program {
@@ -163,6 +164,9 @@ void unfinished_file::keep() {
 
 void unfinished_file::finish() {
   put_on_disk();
+  if (const auto why = nysalt::detail::objection_to_replacing(path_); !why.empty()) {
+    throw nysalt::detail::write_failure(message("cannot write {}: {}", path_.string(), why));
+  }
   std::error_code failure;
   std::filesystem::rename(part_, path_, failure);
   if (failure) {
