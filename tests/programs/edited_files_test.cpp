@@ -3,7 +3,6 @@
 // manifests and reports. Each edit is one line and exit code 2, or changes nothing that matters.
 #include <boost/test/unit_test.hpp>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -13,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "../support/bad_input.hpp"
 #include "../support/killed.hpp"
 #include "../support/program.hpp"
 #include "../support/signed_again.hpp"
@@ -87,8 +87,6 @@ std::vector<edit> edits_of(const std::string& line) {
   }
   return all;
 }
-
-bool is_one_line(const std::string& text) { return std::ranges::count(text, '\n') == 1; }
 
 void require_refused(const finished& done, const std::string& words, const std::string& what) {
   BOOST_TEST(done.code == 2, what << " ended with " << done.code << ": " << done.err);
@@ -305,6 +303,7 @@ BOOST_AUTO_TEST_CASE(no_text_of_a_file_ends_a_message) {
     write(folder / "d.csv", text);
     require_refused(run(folder, line), words, words);
   };
+  const auto unreadable = [](std::size_t bytes) { return "got '" + std::string(bytes, '?') + "'"; };
   told(std::string("a,b\n1,x\0y\n", 10), "b must be a finite number, got 'x y'");
   told(std::string("\xff\xfe"
                    "a\0,\0b\0\n\0"
@@ -312,9 +311,9 @@ BOOST_AUTO_TEST_CASE(no_text_of_a_file_ends_a_message) {
                    "0\0\n\0",
                    18),
        "got '");
-  told("a,b\n1,\xed\xa0\x80\n", "got '???'");       // half a pair of UTF-16
-  told("a,b\n1,\xc0\x80\n", "got '??'");            // NUL in two bytes
-  told("a,b\n1,\xf4\x90\x80\x80\n", "got '????'");  // beyond Unicode
+  told("a,b\n1,\xed\xa0\x80\n", unreadable(3));      // half a pair of UTF-16
+  told("a,b\n1,\xc0\x80\n", unreadable(2));          // NUL in two bytes
+  told("a,b\n1,\xf4\x90\x80\x80\n", unreadable(4));  // beyond Unicode
   told(
       "a,b\n1,\xc2\x9b"
       "31m\n",
