@@ -12,8 +12,8 @@ std::string text_of(const json& document) {
 }
 
 bool may_be_parsed(std::string_view text) {
-  constexpr std::size_t most_values = std::size_t{1} << 23U;  // some hundred megabytes of them
-  constexpr double most_pairs = 1e9;  // of members of one object: each new name is compared with all before
+  constexpr std::size_t most_values = std::size_t{1} << 22U;  // some hundred megabytes of them
+  constexpr double most_pairs = 2.5e8;  // of members of one object: each new name is compared with all before
   std::size_t values = 0;
   double pairs = 0.0;
   std::size_t depth = 0;
