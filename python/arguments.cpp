@@ -88,7 +88,7 @@ void take_learning(const argument_reader& arguments, const std::string& prefix, 
 std::vector<std::string> argument_reader::names() const {
   std::vector<std::string> all;
   for (const auto& [name, value] : arguments_) {
-    if (!value.is_none()) all.push_back(name.cast<std::string>());
+    if (!value.is_none()) all.push_back(text_in("the name of an argument", name));
   }
   return all;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "../src/comparison/exported_source.hpp"
+#include "../src/comparison/inputs.hpp"
 #include "../src/comparison/method_file.hpp"
 #include "../src/comparison/recommendation.hpp"
 #include "../src/comparison/sampling_choice.hpp"
@@ -149,6 +150,8 @@ void add_commands(py::module_& module) {
   module.def("recommend_for_sampling", &recommend_for_sampling);
   module.def("listing", [] { return dumped(program::listing()); });
   module.def("method", &method);
+  module.def("require_readable", [](const std::string& file) { program::require_readable(file); });
+  module.attr("longest_method_file") = program::longest_method_file;
   module.def("export", &export_method);
   module.def("save", &save);
   module.def("in_words_of_python", &in_words_of_python);

@@ -19,7 +19,10 @@ void raise_refusals() {
   // Of this module only: other modules translate their own exceptions.
   pybind11::register_local_exception_translator([](std::exception_ptr thrown) {
     const auto raise = [](PyObject* kind, const std::exception& problem) {
-      PyErr_SetString(kind, in_words_of_python(problem.what()).c_str());
+      const std::string text = in_words_of_python(problem.what());
+      PyObject* const shown = PyUnicode_DecodeUTF8(text.data(), std::ssize(text), "replace");
+      PyErr_SetObject(kind, shown);
+      Py_XDECREF(shown);
     };
     try {
       std::rethrow_exception(thrown);

@@ -312,8 +312,9 @@ def learn(system: System, family: str = "bab6", *, step: Optional[float] = None,
 def load(path: Union[str, "_os.PathLike[str]"]) -> Union[Scheme, Table]:
     """A scheme or a table from a file, of this package or of the program."""
     name = _os.fspath(path)
+    _nysalt.require_readable(_os.fsencode(name))
     with open(name, encoding="utf-8") as file:
-        text = file.read()
+        text = file.read(_nysalt.longest_method_file + 1)  # of what is longer the check says so
     return (Scheme if _nysalt.method(text, name, None)["is_learned"] else Table)(text, name)
 
 

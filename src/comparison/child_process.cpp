@@ -67,7 +67,8 @@ class anonymous_file {
   int descriptor_;
 };
 
-/// What the child does before the program begins; it has a process group of its own, which can be ended whole.
+/// What the child does before the program begins; it has a process group of its own, which can be ended
+/// whole.
 class start {
  public:
   start(const std::filesystem::path& folder, const anonymous_file& output, error_output errors,

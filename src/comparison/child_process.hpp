@@ -11,8 +11,9 @@ namespace nysalt::program {
 
 /// What a child process left.
 struct child_result {
-  std::optional<int> code;  ///< exit code, or 128 and the number of a signal; none if the program did not start
-  std::string output;       ///< what the program wrote
+  std::optional<int>
+      code;            ///< exit code, or 128 and the number of a signal; none if the program did not start
+  std::string output;  ///< what the program wrote
 
   bool succeeded() const { return code == 0; }
 };

@@ -75,6 +75,9 @@ void comparison::require_sound_command() const {
   if (options_.steps.empty()) {
     refuse("--steps must be one or more, got none; give steps, such as 0.01,0.02");
   }
+  if (options_.metrics.empty()) {
+    refuse("--metric must be one or more, got none; name metrics, such as path,energy");
+  }
   for (const double step : options_.steps) require_positive("--steps", step);
   for (const double level : options_.levels) require_positive("--levels", level);
   const auto as_it_is = [](const auto& x) { return x; };

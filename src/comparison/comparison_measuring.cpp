@@ -120,12 +120,13 @@ void comparison::learn(row& line, journal& kept) {
   const auto where = placement_in(source, *system_, placement_asked(options_.placement));
   const std::string part = fmt::format("{} learned at {}", line.method, line.step);
   if (kept.has(part)) shown_.skip(work_of_learning(line));
-  const learned_row found = kept.once(part, learned_row_from, [&] {
+  const run_time_family family = placed(*source.family, where, system_->letters());
+  const auto read = [&](const json& document) { return learned_row_from(document, line.method, family); };
+  const learned_row found = kept.once(part, read, [&] {
     const learn_plan plan = plan_for(*source.family, where, line.step, options_.learning, common_);
     return learned_row_of(line.method, learn_with(*system_, plan, shown_, work_of_learning(line)).fit);
   });
   fits_.push_back(found);
-  const run_time_family family = placed(*source.family, where, system_->letters());
   const auto theta = found.theta();
   const Eigen::VectorXd parameters = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
   line.coefficients.emplace(
@@ -229,7 +230,10 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
   } else {
     shown_.part(fmt::format("comparing at step {:g}", step), work_of_paths(all));
   }
-  const auto found = kept.once(part, all_measured_from, [&] {
+  const auto read = [&](const json& text) {
+    return all_measured_from(text, along_paths().size(), all.size(), options_.trajectories);
+  };
+  const auto found = kept.once(part, read, [&] {
     std::vector<tabulated> methods;
     for (const row* line : all) methods.push_back(*line->coefficients);
     constexpr double perturbation = 1e-6;
@@ -253,7 +257,8 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
 void comparison::measure_acceptance(std::size_t metric, double step, const group& all, journal& kept) {
   shown_.part(fmt::format("acceptance at step {:g}", step));
   const std::string part = fmt::format("{} at {}", metrics_[metric].text(), step);
-  const measured found = kept.once(part, measured_from, [&] {
+  const auto read = [&](const json& text) { return measured_from(text, all.size(), options_.trajectories); };
+  const measured found = kept.once(part, read, [&] {
     measured result;
     for (const row* line : all) {
       const auto accepted = system_->acceptance(*line->coefficients, plan_at(step), options_.hmc_temperature,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <stdexcept>
 
 #include "checks.hpp"
 #include "comparison.hpp"
@@ -242,12 +243,18 @@ void comparison::measure_law(std::size_t metric, double step, const group& all, 
   const std::string name = metrics_[metric].text();
   const std::string part = fmt::format("reference of {} at {}", name, step);
   if (kept.has(part)) shown_.skip(6.0 * work_of_reference());
-  measured found{.against = kept.once(part, baseline_from, [&] { return baseline_of_law(metric, step); })};
+  const auto read_reference = [](const json& text) {
+    baseline context = baseline_from(text);
+    if (!context.law) throw std::out_of_range("law");
+    return context;
+  };
+  const auto read = [&](const json& text) { return measurement_from(text, options_.trajectories); };
+  measured found{.against = kept.once(part, read_reference, [&] { return baseline_of_law(metric, step); })};
   for (const row* line : all) {
     const std::string line_part = fmt::format("{} of {} at {}", name, line->method, step);
     if (kept.has(line_part)) shown_.skip(work_of_law(line->evaluations_per_time));
-    found.measurements.push_back(kept.once(
-        line_part, measurement_from, [&] { return law_of(metric, *line, references_at(metric, step)); }));
+    found.measurements.push_back(
+        kept.once(line_part, read, [&] { return law_of(metric, *line, references_at(metric, step)); }));
   }
   take(metric, step, all, found);
 }

@@ -27,7 +27,19 @@ std::string whole(const std::filesystem::path& file) {
 
 }  // namespace
 
+void require_readable(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const auto there = std::filesystem::status(file, ignored);
+  const bool is_plain = !exists(there) || is_regular_file(there) || is_directory(there);
+  const std::string name = std::filesystem::absolute(file, ignored).lexically_normal().string();
+  const bool is_of_shell = name == "/dev/stdin" || name == "/dev/null" || name.starts_with("/dev/fd/") ||
+                           name.starts_with("/proc/self/fd/");
+  if (is_plain || is_of_shell) return;
+  refuse("cannot read {}: it is not a regular file; name another, or a pipe as /dev/stdin", file.string());
+}
+
 void note_input(const std::filesystem::path& file) {
+  require_readable(file);
   const std::lock_guard lock(guard);
   all().insert(whole(file));
 }

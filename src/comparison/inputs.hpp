@@ -7,7 +7,11 @@
 
 namespace nysalt::program {
 
-/// Notes a file that was read. Thread-safe.
+/// Throws refusal for what may have no end, as a device or a FIFO, which no process may write to. Pipes of
+/// the shell may be read, as /dev/stdin and /dev/fd/N.
+void require_readable(const std::filesystem::path& file);
+
+/// Notes a file that is about to be read, which must be readable. Thread-safe.
 void note_input(const std::filesystem::path& file);
 
 /// Whether the path leads to a file that was read.

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <iterator>
 #include <string_view>
 
 #include "all_ranks.hpp"
@@ -64,8 +63,17 @@ std::string journal::open_file() {
     refuse("cannot write {}: another run is writing it; wait for that run, or name another --output",
            path_.string());
   }
+  constexpr std::uintmax_t most = std::uintmax_t{1} << 28U;  // bytes
+  const auto size = std::filesystem::file_size(path_, ignored);
+  if (ignored || size > most) {
+    refuse("cannot resume from {}: a journal must be at most {} MB long; remove the file to begin anew",
+           path_.string(), most >> 20U);
+  }
+  std::string text(static_cast<std::size_t>(size), '\0');
   std::ifstream input(path_, std::ios::binary);
-  return {std::istreambuf_iterator<char>(input), {}};
+  input.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(input.gcount()));
+  return text;
 }
 
 namespace {
@@ -95,9 +103,11 @@ void require_same_question(const json& stored_question, const json& asked,
 
 /// Takes the finished parts from the text of a journal; returns the length of its whole lines.
 std::size_t journal::read(const std::string& text, const json& question, const std::string& head) {
+  constexpr std::size_t most_parts = 100'000;
   std::size_t at = 0;
   for (std::size_t end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
-    const json line = json::parse(std::string_view(text).substr(at, end - at), nullptr, false);
+    const auto of_part = std::string_view(text).substr(at, end - at);
+    const json line = parsed(of_part);
     if (at == 0) {
       if (!line.is_object() || line.value("format", json()) != format || !line.contains("question")) {
         refuse_foreign(path_);
@@ -105,14 +115,22 @@ std::size_t journal::read(const std::string& text, const json& question, const s
       require_same_question(line["question"], question, path_);
       continue;
     }
-    if (!line.is_object() || !line.contains("result") || !line.value("part", json()).is_string()) {
+    if (!line.is_object() || !line.contains("result") || !line.value("part", json()).is_string() ||
+        found_.size() == most_parts) {
       refuse_foreign(path_);
     }
-    found_[line["part"].get<std::string>()] = line["result"];
+    found_[line["part"].get<std::string>()] = of_part;
   }
   // A line that was cut off: of ours, if it is the first.
   if (at == 0 && !head.starts_with(text)) refuse_foreign(path_);
   return at;
+}
+
+json journal::result_of(const std::string& part) const { return parsed(found_.at(part)).at("result"); }
+
+void journal::refuse_edited(const std::string& part) const {
+  refuse("cannot resume from {}: the part '{}' is not whole, or was edited; remove the file to begin anew",
+         path_.string(), part);
 }
 
 void journal::keep(const std::string& part, const json& result) {

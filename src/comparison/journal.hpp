@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -38,9 +39,16 @@ class journal {
   /// Nothing was finished, now or before.
   bool is_empty() const { return found_.empty() && !has_written_; }
   /// The result of a part, by the name of the part: read(json) of what was kept, or else that of work(), of
-  /// which to_json() is kept. Throws refusal if it cannot be written.
+  /// which to_json() is kept. Throws refusal if it cannot be written, and where read() throws: read() must
+  /// take nothing of which a later use goes wrong, as people may have edited the file.
   auto once(const std::string& part, const auto& read, const auto& work) {
-    if (const auto at = found_.find(part); at != found_.end()) return read(at->second);
+    if (has(part)) {
+      try {
+        return read(result_of(part));
+      } catch (const std::exception&) {  // of JSON, or that has not what read() needs
+        refuse_edited(part);
+      }
+    }
     auto result = work();
     if (!path_.empty()) keep(part, to_json(result));
     return result;
@@ -55,13 +63,15 @@ class journal {
 
   std::string open_file();
   std::size_t read(const std::string& text, const json& question, const std::string& head);
+  json result_of(const std::string& part) const;
+  [[noreturn]] void refuse_edited(const std::string& part) const;
   void keep(const std::string& part, const json& result);
   void write(const std::string& text);
   [[noreturn]] void fail_to_write(fmt::format_string<std::string> text) const;
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, close> file_;
-  std::map<std::string, json> found_;
+  std::map<std::string, std::string> found_;  // lines of the file, by their parts
   bool has_written_ = false;
 };
 

@@ -2,6 +2,7 @@
 #include "learned_row.hpp"
 
 #include <limits>
+#include <stdexcept>
 
 #include "stability_margin.hpp"
 
@@ -11,11 +12,11 @@ namespace {
 
 double number_at(const json& document, const char* name) {
   const json& value = document.at(name);
-  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 std::string text_at(const json& document, const char* name) {
   const json& value = document.at(name);
-  return value.is_string() ? value.get<std::string>() : std::string();
+  return value.is_null() ? std::string() : value.get<std::string>();
 }
 
 }  // namespace
@@ -42,7 +43,7 @@ learned_row learned_row_of(const std::string& method, const fit_summary& fit) {
   return row;
 }
 
-learned_row learned_row_from(const json& document) {
+learned_row learned_row_from(const json& document, const std::string& method, const run_time_family& family) {
   learned_row row{.method = text_at(document, "method"),
                   .step = number_at(document, "step"),
                   .one_step_error = number_at(document, "one_step_error"),
@@ -53,9 +54,15 @@ learned_row learned_row_from(const json& document) {
                   .rival = text_at(document, "rival"),
                   .reason = text_at(document, "reason"),
                   .document = document};
-  for (const auto& [name, value] : document.at("parameters").items()) {
-    row.parameters.emplace_back(name, value.get<double>());
+  const json& parameters = document.at("parameters");
+  if (row.method != method || std::ssize(parameters) != family.parameters()) {
+    throw std::out_of_range("parameters");
   }
+  for (const auto& name : family.parameter_names) {
+    row.parameters.emplace_back(name, parameters.at(name).get<double>());
+  }
+  const auto theta = row.theta();
+  require_in_range(family, Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta)));
   return row;
 }
 

@@ -8,6 +8,7 @@
 
 #include "json.hpp"
 #include "nysalt/learning/fit_summary.hpp"
+#include "nysalt/run_time_family.hpp"
 
 namespace nysalt::program {
 
@@ -28,7 +29,9 @@ struct learned_row {
 };
 
 learned_row learned_row_of(const std::string& method, const fit_summary& fit);
-learned_row learned_row_from(const json& document);
+/// Of what a journal holds of the method, which people may have edited. Throws std::exception for what is not
+/// whole, of another method, or not of the family.
+learned_row learned_row_from(const json& document, const std::string& method, const run_time_family& family);
 inline json to_json(const learned_row& row) { return row.document; }
 
 /// A field of each parameter, by its name.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace nysalt::program {
 
@@ -14,9 +15,19 @@ namespace {
 /// JSON has no number that is not finite: null is NaN, a text infinity.
 json number(double x) { return std::isinf(x) ? json("infinite") : std::isnan(x) ? json(nullptr) : json(x); }
 double number_from(const json& text) {
-  if (text.is_number()) return text.get<double>();
-  return text.is_string() ? std::numeric_limits<double>::infinity()
-                          : std::numeric_limits<double>::quiet_NaN();
+  if (text.is_null()) return std::numeric_limits<double>::quiet_NaN();
+  if (text == "infinite") return std::numeric_limits<double>::infinity();
+  return text.get<double>();  // throws unless it is one
+}
+
+/// What is read may have been edited.
+void require(bool holds, const char* member) {
+  if (!holds) throw std::out_of_range(member);
+}
+
+const json& list_in(const json& text) {
+  require(text.is_array(), "list");
+  return text;
 }
 
 void put(json& into, const char* name, const std::optional<double>& value) {
@@ -28,7 +39,10 @@ std::optional<double> taken(const json& from, const char* name) {
 }
 
 json to_json(const estimate& value) { return {number(value.mean), number(value.standard_error)}; }
-estimate estimate_from(const json& text) { return {number_from(text.at(0)), number_from(text.at(1))}; }
+estimate estimate_from(const json& text) {
+  require(list_in(text).size() == 2, "value");
+  return {number_from(text[0]), number_from(text[1])};
+}
 
 json numbers(const std::vector<double>& all) {
   json result = json::array();
@@ -37,7 +51,7 @@ json numbers(const std::vector<double>& all) {
 }
 std::vector<double> numbers_from(const json& text) {
   std::vector<double> result;
-  for (const auto& x : text) result.push_back(number_from(x));
+  for (const auto& x : list_in(text)) result.push_back(number_from(x));
   return result;
 }
 
@@ -54,7 +68,9 @@ distribution_of_errors spread_from(const json& text) {
                                             .deciding = number_from(text.at("deciding"))},
                                 .median = estimate_from(text.at("median"))};
   const auto quantiles = numbers_from(text.at("quantiles"));
-  for (std::size_t i = 0; i < errors.quantiles.size(); ++i) errors.quantiles.at(i) = quantiles.at(i);
+  require(quantiles.size() == errors.quantiles.size(), "quantiles");
+  require(!(errors.median.mean < 0.0), "median");
+  std::ranges::copy(quantiles, errors.quantiles.begin());
   return errors;
 }
 
@@ -68,12 +84,16 @@ json to_json(const drawn_law& law) {
   return result;
 }
 drawn_law law_from(const json& text) {
-  return {.x = numbers_from(text.at("x")),
-          .y = numbers_from(text.at("y")),
-          .mean = estimate_from(text.at("mean")),
-          .effective_sample_size = number_from(text.at("effective_sample_size")),
-          .kinetic_temperature = taken(text, "kinetic_temperature"),
-          .half_step_kinetic_temperature = taken(text, "half_step_kinetic_temperature")};
+  drawn_law law{.x = numbers_from(text.at("x")),
+                .y = numbers_from(text.at("y")),
+                .mean = estimate_from(text.at("mean")),
+                .effective_sample_size = number_from(text.at("effective_sample_size")),
+                .kinetic_temperature = taken(text, "kinetic_temperature"),
+                .half_step_kinetic_temperature = taken(text, "half_step_kinetic_temperature")};
+  require(law.x.size() == law.y.size(), "law");
+  require(law.kinetic_temperature.has_value() == law.half_step_kinetic_temperature.has_value(),
+          "temperatures");
+  return law;
 }
 
 }  // namespace
@@ -144,11 +164,13 @@ std::vector<double> means_of_groups(const std::vector<double>& of_each) {
   return result;
 }
 
-measurement measurement_from(const json& text) {
+measurement measurement_from(const json& text, std::int64_t trajectories) {
   measurement outcome{.value = estimate_from(text.at("value")),
                       .reason = text.at("reason").get<std::string>(),
                       .diverged = text.at("diverged").get<std::int64_t>()};
-  for (const auto& one : text.at("diverged_at")) {
+  require(!(outcome.value.mean < 0.0), "value");  // an error, an acceptance, or NaN
+  require(0 <= outcome.diverged && outcome.diverged <= trajectories, "diverged");
+  for (const auto& one : list_in(text.at("diverged_at"))) {
     outcome.diverged_at.push_back(
         {one.at("trajectory").get<std::int64_t>(), one.at("step").get<std::int64_t>()});
   }
@@ -164,7 +186,10 @@ json to_json(const energy_course& course) {
           {"surviving", numbers(course.surviving)}};
 }
 energy_course energies_from(const json& text) {
-  return {numbers_from(text.at("t")), numbers_from(text.at("deviation")), numbers_from(text.at("surviving"))};
+  energy_course course{numbers_from(text.at("t")), numbers_from(text.at("deviation")),
+                       numbers_from(text.at("surviving"))};
+  require(course.t.size() == course.deviation.size() && course.t.size() == course.surviving.size(), "t");
+  return course;
 }
 
 json to_json(const baseline& context) {
@@ -197,14 +222,19 @@ json to_json(const std::vector<measured>& all) {
   for (const measured& one : all) result.push_back(to_json(one));
   return result;
 }
-measured measured_from(const json& text) {
+measured measured_from(const json& text, std::size_t rows, std::int64_t trajectories) {
   measured result{.against = baseline_from(text.at("behind"))};
-  for (const auto& one : text.at("findings")) result.measurements.push_back(measurement_from(one));
+  for (const auto& one : list_in(text.at("findings"))) {
+    result.measurements.push_back(measurement_from(one, trajectories));
+  }
+  require(result.measurements.size() == rows, "findings");
   return result;
 }
-std::vector<measured> all_measured_from(const json& text) {
+std::vector<measured> all_measured_from(const json& text, std::size_t metrics, std::size_t rows,
+                                        std::int64_t trajectories) {
   std::vector<measured> result;
-  for (const auto& one : text) result.push_back(measured_from(one));
+  for (const auto& one : list_in(text)) result.push_back(measured_from(one, rows, trajectories));
+  require(result.size() == metrics, "metrics");
   return result;
 }
 

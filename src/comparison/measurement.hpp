@@ -83,10 +83,15 @@ json to_json(const energy_course& course);
 json to_json(const baseline& context);
 json to_json(const measured& all);
 json to_json(const std::vector<measured>& all);
-measurement measurement_from(const json& text);
+
+// Of what a journal holds, which people may have edited. Each throws std::exception for what is not whole: of
+// another kind, or of other lengths than the members of one result, the number of metrics or rows, or that of
+// all trajectories ask for.
+measurement measurement_from(const json& text, std::int64_t trajectories);
 energy_course energies_from(const json& text);
 baseline baseline_from(const json& text);
-measured measured_from(const json& text);
-std::vector<measured> all_measured_from(const json& text);
+measured measured_from(const json& text, std::size_t rows, std::int64_t trajectories);
+std::vector<measured> all_measured_from(const json& text, std::size_t metrics, std::size_t rows,
+                                        std::int64_t trajectories);
 
 }  // namespace nysalt::program

@@ -28,15 +28,13 @@ namespace nysalt::program {
 namespace {
 
 std::string contents_of(const std::filesystem::path& path) {
-  constexpr std::streamsize most = 1 << 20;  // bytes: schemes and tables are far shorter
   std::error_code ignored;
   std::ifstream stream(path, std::ios::binary);
   if (!stream || std::filesystem::is_directory(path, ignored)) {
     refuse("cannot read {}: there is no readable file of this name; name a scheme or a table", path.string());
   }
-  std::string text(static_cast<std::size_t>(most), '\0');
-  stream.read(text.data(), most);
-  if (stream) refuse("{} must be a scheme or a table, shorter than {} bytes", path.string(), most);
+  std::string text(longest_method_file + 1, '\0');
+  stream.read(text.data(), std::ssize(text));
   text.resize(static_cast<std::size_t>(stream.gcount()));
   return text;
 }
@@ -376,11 +374,16 @@ method_file read_method_file(const std::filesystem::path& path, const detail::na
 method_file method_file_in(const std::string& text, const std::string& file,
                            const detail::named_letters& of_system) {
   json document;
+  if (text.size() > longest_method_file) {
+    refuse("{} must be a scheme or a table, at most {} bytes long", file, longest_method_file);
+  }
+  if (!may_be_parsed(text)) {
+    refuse("{} must be a scheme or a table, nested at most {} deep, with few members", file,
+           deepest_document);
+  }
   try {
-    constexpr int deepest = 8;
     std::vector<std::set<std::string>> names;  // of the objects that are open
-    document = json::parse(text, [&](int depth, json::parse_event_t event, json& value) {
-      if (depth > deepest) refuse("{} must be a scheme or a table, nested at most {} deep", file, deepest);
+    document = json::parse(text, [&](int, json::parse_event_t event, json& value) {
       if (event == json::parse_event_t::object_start) names.emplace_back();
       if (event == json::parse_event_t::object_end) names.pop_back();
       if (event == json::parse_event_t::key && !names.back().insert(value.get<std::string>()).second) {

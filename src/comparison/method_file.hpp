@@ -38,6 +38,9 @@ struct scheme {
   std::string steps() const;
 };
 
+/// Bytes of a scheme or a table, which are far shorter.
+inline constexpr std::size_t longest_method_file = std::size_t{1} << 20U;
+
 /// By what a scheme knows a system of the user's own beside its description: the source and all parameters.
 /// Empty of a bundled one.
 std::string source_of_system(const nlohmann::ordered_json& parameters);

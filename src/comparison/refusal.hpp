@@ -7,6 +7,7 @@
 #include <concepts>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -34,10 +35,17 @@ struct fmt::formatter<nysalt::program::number_in_message> : fmt::formatter<doubl
 
 namespace nysalt::program {
 
+/// A text that may hold anything of a file, as a line shows it: controls are spaces, and bytes that are no
+/// letter of UTF-8 are ?.
+std::string of_letters(std::string_view text);
+
+/// With spaces for NUL, at which what() of an exception would end.
+std::string without_nul(std::string text);
+
 /// An exception that says what is wrong, where, and what to do. The program ends with exit code 2.
 class refusal : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit refusal(std::string text) : std::runtime_error(without_nul(std::move(text))) {}
 };
 
 template <class T>

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <climits>
@@ -169,33 +168,6 @@ std::vector<std::filesystem::path> make_folder(const std::filesystem::path& fold
 }
 
 namespace {
-
-/// The length of the UTF-8 letter at a place; 0 where there is none.
-std::size_t length_of_letter(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const std::size_t length = byte(at) < 0x80        ? 1
-                             : byte(at) >> 5U == 6  ? 2
-                             : byte(at) >> 4U == 14 ? 3
-                             : byte(at) >> 3U == 30 ? 4
-                                                    : 0;
-  if (length == 0 || at + length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if (byte(at + i) >> 6U != 2) return 0;
-  }
-  return length;
-}
-
-/// Without controls, and with ? for bytes that are no letter of UTF-8.
-std::string of_letters(std::string_view text) {
-  std::string result;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = length_of_letter(text, at);
-    const bool is_control = length == 1 && std::iscntrl(static_cast<unsigned char>(text[at])) != 0;
-    result += length == 0 ? "?" : is_control ? " " : text.substr(at, length);
-    at += std::max<std::size_t>(length, 1);
-  }
-  return result;
-}
 
 /// A text that quotes what is very long loses its middle; what to do is at the end.
 std::string shortened(const std::string& text) {

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 
 #include "bundled_systems.hpp"
 #include "comparison/catalogue.hpp"
 #include "comparison/json.hpp"
+#include "comparison/method_file.hpp"
 #include "comparison/method_file_format.hpp"
 #include "comparison/method_source.hpp"
 #include "comparison/refusal.hpp"
@@ -106,20 +106,12 @@ void add_entry(const json& entry, const fs::path& result, const fs::path& manife
   }
 }
 
-json parsed(const fs::path& file) {
-  std::ifstream stream(file);
-  return json::parse(stream, nullptr, false);
-}
-
 /// Whether a method is a file of coefficients of the user, perhaps with a placement behind it. Its letters
 /// may be those of a system, and are not read.
 bool is_table(const std::string& typed) {
-  constexpr std::uintmax_t most = 1 << 20;  // bytes: tables are far shorter
   if (const auto names = method_names(); std::ranges::count(names, typed) > 0) return false;
   return std::ranges::any_of(std::vector{typed, typed.substr(0, typed.rfind('@'))}, [](const fs::path& file) {
-    std::error_code ignored;
-    if (!is_file(file) || fs::file_size(file, ignored) > most) return false;
-    const json document = parsed(file);
+    const json document = document_in(file, longest_method_file);
     return document.is_object() && document.contains("format") && document["format"] == table_format;
   });
 }
@@ -178,7 +170,7 @@ void add_file(const std::string& file, std::vector<cited_setup>& to) {
   if (entries.contains(name) && !file.ends_with(earlier_ending)) {
     add_entry(entries[name], path, manifest, to);
   } else if (is_file(earlier)) {
-    add_entry(parsed(earlier), path, earlier, to);
+    add_entry(document_in(earlier), path, earlier, to);
   } else if (is_file(path)) {
     add_method(path.string(), to);
   } else {

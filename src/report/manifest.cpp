@@ -9,11 +9,11 @@
 #include <array>
 #include <boost/version.hpp>
 #include <ctime>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "build_info.hpp"
 #include "comparison/inputs.hpp"
@@ -33,18 +33,14 @@ constexpr const char* format_of_manifest = "nysalt manifest";
 constexpr int version_of_manifest = 1;
 constexpr std::array kinds_of_pictures{".svg", ".png", ".gp", ".dat"};
 
-json parsed(const fs::path& file) {
-  std::ifstream stream(file);
-  return json::parse(stream, nullptr, false);
-}
-
 bool is_there(const fs::path& file) {
   std::error_code ignored;
   return fs::exists(file, ignored);
 }
 
 std::string is_foreign(const fs::path& manifest) {
-  return fmt::format("{} is no manifest of this version of nysalt", manifest.string());
+  return fmt::format("{} is no manifest of this version of nysalt, or too large to be read",
+                     manifest.string());
 }
 
 /// The manifest for writing, when no other process writes it.
@@ -67,9 +63,8 @@ std::string name_in(const fs::path& file) { return as_kept(file.filename().strin
 /// Whether an earlier version recorded how it made the file.
 bool has_earlier_manifest(const fs::path& file) {
   const fs::path earlier = earlier_manifest_of(file);
-  std::error_code ignored;
-  if (!fs::is_regular_file(earlier, ignored)) return false;
-  const json found = parsed(earlier);
+  if (!is_there(earlier)) return false;
+  const json found = document_in(earlier);
   return found.is_object() && found.contains("options") && found.contains("versions") &&
          found.value("file", json()) == name_in(file);
 }
@@ -119,11 +114,11 @@ fs::path manifest_of(const fs::path& file) { return file.parent_path() / name_of
 fs::path earlier_manifest_of(fs::path file) { return file += ".manifest.json"; }
 
 json entries_in(const fs::path& manifest) {
-  const json found = parsed(manifest);
+  json found = document_in(manifest);
   if (!found.is_object() || found.value("format", json()) != format_of_manifest) return {};
   if (found.value("version", json()) != version_of_manifest) return {};
-  const json files = found.value("files", json());
-  return files.is_object() ? files : json();
+  const auto files = found.find("files");
+  return files != found.end() && files->is_object() ? std::move(*files) : json();
 }
 
 void require_manifest(const fs::path& file) {

@@ -158,7 +158,8 @@ std::string plot_script(const figure& f) {
       "if (kind eq 'png') {{ set terminal pngcairo size {1},{2} pointscale 1.5 dashlength 2 background "
       "'white' font 'sans,11' noenhanced "
       "}}\n"
-      "if (exists('target')) {{ set output target }}\nset grid lw 0.5 lc '#cccccc'\nset key opaque box lc '#cccccc'\nset samples 2\n",
+      "if (exists('target')) {{ set output target }}\nset grid lw 0.5 lc '#cccccc'\nset key opaque box lc "
+      "'#cccccc'\nset samples 2\n",
       f.name, f.width + key_width(f), f.height);
   if (f.panels.size() > 1) text += fmt::format("set multiplot layout 1,{}\n", f.panels.size());
   std::size_t block = 0;

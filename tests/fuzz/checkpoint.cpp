@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 // Checkpoints that a run is to go on from: as they are, which their sum refuses, and with a sum that fits.
-#include <boost/crc.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
+#include <string>
 
+#include "../support/signed_again.hpp"
 #include "program_run.hpp"
 
 namespace {
@@ -28,21 +28,11 @@ void go_on(const std::string& text) {
   nysalt::fuzz::run(asked, files);
 }
 
-/// The text with the sum that it ought to end with.
-std::string signed_again(const std::string& text) {
-  const std::string bare = text.substr(0, text.rfind("\ncrc32 "));
-  boost::crc_32_type sum;
-  sum.process_bytes(bare.data(), bare.size());
-  char line[20];
-  std::snprintf(line, sizeof line, "\ncrc32 %08x\n", static_cast<unsigned>(sum.checksum()));
-  return bare + line;
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   go_on(text);
-  go_on(signed_again(text));
+  go_on(nysalt::test::signed_again(text));
   return 0;
 }

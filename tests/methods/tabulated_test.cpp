@@ -48,8 +48,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   using error = std::invalid_argument;
   BOOST_TEST(refuses<error>(table("ABA", {0.5, 1.0}), {"2 coefficients for the 3 letters ABA"}));
   BOOST_TEST(refuses<error>(table("AGA", {0.5, 1.0, 0.5}), {"3 coefficients", "G and H take two"}));
-  BOOST_TEST(
-      refuses<error>(table("AB", {std::numeric_limits<double>::quiet_NaN(), 1.0}), {"coefficient 1 must be finite, got nan"}));
+  BOOST_TEST(refuses<error>(table("AB", {std::numeric_limits<double>::quiet_NaN(), 1.0}),
+                            {"coefficient 1 must be finite, got nan"}));
   BOOST_TEST(!refuses<error>(table("AB", {1.0, 1.0}), {}));
   // The order of srkn11b needs a quadratic kinetic energy; as data it can only say so when it is run.
   const auto fast = a_fast_one::make();

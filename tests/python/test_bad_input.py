@@ -38,6 +38,8 @@ CASES = [
     (lambda: nysalt.system("fpu", omega="fast"), "omega must be a number, got 'fast'"),
     (lambda: nysalt.system("fpu", pairs=2.5), "pairs must be a whole number, got 2.5"),
     (lambda: nysalt.system("fpu", omega=float("nan")), "omega must be finite, got nan"),
+    (lambda: nysalt.system("fpu", **{"\udcff": 1}), r"the name of an argument must be a text of whole characters, got '\\udcff'"),
+    (lambda: nysalt.system("fpu", **{"a\0b": 1}), "unknown parameter 'a b' of the system fpu"),
     (lambda: nysalt.system("fpu", friction=0.1), "friction must come with sigma or temperature; give 0 for damping without noise"),
     (lambda: nysalt.system(3), "name must be a text, got 3"),
     (lambda: nysalt.learn(CHAIN), "step or steps must be given, and not both"),
@@ -159,6 +161,40 @@ def test_files_that_cannot_be(tmp_path):
     path.write_text(path.read_text().replace('"seed": 1', '"seed": 2'))
     with pytest.raises(ValueError, match='"checksum" must fit the contents'):
         nysalt.load(path)
+
+
+@pytest.mark.parametrize("metric", [[], ()])
+def test_no_metrics(metric):
+    with pytest.raises(ValueError, match="metric must be one or more, got none"):
+        nysalt.compare(PENDULUM, ["verlet"], 0.1, metric=metric, trajectories=4)
+
+
+def test_empty_lists_are_refused_or_as_if_left_out():
+    with pytest.raises(ValueError, match="methods must be one or more, got none"):
+        nysalt.compare(PENDULUM, [], 0.1, trajectories=4)
+    with pytest.raises(ValueError, match="steps must be one or more, got none"):
+        nysalt.compare(PENDULUM, ["verlet"], [], trajectories=4)
+    with pytest.raises(ValueError, match="step or steps must be given"):
+        nysalt.learn(PENDULUM, "nystrom", steps=[])
+    assert run(observables=[]).observables == run().observables
+    found = nysalt.compare(PENDULUM, ["verlet"], 0.1, trajectories=4, horizon=1, levels=[], prices=[])
+    assert len(found["rows"]) == 1
+
+
+def test_files_without_end(tmp_path):
+    """Private nodes and links, which nothing writes to."""
+    (tmp_path / "zero").symlink_to("/dev/zero")
+    os.mkfifo(tmp_path / "fifo")
+    for name in ("zero", "fifo"):
+        with pytest.raises(ValueError, match=f"cannot read .*{name}: it is not a regular file"):
+            nysalt.load(tmp_path / name)
+    with open(tmp_path / "long", "wb") as file:
+        file.truncate(2**33)
+    with pytest.raises(ValueError, match="at most 1048576 bytes long"):
+        nysalt.load(tmp_path / "long")
+    (tmp_path / "deep").write_text("[" * 400_000 + "]" * 400_000)
+    with pytest.raises(ValueError, match="nested at most"):
+        nysalt.load(tmp_path / "deep")
 
 
 def test_two_methods_of_one_name_are_told_apart():

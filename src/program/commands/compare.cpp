@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 
 #include "../commands.hpp"
@@ -31,8 +30,7 @@ std::optional<json> answer(const std::filesystem::path& folder, const json& ques
   for (const char* file : {"report.html", "report.md", "rows.csv"}) {
     if (!is_there(folder / file)) return std::nullopt;
   }
-  std::ifstream input(folder / "report.json");
-  json report = json::parse(input, nullptr, false);
+  json report = document_in(folder / "report.json");
   if (!report.is_object() || !report.contains("question")) return std::nullopt;
   require_same_question(report["question"], question, folder / "report.json");
   report.erase("question");
@@ -60,9 +58,6 @@ void measure_in(const std::filesystem::path& folder, comparison& all, bool resum
   journal kept(folder / journal_name, all.question(), resume);
   try {
     all.learn_and_measure(kept);
-  } catch (const json::exception&) {
-    refuse("cannot resume from {}: the file is not whole, or was edited; remove it to begin anew",
-           (folder / journal_name).string());
   } catch (...) {
     if (kept.is_empty()) {  // only rank 0 has something to remove
       kept.remove();

@@ -116,9 +116,11 @@ std::int64_t draws_before(const sample_command& command, std::int64_t trajectori
 hmc_state state_in(const sample_command& command, const json& question, kept_draws& draws) {
   hmc_state state;
   collectively(all_ranks(), [&] {
+    std::string version;
     checkpoint_file saved = read_checkpoint_file(command.checkpoint, "sample");
     try {
       require_question(saved.head.at("question"), question, command.checkpoint);
+      version = saved.head.at("nysalt").get<std::string>();
       state.trajectories = count_in(saved.head.at("trajectories"));
       const auto of_chains = static_cast<std::size_t>(count_in(saved.head.at("numbers")));
       const std::int64_t drawn = draws_before(command, state.trajectories);
@@ -136,7 +138,7 @@ hmc_state state_in(const sample_command& command, const json& question, kept_dra
     } catch (const std::exception&) {
       refuse_edited_checkpoint(command.checkpoint);
     }
-    if (speaks_for_all()) warn_of_version(saved.head.at("nysalt").get<std::string>(), command.checkpoint);
+    if (speaks_for_all()) warn_of_version(version, command.checkpoint);
   });
   return state;
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "checkpoint_file.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <boost/crc.hpp>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
-#include <string_view>
+#include <string>
+#include <system_error>
+#include <utility>
 
 #include "build_info.hpp"
 #include "comparison/refusal.hpp"
@@ -23,10 +23,22 @@ constexpr int version_of_checkpoint = 1;
 
 static_assert(std::endian::native == std::endian::little, "checkpoints hold doubles as this machine does");
 
-std::string last_line(std::string_view before) {
-  boost::crc_32_type sum;
-  sum.process_bytes(before.data(), before.size());
+std::string last_line(const boost::crc_32_type& sum) {
   return fmt::format("\ncrc32 {:08x}\n", sum.checksum());
+}
+
+[[noreturn]] void refuse_foreign(const std::filesystem::path& file) {
+  refuse("cannot read {}: the file is no checkpoint of nysalt, or was cut off; name another file",
+         file.string());
+}
+
+/// The first line, with its end; empty if it is none of ours.
+std::string first_line(std::istream& input) {
+  std::string line(longest_document + 1, '\0');
+  input.getline(line.data(), static_cast<std::streamsize>(line.size()));
+  if (!input || input.eof()) return {};  // no end of a line, within what may be parsed
+  line.resize(static_cast<std::size_t>(input.gcount()) - 1);
+  return line + '\n';
 }
 
 }  // namespace
@@ -38,7 +50,9 @@ void write_checkpoint_file(const std::filesystem::path& file, const json& head,
   std::string text = all.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
   const auto bytes = std::as_bytes(numbers);
   text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  text += last_line(text);
+  boost::crc_32_type sum;
+  sum.process_bytes(text.data(), text.size());
+  text += last_line(sum);
   atomic_file out(file, "next");
   out.write(text);
   out.commit(true);
@@ -49,13 +63,11 @@ checkpoint_file read_checkpoint_file(const std::filesystem::path& file, const st
   if (!std::filesystem::exists(file, ignored)) {
     refuse("cannot resume from {}: there is no such checkpoint; leave --resume out to begin", file.string());
   }
+  if (!std::filesystem::is_regular_file(file, ignored)) refuse_foreign(file);
   std::ifstream input(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(input), {}};
-  json head = json::parse(text.substr(0, text.find('\n')), nullptr, false);
-  if (!head.is_object() || head.value("format", json()) != format_of_checkpoint) {
-    refuse("cannot read {}: the file is no checkpoint of nysalt, or was cut off; name another file",
-           file.string());
-  }
+  const std::string line = first_line(input);
+  json head = parsed(line);
+  if (!head.is_object() || head.value("format", json()) != format_of_checkpoint) refuse_foreign(file);
   const json file_version = head.value("version", json());
   if (!file_version.is_number()) refuse_edited_checkpoint(file);
   if (file_version > version_of_checkpoint) {
@@ -64,19 +76,29 @@ checkpoint_file read_checkpoint_file(const std::filesystem::path& file, const st
         "nysalt",
         file.string(), file_version.dump(), version_of_checkpoint);
   }
-  const std::size_t end = text.size() - std::min(text.size(), last_line("").size());
-  const auto before = std::string_view(text).substr(0, end);
-  const auto bytes = before.substr(std::min(before.size(), before.find('\n') + 1));
-  if (!text.ends_with(last_line(before)) || bytes.size() % sizeof(double) != 0) {
-    refuse_edited_checkpoint(file);
+  constexpr std::uintmax_t most = std::uintmax_t{1} << 30U;  // bytes of numbers
+  boost::crc_32_type sum;
+  const std::size_t end = last_line(sum).size();
+  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+  if (ignored || size < line.size() + end) refuse_edited_checkpoint(file);
+  const std::uintmax_t bytes = size - line.size() - end;
+  if (bytes > most) {
+    refuse("cannot read {}: the numbers of a checkpoint must be at most {} MB, got {} MB; name another file",
+           file.string(), most >> 20U, bytes >> 20U);
   }
-  const json of_command = head.value("command", json("run"));  // older ones do not say
+  if (bytes % sizeof(double) != 0) refuse_edited_checkpoint(file);
+  checkpoint_file result{std::move(head), std::vector<double>(bytes / sizeof(double))};
+  input.read(reinterpret_cast<char*>(result.numbers.data()), static_cast<std::streamsize>(bytes));
+  sum.process_bytes(line.data(), line.size());
+  sum.process_bytes(result.numbers.data(), bytes);
+  std::string found(end, '\0');
+  input.read(found.data(), static_cast<std::streamsize>(end));
+  if (!input || found != last_line(sum)) refuse_edited_checkpoint(file);
+  const json of_command = result.head.value("command", json("run"));  // older ones do not say
   if (of_command != command) {
     refuse("{} must be a checkpoint of nysalt {}, got {}; name another file", file.string(), command,
            of_command.is_string() ? of_command.get<std::string>() : "another kind");
   }
-  checkpoint_file result{std::move(head), std::vector<double>(bytes.size() / sizeof(double))};
-  bytes.copy(reinterpret_cast<char*>(result.numbers.data()), bytes.size());
   return result;
 }
 
