@@ -99,13 +99,16 @@ void require_refused(const finished& done, const std::string& words, const std::
 /// Edits each part of the journal of a comparison, and resumes it.
 void edit_journal_of(const std::string& name, const std::string& line) {
   const scratch folder(name);
-  // The report cannot be written where it has the name of a folder: the journal of all parts is left.
-  fs::create_directories(folder / "out/report.md");
-  const auto stopped = run(folder, line + " --output out");
-  BOOST_TEST_REQUIRE(stopped.code != 0);
-  const std::string sound = contents(folder / "out/journal.jsonl");
+  // The journal is whole while the report's pictures are drawn; a gnuplot that draws nothing keeps a copy.
+  const auto kept =
+      shell(folder,
+            "printf '#!/bin/sh\\ncp ../journal.jsonl ../../kept\\nexit 1\\n' >gnuplot; chmod +x gnuplot; "
+            "PATH=$PWD:$PATH \"$nysalt\" " +
+                line + " --output out");
+  BOOST_TEST_REQUIRE(kept.code == 0, kept.err);
+  const std::string sound = contents(folder / "kept");
   const auto lines = lines_of(sound);
-  BOOST_TEST_REQUIRE(lines.size() > 2, stopped.err);
+  BOOST_TEST_REQUIRE(lines.size() > 2U, kept.err);
   const auto resumed = [&](const std::string& text) {
     fs::remove_all(folder / "out");
     fs::create_directory(folder / "out");
@@ -113,9 +116,13 @@ void edit_journal_of(const std::string& name, const std::string& line) {
     return shell(folder, "PATH=/nowhere \"$nysalt\" " + line + " --output out --resume");  // draws nothing
   };
   BOOST_TEST_REQUIRE(resumed(sound).code == 0);
+  constexpr std::size_t every =
+      3;  // each place has up to seven edits: of three neighbours one is tried, for time
   std::size_t refused = 0;
+  std::size_t number = 0;
   for (std::size_t k = 1; k < lines.size(); ++k) {
     for (const auto& [what, text] : edits_of(lines[k])) {
+      if (number++ % every != 0) continue;
       std::string edited;
       for (std::size_t i = 0; i < lines.size(); ++i) edited += (i == k ? text : lines[i]) + "\n";
       const std::string shown = lines[k].substr(0, 60) + ": " + what;
@@ -132,7 +139,7 @@ void edit_journal_of(const std::string& name, const std::string& line) {
       BOOST_TEST(!fs::exists(folder / "out/journal.jsonl"), shown);
     }
   }
-  BOOST_TEST(refused > 100U);
+  BOOST_TEST(refused > 50U);
 }
 
 /// A document of lists in each other.
