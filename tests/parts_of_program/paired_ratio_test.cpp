@@ -61,8 +61,8 @@ BOOST_AUTO_TEST_CASE(the_interval_covers_the_ratio) {
     BOOST_TEST(width < 1.5);
     misses_of_both += misses;
   }
-  // Intervals that never miss say nothing. Those of means miss 20 times, and of quantiles hardly: that none of
-  // them misses has a probability below exp(-20).
+  // Intervals that never miss say nothing. Those of means miss 20 times, and of quantiles hardly: that none
+  // of them misses has a probability below exp(-20).
   BOOST_TEST(misses_of_both >= 1);
 }
 
