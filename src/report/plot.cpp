@@ -34,13 +34,10 @@ bool is_whole_picture(const std::string& text, const std::string& kind) {
   return text.find(end, text.size() - std::min<std::size_t>(text.size(), 64)) != std::string::npos;
 }
 
-bool is_written(const std::filesystem::path& file, const std::string& text) {
-  try {
-    write_file(file, text);
-    return true;
-  } catch (const std::runtime_error&) {
-    return false;
-  }
+/// A picture of older data must not stay beside new ones.
+void remove_picture(const std::filesystem::path& picture) {
+  std::error_code failure;
+  if (std::filesystem::is_regular_file(picture, failure)) std::filesystem::remove(picture, failure);
 }
 
 }  // namespace
@@ -55,14 +52,16 @@ bool draw(const figure& f, const std::filesystem::path& folder) {
     const program::child_result made =
         program::run_child({"gnuplot", "-e", fmt::format("kind='{}'", kind), "./" + f.name + ".gp"}, folder,
                            program::error_output::dropped);
-    if (made.succeeded() && is_whole_picture(made.output, kind) &&
-        is_written(picture, kind == "svg" ? finished_svg(made.output, f) : made.output)) {
+    if (!made.succeeded() || !is_whole_picture(made.output, kind)) {
+      remove_picture(picture);
+      drawn = false;
       continue;
     }
-    drawn = false;
-    std::error_code failure;
-    if (std::filesystem::is_regular_file(picture, failure)) {
-      std::filesystem::remove(picture, failure);  // that of older data
+    try {
+      write_file(picture, kind == "svg" ? finished_svg(made.output, f) : made.output);
+    } catch (...) {
+      remove_picture(picture);
+      throw;
     }
   }
   return drawn;

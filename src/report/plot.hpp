@@ -21,7 +21,7 @@ void require_plain(const std::string& name);
 /// Writes NAME.dat and NAME.gp into the folder, and has gnuplot draw NAME.svg and NAME.png, each whole or
 /// not at all. False if gnuplot is not there or fails; then data and script are there to draw later, and
 /// no older picture stays beside them. Throws std::invalid_argument if the figure's name has other characters
-/// than letters, digits, _ and -, std::runtime_error if the folder cannot be written.
+/// than letters, digits, _ and -, std::runtime_error if a file cannot be written.
 bool draw(const figure& f, const std::filesystem::path& folder);
 
 }  // namespace nysalt

@@ -4,10 +4,11 @@
 
 usage: faults.py PROGRAM FOLDER [--some]; the exit code is 1 if a promise was broken
 
-After each failure every output is the old file or the whole new one, the exit code is 0 or 4, nothing unfinished stays
-(but what --resume goes on with), and doing the work again, with --resume where there is something to resume, gives the
-bytes of a run that nothing happened to. The manifest of the folder is whole, and keeps the entry of another file. What a
-report says of seconds differs between runs: of such files the rest is compared, or the end.
+After each failure every output is the old file or the whole new one (a picture may be gone, with a warning), the exit
+code is 0 or 4, nothing unfinished stays (but what --resume goes on with), and doing the work again, with --resume where
+there is something to resume, gives the bytes of a run that nothing happened to. The manifest of the folder is whole, and
+keeps the entry of another file. What a report says of seconds differs between runs: of such files the rest is compared,
+or the end.
 --some: of each work a few calls of each kind; of works that take longer, one or none.
 """
 import csv
@@ -194,6 +195,10 @@ def one_failure(folder, one, expected, fault):
     if failed.returncode not in ((-9, 0) if killed else (0, 4)):
         return f"exit code {failed.returncode}: {failed.stderr.strip()[:200]}"
     for name, data in expected.items():
+        if name.endswith((".svg", ".png")) and not os.path.exists(os.path.join(folder, name)):
+            if failed.returncode == 0 and "could not draw" not in failed.stderr:
+                return f"{name} is gone without a word"
+            continue  # no picture of older data stays
         now = contents(folder, name)
         if now != b"old" and comparable(name, now) != data:
             return f"{name} is neither the old one nor the new one"
