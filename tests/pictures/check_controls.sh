@@ -7,7 +7,7 @@ page=$1
 pictures=$(dirname "${BASH_SOURCE[0]}")
 source "$pictures/browser.sh"
 
-{ cat "$page"; echo '<script>'; cat "$pictures/controls.js"; echo '</script>'; } >"$scratch/page/report.html"
+with_script "$page" "$pictures/controls.js" >"$scratch/page/report.html"
 browser --window-size=1200,1000 --dump-dom "$scratch/page/report.html" >"$scratch/dom"
 said=$(found "$scratch/dom")
 [[ -n $said ]] || fail 'its controls could not be tried'

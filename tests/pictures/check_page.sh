@@ -14,8 +14,7 @@ bytes=$(stat -c %s "$page")
 { cat "$page"; echo '<style>table, ul, pre { display: none }</style>'; } >"$scratch/page/report.html"
 
 # First what the page holds, and where: figures, pictures, height, what it asks for, one x,y,width,height each.
-{ cat "$scratch/page/report.html"; echo '<script>'; cat "$pictures/measure.js"; echo '</script>'; } \
-  >"$scratch/page/measured.html"
+with_script "$scratch/page/report.html" "$pictures/measure.js" >"$scratch/page/measured.html"
 browser --window-size=1200,1000 --dump-dom "$scratch/page/measured.html" >"$scratch/dom"
 read -r figures svgs height asked boxes <<<"$(found "$scratch/dom")"
 [[ -n ${asked-} ]] || fail 'its contents could not be measured'
