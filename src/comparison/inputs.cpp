@@ -27,6 +27,11 @@ std::string whole(const std::filesystem::path& file) {
 
 }  // namespace
 
+bool is_there(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored);
+}
+
 void require_readable(const std::filesystem::path& file) {
   std::error_code ignored;
   const auto there = std::filesystem::status(file, ignored);

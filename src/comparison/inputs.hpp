@@ -11,6 +11,9 @@ namespace nysalt::program {
 /// the shell may be read, as /dev/stdin and /dev/fd/N.
 void require_readable(const std::filesystem::path& file);
 
+/// Whether a file, folder or other node is there, behind links; false also where that cannot be found out.
+bool is_there(const std::filesystem::path& file);
+
 /// Notes a file that is about to be read, which must be readable. Thread-safe.
 void note_input(const std::filesystem::path& file);
 

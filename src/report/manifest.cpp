@@ -33,11 +33,6 @@ constexpr const char* format_of_manifest = "nysalt manifest";
 constexpr int version_of_manifest = 1;
 constexpr std::array kinds_of_pictures{".svg", ".png", ".gp", ".dat"};
 
-bool is_there(const fs::path& file) {
-  std::error_code ignored;
-  return fs::exists(file, ignored);
-}
-
 std::string is_foreign(const fs::path& manifest) {
   return fmt::format("{} is no manifest of this version of nysalt, or too large to be read",
                      manifest.string());

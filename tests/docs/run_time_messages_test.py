@@ -65,7 +65,7 @@ class InACopy(unittest.TestCase):
             "--steps names {} twice": None,
             "{} is being written by another run: wait for it": None,
             "{}: it is mustard": None,
-            "it cannot be": None,
+            "0 lags cannot be": None,
             "what is unknown '{}'": None,
         }.items():
             with self.subTest(text):

@@ -9,6 +9,7 @@
 #include "../mpi_session.hpp"
 #include "../output.hpp"
 #include "../systems.hpp"
+#include "comparison/inputs.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/detail/collectively.hpp"
@@ -19,11 +20,6 @@ namespace {
 
 constexpr const char* journal_name = "journal.jsonl";
 constexpr int unfinished = -1;  // no exit code
-
-bool is_there(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return std::filesystem::exists(file, ignored);
-}
 
 /// The report, if the folder has a whole one. Throws refusal if it answers another question.
 std::optional<json> answer(const std::filesystem::path& folder, const json& question) {

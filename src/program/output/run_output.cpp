@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "checkpoint_file.hpp"
+#include "comparison/inputs.hpp"
 #include "comparison/interruption.hpp"
 #include "comparison/refusal.hpp"
 #include "program/output.hpp"
@@ -12,11 +13,6 @@
 namespace nysalt::program {
 
 namespace {
-
-bool is_there(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return std::filesystem::exists(file, ignored);
-}
 
 void remove_if_there(const std::filesystem::path& file) {
   std::error_code ignored;
