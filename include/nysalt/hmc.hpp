@@ -96,8 +96,8 @@ hmc_result hmc(const model& system, const tabulated& method, const initial_state
 double potential_scale_reduction(const std::vector<std::vector<double>>& chains);
 
 /// Effective number of independent draws, which would give the mean of a scalar the error that chains give:
-/// all draws, over the integrated autocorrelation time of the chains together. NaN where chains are too
-/// short.
+/// all draws, over the integrated autocorrelation time of the chains together; of short or alternating
+/// chains fewer, see effective_sample_size(). NaN where chains are too short.
 double effective_draws(const std::vector<std::vector<double>>& chains);
 
 }  // namespace nysalt

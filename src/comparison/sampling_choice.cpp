@@ -148,7 +148,7 @@ void sampling_choice::run_pilot() {
   constexpr double converged = 1.1;
   if (!(reduction < converged)) {
     warnings_.push_back(fmt::format(
-        "pilot chains have not converged: R of the potential is {:.3g}; take a larger --length, or "
+        "pilot chains are not shown to agree: R of the potential is {:.3g}; take a larger --length, or "
         "--start FILE.csv with the draws of nysalt sample",
         reduction));
   }

@@ -23,7 +23,9 @@ struct integrated_time {
 integrated_time integrated_autocorrelation_time(std::span<const double> rho);
 
 /// The independent samples that would give a mean the error of `samples` samples along a trajectory,
-/// samples/tau; for trajectories much longer than the window. NaN where the lags were not enough.
+/// samples/tau; NaN where the lags were not enough. Of tau measured on these samples the standard error is
+/// about tau sqrt((4 W + 2)/samples) [sokal_1997]; tau counts as two such errors at least, with memory for
+/// tau, as an estimate that noise makes small would promise a mean that nobody has.
 double effective_sample_size(double samples, const integrated_time& time);
 
 }  // namespace nysalt

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/analysis/integrated_time.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -23,7 +24,9 @@ integrated_time integrated_autocorrelation_time(std::span<const double> rho) {
 }
 
 double effective_sample_size(double samples, const integrated_time& time) {
-  return time.enough ? samples / time.tau : std::nan("");
+  if (!time.enough) return std::nan("");
+  const double error = time.memory * std::sqrt((4.0 * static_cast<double>(time.window) + 2.0) / samples);
+  return samples / std::max(time.tau, 2.0 * error);
 }
 
 }  // namespace nysalt

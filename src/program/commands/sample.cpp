@@ -227,9 +227,9 @@ std::string text_of(const sample_command& command, const method_source& source,
     return std::isfinite(one.reduction) ? one.reduction : 0.0;
   });
   return text + fmt::format(
-                    "R of {} is {}: chains have not converged; take more --burn-in and --draws, or a larger "
-                    "--length\n",
-                    worst->name, number_or_dash("{:.3f}", worst->reduction));
+                    "R of {} is {}, and must be below {} for all: the chains are not shown to agree; take more "
+                    "--draws or, where R stays, more --burn-in or a larger --length\n",
+                    worst->name, number_or_dash("{:.3f}", worst->reduction), converged);
 }
 
 /// The method at its step. Throws refusal for what cannot be sampled with.
