@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Signals that end the program: SIGINT, SIGTERM, SIGHUP.
+// Signals that end the program: SIGINT, SIGTERM, SIGHUP, and those by which batch systems warn, SIGUSR1,
+// SIGUSR2 and SIGXCPU.
 #pragma once
 
 #include <exception>

@@ -13,7 +13,6 @@
 #include "command_text.hpp"
 #include "commands.hpp"
 #include "comparison/checks.hpp"
-#include "comparison/inputs.hpp"
 #include "comparison/prepared_problem.hpp"
 #include "comparison/refusal.hpp"
 #include "mpi_session.hpp"
@@ -35,22 +34,10 @@ constexpr const char* three_commands =
     "verlet,verlet_2x,bcss2,srkn6b,learned:nystrom\n\n"
     "nysalt --help lists all commands.\n";
 
-/// The text after a name on the command line, or the name and an =; the last if there are several.
-std::string typed_after(const std::string& name, int argc, char** argv) {
-  std::string value;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == name && i + 1 < argc) value = argv[i + 1];
-    if (word.starts_with(name + "=")) value = word.substr(name.size() + 1);
-  }
-  return value;
-}
-
 /// The options of a system of the user's own are known only when it is loaded: before the others are read.
 void load_named_system(int argc, char** argv) {
   std::string name = typed_after("--system", argc, argv);
   const std::string file = typed_after("--config", argc, argv);
-  if (!file.empty()) note_input(file);
   if (name.empty() && !file.empty()) {
     const auto is_word = [](const char* word) { return word[0] != '-'; };
     const auto command = std::find_if(argv + 1, argv + argc, is_word);

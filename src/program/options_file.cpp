@@ -102,8 +102,8 @@ std::string plain_toml(std::istream& input) {
 }  // namespace
 
 std::string system_in_options_file(const std::string& file, const std::string& command) {
-  std::ifstream input(file);
   note_input(file);
+  std::ifstream input(file);
   if (!input) return {};  // reported where options are read
   std::istringstream text(plain_toml(input));
   std::string of_all;

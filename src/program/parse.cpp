@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "comparison/did_you_mean.hpp"
+#include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/version.hpp"
 #include "options_file.hpp"
@@ -68,7 +69,18 @@ std::string reworded(const CLI::Error& problem, std::string_view part, std::stri
 
 }  // namespace
 
+std::string typed_after(const std::string& name, int argc, char** argv) {
+  std::string value;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == name && i + 1 < argc) value = argv[i + 1];
+    if (word.starts_with(name + "=")) value = word.substr(name.size() + 1);
+  }
+  return value;
+}
+
 std::optional<std::string> parse(CLI::App& app, int argc, char** argv) {
+  if (const std::string file = typed_after("--config", argc, argv); !file.empty()) note_input(file);
   refuse_empty_texts(app);
   for (CLI::App* command : app.get_subcommands({})) refuse_empty_texts(*command);
   try {

@@ -8,8 +8,11 @@
 
 namespace nysalt::program {
 
-/// The help or the version, if that is asked for; else all options are read. Throws refusal, also for a text
-/// that is empty.
+/// The text after a name on the command line, or the name and an =; the last if there are several.
+std::string typed_after(const std::string& name, int argc, char** argv);
+
+/// The help or the version, if that is asked for; else all options are read. The file of
+/// --config is noted as an input. Throws refusal, also for a text that is empty.
 std::optional<std::string> parse(CLI::App& app, int argc, char** argv);
 
 }  // namespace nysalt::program

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "run_program.hpp"
 
+#include <csignal>
 #include <exception>
 #include <new>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "command_line.hpp"
+#include "../plugin/named_signals.hpp"
 #include "commands.hpp"
 #include "comparison/interruption.hpp"
+#include "mpi_session.hpp"
 #include "nysalt/detail/write_failure.hpp"
 #include "output.hpp"
 
@@ -24,9 +26,9 @@ int reported(const std::string& text, int code) {
 
 }  // namespace
 
-int exit_code_of(const std::function<int()>& work) {
+int exit_code_of(command_line run, int argc, char** argv) {
   try {
-    return work();
+    return run(argc, argv);
   } catch (const interrupted&) {
     complain(
         fmt::format("cannot finish the run: signal {} ended it; take --resume to go on from the checkpoint",
@@ -46,8 +48,20 @@ int exit_code_of(const std::function<int()>& work) {
   }
 }
 
-int run_program(int argc, char** argv) {
-  return exit_code_of([&] { return run_command_line(argc, argv); });
+int run_program(command_line run, int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // print() ends quietly when a reader has seen enough
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is reported like a full disk
+  allow_named_signals();
+  try {
+    const mpi_session ranks(argc, argv);
+    handle_signals();  // after MPI, which may have handlers of its own
+    return ranks.leave(exit_code_of(run, argc, argv));
+  } catch (const std::exception& problem) {
+    complain(problem.what());
+  } catch (...) {
+    complain("cannot go on: something was thrown that is no std::exception");
+  }
+  return bad_input;
 }
 
 }  // namespace nysalt::program

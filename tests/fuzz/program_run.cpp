@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../../src/program/command_line.hpp"
 #include "../../src/program/run_program.hpp"
 #include "../support/scratch.hpp"
 
@@ -78,7 +79,8 @@ int run_here(const std::vector<std::string>& arguments, std::string& out, std::s
   pointers.push_back(nullptr);
   const caught printed(stdout);
   const caught complained(stderr);
-  const int code = program::run_program(static_cast<int>(words.size()), pointers.data());
+  const int code =
+      program::exit_code_of(program::run_command_line, static_cast<int>(words.size()), pointers.data());
   out = printed.text();
   err = complained.text();
   return code;

@@ -8,12 +8,14 @@ Each kind of file and of text is made large, deep, endless and strange. The prog
 3, a refusal with one line of at most 2,000 bytes, within 10 s of CPU time and 1 GB of memory; a source that is compiled
 may take 30 s, as the compiler alone takes 5 to 12 s of one that is right. Prints a table. --some: one file of each kind.
 """
+import json
 import os
 import resource
 import shutil
 import subprocess
 import sys
 import time
+import zlib
 
 PROGRAM = os.path.abspath(sys.argv[1])
 FOLDER = os.path.abspath(sys.argv[2])
@@ -36,6 +38,8 @@ TEXTS = {
     "large": lambda: "q1,q2,q3,q4,q5,q6\n" + "1,2,3,4,5,6\n" * (100 * MB // 12),
     "endless": None,  # /dev/zero
 }
+COMPARE = ["compare", "--methods", "verlet", "--steps", "0.1", "--trajectories", "2", "--horizon", "0.1", "--threads", "1"]
+JOURNAL = "race/journal.jsonl"
 RUN = ["run", "--method", "verlet", "--step", "0.01", "--horizon", "0.1", "--threads", "1"]
 
 
@@ -51,9 +55,11 @@ def commands_of_file(name):
     yield "checkpoint", [*RUN, "--output", "out.csv", "--checkpoint", name, "--every", "10", "--resume"]
     yield "system", [*RUN, "--system", name]
     yield "report", ["cite", name]
+    yield "journal", [*COMPARE, "--output", "race", "--resume"]
 
 
 ENDINGS = {"options": ".toml", "starts": ".csv", "data": ".csv", "checkpoint": "", "system": ".hpp", "report": ".json"}
+PLACES = {"journal": JOURNAL}  # of files that have one name
 
 
 def commands_of_text():
@@ -100,6 +106,79 @@ def long_and_right():
     yield "data", ".csv", data, [*RUN, "--system", "logistic_regression", "--data"]
     yield "data", ".csv", ",".join(f"c{i}" for i in range(3000)) + "\n" + (",".join(["1", "0"] * 1500) + "\n") * 20, [
         *RUN, "--system", "logistic_regression", "--data"]
+
+
+def of_checkpoint(head, numbers):
+    """A checkpoint of that line, and of so many numbers, zeros, with the right CRC, as a file with a hole."""
+    end = zlib.crc32(head)
+    for _ in range(numbers * 8 // MB):
+        end = zlib.crc32(bytes(MB), end)
+
+    def write(path):
+        with open(path, "wb") as file:
+            file.write(head)
+            file.seek(numbers * 8, 1)
+            file.write(f"\ncrc32 {end:08x}\n".encode())
+    return write
+
+
+def kept_and_edited():
+    """Journals and checkpoints of the program's own, at their bounds: (kind, name, path, writer, arguments)."""
+    # A gnuplot that draws nothing keeps a copy of the journal, which goes when the report is there.
+    fake = os.path.join(FOLDER, "bin")
+    os.makedirs(fake)
+    with open(os.path.join(fake, "gnuplot"), "w", encoding="utf-8") as file:
+        file.write(f"#!/bin/sh\ncp ../journal.jsonl {FOLDER}/kept\nexit 1\n")
+    os.chmod(os.path.join(fake, "gnuplot"), 0o755)
+    quiet = {"cwd": FOLDER, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    shutil.rmtree(os.path.join(FOLDER, "race"), ignore_errors=True)
+    subprocess.run([PROGRAM, *COMPARE, "--output", "race"], check=True,
+                   env={**os.environ, "PATH": f"{fake}:{os.environ['PATH']}"}, **quiet)
+    shutil.rmtree(os.path.join(FOLDER, "race"))
+    checkpointed = [*RUN, "--output", "out.csv", "--checkpoint", "kept_checkpoint", "--every", "10"]
+    subprocess.run([PROGRAM, *checkpointed], check=True, **quiet)
+    with open(os.path.join(FOLDER, "kept"), encoding="utf-8") as file:
+        head, *parts = file.read().splitlines()
+    with open(os.path.join(FOLDER, "kept_checkpoint"), "rb") as file:
+        line = json.loads(file.readline())
+
+    most = 1 << 22  # values of one document
+
+    def part(result):
+        document = json.loads(parts[-1])
+        document["result"] = result
+        return json.dumps(document)
+
+    def journal(*lines):
+        def write(path):
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("\n".join([head, *lines]) + "\n")
+        return write
+
+    resume = [*COMPARE, "--output", "race", "--resume"]
+    numbers = [0.1] * (most - 100)
+    texts = ["0123456789" * 6] * (60 * MB // 64)
+    names = {f"n{i}": 1 for i in range(20_000)}
+    for name, lines in {
+        "the longest list": [part(numbers)],
+        "the longest texts": [part(texts)],
+        "the most members": [part(names)],
+        "four of the longest parts": [part(texts)] * 4,
+        "four of the longest lists": [part([1] * (most - 100))] * 4,
+        "the most parts": [json.dumps({"part": f"p{i}", "result": 1}) for i in range(100_000)],
+    }.items():
+        yield "journal", name, JOURNAL, journal(*lines), resume
+    again = [*RUN, "--output", "out.csv", "--checkpoint", "kept_checkpoint", "--every", "10", "--resume"]
+    unfinished = {**line, "finished": False, "step": 0}
+    for name, more, count in (
+        ("the most numbers", {}, 1 << 27),
+        ("the most trajectories", {"wave": [None] * (most - 1000)}, 1 << 20),
+        ("the most diverged trajectories", {"diverged": [{"trajectory": 0, "step": 0}] * (most // 6)}, 0),
+        ("the longest question", {"question": {**line["question"], "system": texts}}, 1 << 27),
+    ):
+        text = json.dumps({**unfinished, **more}, separators=(",", ":")).encode() + b"\n"
+        yield "checkpoint", name, "kept_checkpoint", of_checkpoint(text, count), again
 
 
 def limit():
@@ -164,11 +243,15 @@ def main():
         for kind, _ in commands_of_file(""):
             path = "/dev/zero"
             if text is not None:
-                path = "input" + ENDINGS.get(kind, ".json")
+                path = PLACES.get(kind, "input" + ENDINGS.get(kind, ".json"))
+                os.makedirs(os.path.join(FOLDER, "race"), exist_ok=True)
                 with open(os.path.join(FOLDER, path), "w", encoding="latin-1") as file:
                     file.write(text())
-            elif kind == "system":
-                path = "zero.hpp"
+            elif kind in ("system", "journal"):
+                path = PLACES.get(kind, "zero.hpp")
+                os.makedirs(os.path.join(FOLDER, "race"), exist_ok=True)
+                if os.path.exists(os.path.join(FOLDER, path)):
+                    os.remove(os.path.join(FOLDER, path))
                 os.symlink("/dev/zero", os.path.join(FOLDER, path))
             arguments = next(words for one, words in commands_of_file(path) if one == kind)
             note(kind, name, arguments)
@@ -177,6 +260,9 @@ def main():
         with open(os.path.join(FOLDER, path), "w", encoding="utf-8") as file:
             file.write(text)
         note(kind, "long and right", [*arguments, path])
+    for kind, name, path, write, arguments in [] if SOME else kept_and_edited():
+        write(os.path.join(FOLDER, path))
+        note(kind, name, arguments)
     for kind, arguments in [] if SOME else commands_of_text():
         note(kind.split(",")[0].split(" ")[0], kind, arguments)
     print("| kind of input | tried | refused | slowest, s | largest, MB | wrong |\n|---|---|---|---|---|---|")

@@ -47,4 +47,8 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused) {
                        {"linear --quik", {"--quik", "did you mean --quick?"}},
                        {"linear --config absent.toml", {"absent.toml"}},
                        {"linear --step 1", {"--step"}}});
+  // No process writes to the FIFO: who reads it waits.
+  const auto waiting = shell(folder, "mkfifo pipe; \"$nysalt\" linear --config pipe", 60);
+  BOOST_TEST(waiting.code == 2);
+  BOOST_TEST(waiting.err.find("not a regular file") != std::string::npos, waiting.err);
 }

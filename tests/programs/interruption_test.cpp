@@ -30,7 +30,8 @@ int code_after(const scratch& folder, const std::string& arguments, const std::s
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_signal_leaves_nothing_without_a_checkpoint) {
-  for (const auto& [signal, number] : {std::pair{"INT", 2}, {"TERM", 15}, {"HUP", 1}}) {
+  for (const auto& [signal, number] :
+       {std::pair{"INT", 2}, {"TERM", 15}, {"HUP", 1}, {"USR1", 10}, {"USR2", 12}, {"XCPU", 24}}) {
     for (const std::string kind : {".csv", ".npy", ".h5"}) {
       const scratch folder("signal");
       BOOST_TEST(code_after(folder, long_run + "--output a" + kind, "a" + kind + ".new.part", signal) ==
@@ -47,7 +48,7 @@ BOOST_AUTO_TEST_CASE(a_signal_makes_a_checkpoint_where_one_was_asked_for) {
       "run --method verlet --step 0.001 --horizon 20000 --trajectories 3 --sample-every 1000 ";
   BOOST_TEST(run(folder, whole + "--output whole.csv").code == 0);
   const std::string command = whole + "--output a.csv --checkpoint c --every 1000000000";
-  BOOST_TEST(code_after(folder, command, "c", "TERM") == 128 + 15);
+  BOOST_TEST(code_after(folder, command, "c", "USR1") == 128 + 10);  // Slurm's --signal=USR1
   BOOST_TEST(contents(folder / "err").find("take --resume to go on from the checkpoint") != std::string::npos,
              contents(folder / "err"));
   BOOST_TEST(contents(folder / "c").find("\"first\":0,\"step\":0,") ==

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "../support/draws.hpp"
+#include "../support/autoregression.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
 #include "nysalt/analysis/autocovariance.hpp"
@@ -24,30 +24,26 @@ constexpr double memories[] = {-0.9, -0.5, 0.0, 0.5, 0.9, 0.97};
 constexpr int lengths[] = {20, 50, 100, 200, 500, 2000};
 constexpr int repetitions = 50;
 
-/// Four chains x_n = phi x_{n-1} + sqrt(1 - phi^2) noise, of variance 1: tau = (1 + phi)/(1 - phi).
-chains autoregressions(draws& random, double phi, int length) {
-  const auto noise = [&] { return random.uniform(-std::sqrt(3.0), std::sqrt(3.0)); };
+/// Four chains of a memory, tau = (1 + phi)/(1 - phi), the n-th of a seed.
+chains autoregressions(double phi, std::uint64_t of_seed, std::uint64_t n, int length) {
   chains all(4);
-  for (auto& chain : all) {
-    double x = noise();
-    for (int n = 0; n < length; ++n) {
-      x = phi * x + std::sqrt(1.0 - phi * phi) * noise();
-      chain.push_back(x);
-    }
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    autoregression<double> next(phi, of_seed, 4 * n + k);
+    for (int i = 0; i < length; ++i) all[k].push_back(next.next());
   }
   return all;
 }
 
 /// How many times too many the effective draws are, at most, over all lengths and memories.
 template <class Count>
-double worst_ratio(std::uint64_t first, Count count) {
-  draws random(first);
+double worst_ratio(std::uint64_t of_seed, Count count) {
   double worst = 0.0;
+  std::uint64_t number = 0;
   for (const double phi : memories) {
     for (const int length : lengths) {
       const double expected = 4.0 * length * (1.0 - phi) / (1.0 + phi);
       for (int n = 0; n < repetitions; ++n) {
-        const double found = count(autoregressions(random, phi, length));
+        const double found = count(autoregressions(phi, of_seed, number++, length));
         if (std::isfinite(found)) worst = std::max(worst, found / expected);
       }
     }
@@ -56,8 +52,8 @@ double worst_ratio(std::uint64_t first, Count count) {
 }
 }  // namespace
 
-// An estimate z of its errors e tau below tau is tau (1 - z e), and counts as 2 e tau at least: it is too small
-// by a factor of (2 + z)/2 at most, where the two are equal.
+// An estimate z of its errors e tau below tau is tau (1 - z e), and counts as 2 e tau at least: it is too
+// small by a factor of (2 + z)/2 at most, where the two are equal.
 BOOST_AUTO_TEST_CASE(effective_draws_stay_below_their_bound) {
   const double z = standard_errors(false_alarms / (6 * 6 * repetitions));
   BOOST_TEST(worst_ratio(seed(1), [](const chains& all) { return effective_draws(all); }) < 0.5 * (2.0 + z));
@@ -81,10 +77,9 @@ BOOST_AUTO_TEST_CASE(draws_over_an_estimated_time_exceed_the_bound) {
 
 // Of chains that are long enough the floor does not count.
 BOOST_AUTO_TEST_CASE(long_chains_count_as_they_should) {
-  draws random(seed(2));
   for (const double phi : {-0.3, 0.0, 0.9}) {
     const double expected = 4.0 * 20'000 * (1.0 - phi) / (1.0 + phi);
-    const double found = effective_draws(autoregressions(random, phi, 20'000));
+    const double found = effective_draws(autoregressions(phi, seed(2), 0, 20'000));
     // tau is known to sqrt((4 W + 2)/80000), W = 5 (1 + |phi|)/(1 - |phi|) rounded up.
     const double window = 1.0 + 5.0 * (1.0 + std::abs(phi)) / (1.0 - std::abs(phi));
     const double error = std::sqrt((4.0 * window + 2.0) / 80'000.0);

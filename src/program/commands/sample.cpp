@@ -117,22 +117,22 @@ hmc_state state_in(const sample_command& command, const json& question, kept_dra
   hmc_state state;
   collectively(all_ranks(), [&] {
     std::string version;
-    checkpoint_file saved = read_checkpoint_file(command.checkpoint, "sample");
+    const json head = head_of_checkpoint(command.checkpoint, "sample");
     try {
-      require_question(saved.head.at("question"), question, command.checkpoint);
-      version = saved.head.at("nysalt").get<std::string>();
-      state.trajectories = count_in(saved.head.at("trajectories"));
-      const auto of_chains = static_cast<std::size_t>(count_in(saved.head.at("numbers")));
+      require_question(head.at("question"), question, command.checkpoint);
+      version = head.at("nysalt").get<std::string>();
+      state.trajectories = count_in(head.at("trajectories"));
+      const auto of_chains = static_cast<std::size_t>(count_in(head.at("numbers")));
       const std::int64_t drawn = draws_before(command, state.trajectories);
       const std::size_t of_draws =
           static_cast<std::size_t>(command.chains) * static_cast<std::size_t>(drawn) * draws.scalars();
-      if (drawn > command.draws || of_chains > saved.numbers.size() ||
-          saved.numbers.size() - of_chains != of_draws) {
+      state.numbers = numbers_of_checkpoint(command.checkpoint);
+      if (drawn > command.draws || of_chains > state.numbers.size() ||
+          state.numbers.size() - of_chains != of_draws) {
         throw std::out_of_range("numbers");
       }
-      draws.restore(std::span(saved.numbers).last(of_draws), drawn);
-      saved.numbers.resize(of_chains);
-      state.numbers = std::move(saved.numbers);
+      draws.restore(std::span(state.numbers).last(of_draws), drawn);
+      state.numbers.resize(of_chains);
     } catch (const refusal&) {
       throw;
     } catch (const std::exception&) {
@@ -226,10 +226,11 @@ std::string text_of(const sample_command& command, const method_source& source,
   const auto worst = std::ranges::max_element(all, {}, [](const summary_of_scalar& one) {
     return std::isfinite(one.reduction) ? one.reduction : 0.0;
   });
-  return text + fmt::format(
-                    "R of {} is {}, and must be below {} for all: the chains are not shown to agree; take more "
-                    "--draws or, where R stays, more --burn-in or a larger --length\n",
-                    worst->name, number_or_dash("{:.3f}", worst->reduction), converged);
+  return text +
+         fmt::format(
+             "R of {} is {}, and must be below {} for all: the chains are not shown to agree; take more "
+             "--draws or, where R stays, more --burn-in or a larger --length\n",
+             worst->name, number_or_dash("{:.3f}", worst->reduction), converged);
 }
 
 /// The method at its step. Throws refusal for what cannot be sampled with.

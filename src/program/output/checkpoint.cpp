@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "checkpoint_file.hpp"
+#include "comparison/refusal.hpp"
 
 namespace nysalt::program {
 
@@ -72,16 +73,26 @@ void write_checkpoint(const std::filesystem::path& file, const checkpoint& state
   write_checkpoint_file(file, head_of(state), state.at.batch.numbers);
 }
 
-checkpoint read_checkpoint(const std::filesystem::path& file) {
-  checkpoint_file found = read_checkpoint_file(file, "run");
+checkpoint read_checkpoint(const std::filesystem::path& file, const json& question) {
+  const json head = head_of_checkpoint(file, "run");
   try {
-    checkpoint state = state_of(found.head);
-    state.at.batch.numbers = std::move(found.numbers);
+    checkpoint state = state_of(head);
+    require_question(state.question, question, file);
+    state.at.batch.numbers = numbers_of_checkpoint(file);
     require_sound(state);
     return state;
+  } catch (const refusal&) {
+    throw;
   } catch (const std::exception&) {
     refuse_edited_checkpoint(file);
   }
+}
+
+bool is_of_unfinished_run(const std::filesystem::path& file) {
+  const json head = head_of_checkpoint(file, "run");
+  const json finished = head.value("finished", json());
+  if (!finished.is_boolean()) refuse_edited_checkpoint(file);
+  return !finished.get<bool>();
 }
 
 }  // namespace nysalt::program

@@ -30,7 +30,10 @@ struct checkpoint {
 /// As write_checkpoint_file().
 void write_checkpoint(const std::filesystem::path& file, const checkpoint& state);
 
-/// As read_checkpoint_file().
-checkpoint read_checkpoint(const std::filesystem::path& file);
+/// Throws refusal as head_of_checkpoint() and require_question() do.
+checkpoint read_checkpoint(const std::filesystem::path& file, const json& question);
+
+/// Whether a checkpoint is of a run that is not finished. Throws refusal as head_of_checkpoint() does.
+bool is_of_unfinished_run(const std::filesystem::path& file);
 
 }  // namespace nysalt::program

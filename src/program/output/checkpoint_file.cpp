@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "checkpoint_file.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <boost/crc.hpp>
 #include <fstream>
@@ -41,6 +42,38 @@ std::string first_line(std::istream& input) {
   return line + '\n';
 }
 
+constexpr std::uintmax_t most = std::uintmax_t{1} << 30U;  // bytes of numbers
+
+/// Bytes of numbers of a file of that first line. Throws refusal unless they may be read.
+std::uintmax_t bytes_of_numbers(const std::filesystem::path& file, std::size_t line) {
+  std::error_code failure;
+  const std::size_t end = last_line({}).size();
+  const std::uintmax_t size = std::filesystem::file_size(file, failure);
+  if (failure || size < line + end) refuse_edited_checkpoint(file);
+  const std::uintmax_t bytes = size - line - end;
+  if (bytes > most) {
+    refuse("cannot read {}: the numbers of a checkpoint must be at most {} MB, got {} MB; name another file",
+           file.string(), most >> 20U, bytes >> 20U);
+  }
+  if (bytes % sizeof(double) != 0) refuse_edited_checkpoint(file);
+  return bytes;
+}
+
+/// Whether the last line is of all before it. What was read is the first line.
+bool is_whole(std::istream& input, const std::string& line, std::uintmax_t bytes) {
+  boost::crc_32_type sum;
+  sum.process_bytes(line.data(), line.size());
+  std::string block;
+  for (std::uintmax_t left = bytes; left > 0 && input; left -= block.size()) {
+    block.resize(std::min<std::uintmax_t>(left, std::uintmax_t{1} << 20U));
+    input.read(block.data(), static_cast<std::streamsize>(block.size()));
+    sum.process_bytes(block.data(), block.size());
+  }
+  std::string found(last_line(sum).size(), '\0');
+  input.read(found.data(), static_cast<std::streamsize>(found.size()));
+  return input && found == last_line(sum);
+}
+
 }  // namespace
 
 void write_checkpoint_file(const std::filesystem::path& file, const json& head,
@@ -49,6 +82,13 @@ void write_checkpoint_file(const std::filesystem::path& file, const json& head,
   all.update(head);
   std::string text = all.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
   const auto bytes = std::as_bytes(numbers);
+  if (bytes.size() > most || !may_be_parsed(text)) {
+    refuse(
+        "cannot write {}: a checkpoint must be at most {} MB of numbers and {} MB of text, got {} and {} MB; "
+        "take "
+        "fewer trajectories at a time, or leave --checkpoint out",
+        file.string(), most >> 20U, longest_document >> 20U, bytes.size() >> 20U, text.size() >> 20U);
+  }
   text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   boost::crc_32_type sum;
   sum.process_bytes(text.data(), text.size());
@@ -58,7 +98,7 @@ void write_checkpoint_file(const std::filesystem::path& file, const json& head,
   out.commit(true);
 }
 
-checkpoint_file read_checkpoint_file(const std::filesystem::path& file, const std::string& command) {
+json head_of_checkpoint(const std::filesystem::path& file, const std::string& command) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
     refuse("cannot resume from {}: there is no such checkpoint; leave --resume out to begin", file.string());
@@ -76,30 +116,22 @@ checkpoint_file read_checkpoint_file(const std::filesystem::path& file, const st
         "nysalt",
         file.string(), file_version.dump(), version_of_checkpoint);
   }
-  constexpr std::uintmax_t most = std::uintmax_t{1} << 30U;  // bytes of numbers
-  boost::crc_32_type sum;
-  const std::size_t end = last_line(sum).size();
-  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
-  if (ignored || size < line.size() + end) refuse_edited_checkpoint(file);
-  const std::uintmax_t bytes = size - line.size() - end;
-  if (bytes > most) {
-    refuse("cannot read {}: the numbers of a checkpoint must be at most {} MB, got {} MB; name another file",
-           file.string(), most >> 20U, bytes >> 20U);
-  }
-  if (bytes % sizeof(double) != 0) refuse_edited_checkpoint(file);
-  checkpoint_file result{std::move(head), std::vector<double>(bytes / sizeof(double))};
-  input.read(reinterpret_cast<char*>(result.numbers.data()), static_cast<std::streamsize>(bytes));
-  sum.process_bytes(line.data(), line.size());
-  sum.process_bytes(result.numbers.data(), bytes);
-  std::string found(end, '\0');
-  input.read(found.data(), static_cast<std::streamsize>(end));
-  if (!input || found != last_line(sum)) refuse_edited_checkpoint(file);
-  const json of_command = result.head.value("command", json("run"));  // older ones do not say
+  if (!is_whole(input, line, bytes_of_numbers(file, line.size()))) refuse_edited_checkpoint(file);
+  const json of_command = head.value("command", json("run"));  // older ones do not say
   if (of_command != command) {
     refuse("{} must be a checkpoint of nysalt {}, got {}; name another file", file.string(), command,
            of_command.is_string() ? of_command.get<std::string>() : "another kind");
   }
-  return result;
+  return head;
+}
+
+std::vector<double> numbers_of_checkpoint(const std::filesystem::path& file) {
+  std::ifstream input(file, std::ios::binary);
+  const std::uintmax_t bytes = bytes_of_numbers(file, first_line(input).size());
+  std::vector<double> numbers(bytes / sizeof(double));
+  input.read(reinterpret_cast<char*>(numbers.data()), static_cast<std::streamsize>(bytes));
+  if (!input) refuse_edited_checkpoint(file);
+  return numbers;
 }
 
 void refuse_edited_checkpoint(const std::filesystem::path& file) {

@@ -11,19 +11,20 @@
 
 namespace nysalt::program {
 
-/// A file of one line of JSON, doubles (the least byte first), and a line with the CRC-32 of all before it.
-struct checkpoint_file {
-  json head;  // beside what is its own: `command`, `question` (all that decides the bytes of the output)
-  std::vector<double> numbers;
-};
-
-/// Throws std::runtime_error if the checkpoint cannot be written; then an older one is as it was. The
-/// checkpoint is on the disk when the function returns, for which some milliseconds go by.
+/// Throws std::runtime_error if the checkpoint cannot be written, and refusal if the checkpoint would be too
+/// large to be read; then an older one is as it was. The checkpoint is on the disk when the function returns,
+/// for which some milliseconds go by. The file has one line of JSON, doubles (the least byte first), and a
+/// line with the CRC-32 of all before it.
 void write_checkpoint_file(const std::filesystem::path& file, const json& head,
                            std::span<const double> numbers);
 
-/// Throws refusal for what is no checkpoint of that command, not whole, edited, or of a newer format.
-checkpoint_file read_checkpoint_file(const std::filesystem::path& file, const std::string& command);
+/// The line of JSON of a checkpoint, beside what is its own: `command`, `question` (all that decides the
+/// bytes of the output). Throws refusal for what is no checkpoint of that command, not whole, edited, or of a
+/// newer format. Memory: of the line alone.
+json head_of_checkpoint(const std::filesystem::path& file, const std::string& command);
+
+/// The doubles of a checkpoint; to be read when the question was compared.
+std::vector<double> numbers_of_checkpoint(const std::filesystem::path& file);
 
 /// For a file that is whole, but not of a run.
 [[noreturn]] void refuse_edited_checkpoint(const std::filesystem::path& file);

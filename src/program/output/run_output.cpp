@@ -54,7 +54,7 @@ run_output::~run_output() {
 }
 
 void run_output::make_part(const json& question) {
-  if (is_there(checkpoint_) && !read_checkpoint(checkpoint_).finished) {
+  if (is_there(checkpoint_) && is_of_unfinished_run(checkpoint_)) {
     refuse(
         "cannot write {}: the checkpoint is of a run that was stopped; take --resume to go on with the run, "
         "or remove the file to begin anew",
@@ -89,8 +89,7 @@ void run_output::lay_out() {
 }
 
 void run_output::go_on(const json& question) {
-  state_ = read_checkpoint(checkpoint_);
-  require_question(state_.question, question, checkpoint_);
+  state_ = read_checkpoint(checkpoint_, question);
   const json name = as_kept(std::filesystem::path(output_).filename().string());
   if (!state_.output.empty() && state_.output != name) {
     refuse("--output must be {}, as in the run of {}, got {}", state_.output, checkpoint_.string(), output_);

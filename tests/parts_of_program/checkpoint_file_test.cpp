@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSL-1.0
+// What is written as a checkpoint can be read again: what would be too large for that is refused before.
+#include <boost/test/unit_test.hpp>
+
+#include <sys/mman.h>
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "../support/refusal.hpp"
+#include "../support/scratch.hpp"
+#include "comparison/refusal.hpp"
+#include "program/output/checkpoint_file.hpp"
+
+using namespace nysalt;
+using namespace nysalt::program;
+using namespace nysalt::test;
+
+BOOST_AUTO_TEST_CASE(what_is_written_is_read_again) {
+  const scratch folder("checkpoint_file");
+  const std::vector<double> numbers{0.5, -1.0, 3.0};
+  write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 7}}, numbers);
+  BOOST_TEST(head_of_checkpoint(folder / "c", "run").at("question") == 7);
+  BOOST_TEST(numbers_of_checkpoint(folder / "c") == numbers, boost::test_tools::per_element());
+}
+
+// Numbers that nobody may read: their count is what is asked.
+BOOST_AUTO_TEST_CASE(what_is_too_large_to_be_read_is_not_written) {
+  const scratch folder("checkpoint_file_large");
+  constexpr std::size_t count = (std::size_t{1} << 27U) + 1;
+  void* nothing =
+      mmap(nullptr, count * sizeof(double), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  BOOST_TEST_REQUIRE(nothing != MAP_FAILED);
+  const std::span<const double> numbers(static_cast<const double*>(nothing), count);
+  BOOST_TEST(refuses<refusal>(
+      [&] {
+        write_checkpoint_file(folder / "c", {{"command", "run"}}, numbers);
+      },
+      {"must be at most 1024 MB of numbers", "take fewer trajectories"}));
+  munmap(nothing, count * sizeof(double));
+  const std::string text(std::size_t{1} << 26U, 'a');
+  BOOST_TEST(refuses<refusal>(
+      [&] {
+        write_checkpoint_file(folder / "c", {{"command", text}}, {});
+      },
+      {"64 MB of text", "leave --checkpoint out"}));
+  BOOST_TEST(folder.files().empty());
+}
