@@ -38,7 +38,7 @@ TEXTS = {
     "large": lambda: "q1,q2,q3,q4,q5,q6\n" + "1,2,3,4,5,6\n" * (100 * MB // 12),
     "endless": None,  # /dev/zero
 }
-COMPARE = ["compare", "--methods", "verlet", "--steps", "0.1", "--trajectories", "2", "--horizon", "0.1", "--threads", "1"]
+COMPARE = ["compare", "--methods", "verlet", "--steps", "0.01", "--trajectories", "2", "--horizon", "0.1", "--threads", "1"]
 JOURNAL = "race/journal.jsonl"
 RUN = ["run", "--method", "verlet", "--step", "0.01", "--horizon", "0.1", "--threads", "1"]
 

@@ -126,11 +126,8 @@ hmc_state state_in(const sample_command& command, const json& question, kept_dra
       const std::int64_t drawn = draws_before(command, state.trajectories);
       const std::size_t of_draws =
           static_cast<std::size_t>(command.chains) * static_cast<std::size_t>(drawn) * draws.scalars();
-      state.numbers = numbers_of_checkpoint(command.checkpoint);
-      if (drawn > command.draws || of_chains > state.numbers.size() ||
-          state.numbers.size() - of_chains != of_draws) {
-        throw std::out_of_range("numbers");
-      }
+      if (drawn > command.draws) throw std::out_of_range("trajectories");
+      state.numbers = numbers_of_checkpoint(command.checkpoint, of_chains + of_draws);
       draws.restore(std::span(state.numbers).last(of_draws), drawn);
       state.numbers.resize(of_chains);
     } catch (const refusal&) {

@@ -56,13 +56,13 @@ checkpoint state_of(const json& head) {
 void require_sound(const checkpoint& state) {
   const std::int64_t trajectories = count_in(state.question.at("trajectories"));
   const std::int64_t steps = count_in(state.question.at("steps"));
-  const auto& [step, numbers, batch] = state.at.batch;
+  const std::int64_t step = state.at.batch.step;
+  const auto& batch = state.at.batch.diverged_at;
   const bool is_of_it = std::ranges::all_of(state.lost, [&](const diverged_trajectory& one) {
     return one.trajectory < trajectories && one.step <= steps;
   });
   const bool is_no_cut = step % steps_between_checks != 0 && step != steps;
-  if (state.at.first > trajectories - std::ssize(batch) || step > steps || is_no_cut || !is_of_it ||
-      numbers.size() % std::max<std::size_t>(batch.size(), 1) != 0) {
+  if (state.at.first > trajectories - std::ssize(batch) || step > steps || is_no_cut || !is_of_it) {
     throw std::out_of_range("checkpoint");
   }
 }
@@ -73,13 +73,15 @@ void write_checkpoint(const std::filesystem::path& file, const checkpoint& state
   write_checkpoint_file(file, head_of(state), state.at.batch.numbers);
 }
 
-checkpoint read_checkpoint(const std::filesystem::path& file, const json& question) {
+checkpoint read_checkpoint(const std::filesystem::path& file, const json& question, std::int64_t dimension) {
   const json head = head_of_checkpoint(file, "run");
   try {
     checkpoint state = state_of(head);
     require_question(state.question, question, file);
-    state.at.batch.numbers = numbers_of_checkpoint(file);
     require_sound(state);
+    const std::size_t of_trajectory = 3 * static_cast<std::size_t>(dimension);  // q, p and force
+    state.at.batch.numbers =
+        numbers_of_checkpoint(file, state.at.batch.diverged_at.size() * of_trajectory);
     return state;
   } catch (const refusal&) {
     throw;

@@ -30,8 +30,9 @@ struct checkpoint {
 /// As write_checkpoint_file().
 void write_checkpoint(const std::filesystem::path& file, const checkpoint& state);
 
-/// Throws refusal as head_of_checkpoint() and require_question() do.
-checkpoint read_checkpoint(const std::filesystem::path& file, const json& question);
+/// Of a run of a system with so many coordinates. Throws refusal as head_of_checkpoint(), require_question()
+/// and numbers_of_checkpoint() do.
+checkpoint read_checkpoint(const std::filesystem::path& file, const json& question, std::int64_t dimension);
 
 /// Whether a checkpoint is of a run that is not finished. Throws refusal as head_of_checkpoint() does.
 bool is_of_unfinished_run(const std::filesystem::path& file);

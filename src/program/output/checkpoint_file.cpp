@@ -47,7 +47,7 @@ constexpr std::uintmax_t most = std::uintmax_t{1} << 30U;  // bytes of numbers
 /// Bytes of numbers of a file of that first line. Throws refusal unless they may be read.
 std::uintmax_t bytes_of_numbers(const std::filesystem::path& file, std::size_t line) {
   std::error_code failure;
-  const std::size_t end = last_line({}).size();
+  const std::size_t end = last_line(boost::crc_32_type()).size();
   const std::uintmax_t size = std::filesystem::file_size(file, failure);
   if (failure || size < line + end) refuse_edited_checkpoint(file);
   const std::uintmax_t bytes = size - line - end;
@@ -125,10 +125,11 @@ json head_of_checkpoint(const std::filesystem::path& file, const std::string& co
   return head;
 }
 
-std::vector<double> numbers_of_checkpoint(const std::filesystem::path& file) {
+std::vector<double> numbers_of_checkpoint(const std::filesystem::path& file, std::size_t count) {
   std::ifstream input(file, std::ios::binary);
   const std::uintmax_t bytes = bytes_of_numbers(file, first_line(input).size());
-  std::vector<double> numbers(bytes / sizeof(double));
+  if (bytes / sizeof(double) != count) refuse_edited_checkpoint(file);
+  std::vector<double> numbers(count);
   input.read(reinterpret_cast<char*>(numbers.data()), static_cast<std::streamsize>(bytes));
   if (!input) refuse_edited_checkpoint(file);
   return numbers;

@@ -2,6 +2,7 @@
 // A checkpoint as a file: what was asked, and where the work is.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -23,8 +24,9 @@ void write_checkpoint_file(const std::filesystem::path& file, const json& head,
 /// newer format. Memory: of the line alone.
 json head_of_checkpoint(const std::filesystem::path& file, const std::string& command);
 
-/// The doubles of a checkpoint; to be read when the question was compared.
-std::vector<double> numbers_of_checkpoint(const std::filesystem::path& file);
+/// The doubles of a checkpoint, `count` of them; to be read when the question was compared. Throws refusal
+/// for another count, before any is read.
+std::vector<double> numbers_of_checkpoint(const std::filesystem::path& file, std::size_t count);
 
 /// For a file that is whole, but not of a run.
 [[noreturn]] void refuse_edited_checkpoint(const std::filesystem::path& file);

@@ -41,7 +41,7 @@ run_output::run_output(const planned_run& planned, bool as_json)
     });
   }
   if (command.resume) {
-    go_on(planned.question());
+    go_on(planned.question(), planned.system->dimension());
   } else if (is_of_arrays_ || !checkpoint_.empty()) {
     make_part(planned.question());
   } else if (!output_.empty()) {
@@ -88,8 +88,8 @@ void run_output::lay_out() {
   save({});
 }
 
-void run_output::go_on(const json& question) {
-  state_ = read_checkpoint(checkpoint_, question);
+void run_output::go_on(const json& question, std::int64_t dimension) {
+  state_ = read_checkpoint(checkpoint_, question, dimension);
   const json name = as_kept(std::filesystem::path(output_).filename().string());
   if (!state_.output.empty() && state_.output != name) {
     refuse("--output must be {}, as in the run of {}, got {}", state_.output, checkpoint_.string(), output_);

@@ -53,7 +53,7 @@ class run_output {
  private:
   void make_part(const json& question);
   void lay_out();
-  void go_on(const json& question);
+  void go_on(const json& question, std::int64_t dimension);
   void reached(const run_progress& at);
   void save(const run_progress& at);
 
