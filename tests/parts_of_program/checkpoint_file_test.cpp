@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(what_is_too_large_to_be_read_is_not_written) {
       [&] {
         write_checkpoint_file(folder / "c", {{"command", "run"}}, numbers);
       },
-      {"must be at most 1024 MB of numbers", "take fewer trajectories"}));
+      {"must hold at most 1024 MB of numbers", "take fewer trajectories"}));
   munmap(nothing, count * sizeof(double));
   const std::string text(std::size_t{1} << 26U, 'a');
   BOOST_TEST(refuses<refusal>(

@@ -24,8 +24,8 @@ integrated_time integrated_autocorrelation_time(std::span<const double> rho);
 
 /// The independent samples that would give a mean the error of `samples` samples along a trajectory,
 /// samples/tau; NaN where the lags were not enough. Of tau measured on these samples the standard error is
-/// about tau sqrt((4 W + 2)/samples) [sokal_1997]; tau counts as two such errors at least, with memory for
-/// tau, as an estimate that noise makes small would promise a mean that nobody has.
+/// about tau sqrt((4 W + 2)/samples) [sokal_1997]. tau counts as two such errors at least, with memory in
+/// place of tau: an estimate that noise makes too small would make the error of the mean too small.
 double effective_sample_size(double samples, const integrated_time& time);
 
 }  // namespace nysalt

@@ -80,8 +80,7 @@ checkpoint read_checkpoint(const std::filesystem::path& file, const json& questi
     require_question(state.question, question, file);
     require_sound(state);
     const std::size_t of_trajectory = 3 * static_cast<std::size_t>(dimension);  // q, p and force
-    state.at.batch.numbers =
-        numbers_of_checkpoint(file, state.at.batch.diverged_at.size() * of_trajectory);
+    state.at.batch.numbers = numbers_of_checkpoint(file, state.at.batch.diverged_at.size() * of_trajectory);
     return state;
   } catch (const refusal&) {
     throw;

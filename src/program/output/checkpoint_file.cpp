@@ -42,7 +42,7 @@ std::string first_line(std::istream& input) {
   return line + '\n';
 }
 
-constexpr std::uintmax_t most = std::uintmax_t{1} << 30U;  // bytes of numbers
+constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30U;  // of numbers
 
 /// Bytes of numbers of a file of that first line. Throws refusal unless they may be read.
 std::uintmax_t bytes_of_numbers(const std::filesystem::path& file, std::size_t line) {
@@ -51,9 +51,9 @@ std::uintmax_t bytes_of_numbers(const std::filesystem::path& file, std::size_t l
   const std::uintmax_t size = std::filesystem::file_size(file, failure);
   if (failure || size < line + end) refuse_edited_checkpoint(file);
   const std::uintmax_t bytes = size - line - end;
-  if (bytes > most) {
+  if (bytes > most_bytes) {
     refuse("cannot read {}: the numbers of a checkpoint must be at most {} MB, got {} MB; name another file",
-           file.string(), most >> 20U, bytes >> 20U);
+           file.string(), most_bytes >> 20U, bytes >> 20U);
   }
   if (bytes % sizeof(double) != 0) refuse_edited_checkpoint(file);
   return bytes;
@@ -82,12 +82,11 @@ void write_checkpoint_file(const std::filesystem::path& file, const json& head,
   all.update(head);
   std::string text = all.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
   const auto bytes = std::as_bytes(numbers);
-  if (bytes.size() > most || !may_be_parsed(text)) {
+  if (bytes.size() > most_bytes || !may_be_parsed(text)) {
     refuse(
-        "cannot write {}: a checkpoint must be at most {} MB of numbers and {} MB of text, got {} and {} MB; "
-        "take "
-        "fewer trajectories at a time, or leave --checkpoint out",
-        file.string(), most >> 20U, longest_document >> 20U, bytes.size() >> 20U, text.size() >> 20U);
+        "cannot write {}: a checkpoint must hold at most {} MB of numbers and {} MB of text, got {} and {} "
+        "MB; take fewer trajectories, or leave --checkpoint out",
+        file.string(), most_bytes >> 20U, longest_document >> 20U, bytes.size() >> 20U, text.size() >> 20U);
   }
   text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   boost::crc_32_type sum;
