@@ -9,9 +9,9 @@ inline std::size_t allocations = 0;
 inline std::size_t allocated_bytes = 0;  // whether given back or not
 }  // namespace nysalt::test
 
-// ThreadSanitizer wraps malloc itself, and crashes where others do: under it nothing is counted.
+// Sanitizers wrap malloc themselves, and crash where others do: under them nothing is counted.
 #if defined __has_feature
-#if __has_feature(thread_sanitizer)
+#if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
 #define NYSALT_COUNTS_NO_ALLOCATIONS
 #endif
 #endif
