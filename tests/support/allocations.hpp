@@ -4,19 +4,15 @@
 
 #include <cstddef>
 
+#include "sanitizers.hpp"
+
 namespace nysalt::test {
 inline std::size_t allocations = 0;
 inline std::size_t allocated_bytes = 0;  // whether given back or not
 }  // namespace nysalt::test
 
 // Sanitizers wrap malloc themselves, and crash where others do: under them nothing is counted.
-#if defined __has_feature
-#if __has_feature(thread_sanitizer) || __has_feature(address_sanitizer)
-#define NYSALT_COUNTS_NO_ALLOCATIONS
-#endif
-#endif
-
-#if !defined NYSALT_COUNTS_NO_ALLOCATIONS
+#if !defined NYSALT_ADDRESS_SANITIZER && !defined NYSALT_THREAD_SANITIZER
 // Eigen's storage comes from malloc, and so does that of operator new. glibc lets a program wrap it by name.
 extern "C" void* __libc_malloc(std::size_t);
 extern "C" [[gnu::visibility("default")]] void* malloc(std::size_t size) {
