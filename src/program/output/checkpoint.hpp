@@ -30,8 +30,8 @@ struct checkpoint {
 /// As write_checkpoint_file().
 void write_checkpoint(const std::filesystem::path& file, const checkpoint& state);
 
-/// Of a run of a system with so many coordinates. Throws refusal as head_of_checkpoint(), require_question()
-/// and numbers_of_checkpoint() do.
+/// Checkpoint of a run of a system with `dimension` coordinates. Throws refusal as head_of_checkpoint(),
+/// require_question() and numbers_of_checkpoint() do.
 checkpoint read_checkpoint(const std::filesystem::path& file, const json& question, std::int64_t dimension);
 
 /// Whether a checkpoint is of a run that is not finished. Throws refusal as head_of_checkpoint() does.

@@ -21,7 +21,7 @@ void write_checkpoint_file(const std::filesystem::path& file, const json& head,
 
 /// The line of JSON of a checkpoint, beside what is its own: `command`, `question` (all that decides the
 /// bytes of the output). Throws refusal for what is no checkpoint of that command, not whole, edited, or of a
-/// newer format. Memory: of the line alone.
+/// newer format. Memory: that of the line.
 json head_of_checkpoint(const std::filesystem::path& file, const std::string& command);
 
 /// The doubles of a checkpoint, `count` of them; to be read when the question was compared. Throws refusal
