@@ -35,11 +35,18 @@ std::string last_line(const boost::crc_32_type& sum) {
 
 /// The first line, with its end; empty if it is none of ours.
 std::string first_line(std::istream& input) {
-  std::string line(longest_document + 1, '\0');
-  input.getline(line.data(), static_cast<std::streamsize>(line.size()));
-  if (!input || input.eof()) return {};  // no end of a line, within what may be parsed
-  line.resize(static_cast<std::size_t>(input.gcount()) - 1);
-  return line + '\n';
+  std::string line;
+  std::string block(std::size_t{1} << 12U, '\0');
+  while (line.size() <= longest_document) {
+    input.getline(block.data(), static_cast<std::streamsize>(block.size()));
+    if (input.eof() || input.bad()) return {};  // no end of a line
+    const auto count = static_cast<std::size_t>(input.gcount());
+    if (input.good()) return line.append(block, 0, count - 1) + '\n';
+    line.append(block, 0, count);  // there is more
+    input.clear();
+    if (count == 0) return {};
+  }
+  return {};
 }
 
 constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30U;  // of numbers
