@@ -11,8 +11,18 @@ inline std::size_t allocations = 0;
 inline std::size_t allocated_bytes = 0;  // whether given back or not
 }  // namespace nysalt::test
 
-// Sanitizers wrap malloc themselves, and crash where others do: under them nothing is counted.
-#if !defined NYSALT_ADDRESS_SANITIZER && !defined NYSALT_THREAD_SANITIZER
+#if defined NYSALT_ADDRESS_SANITIZER
+// AddressSanitizer wraps malloc itself, and crashes where others do: it tells of each allocation.
+#include <sanitizer/allocator_interface.h>
+namespace nysalt::test {
+inline void count_allocation(const volatile void*, std::size_t size) {
+  ++allocations;
+  allocated_bytes += size;
+}
+inline void count_nothing(const volatile void*) {}
+inline const int installed = __sanitizer_install_malloc_and_free_hooks(count_allocation, count_nothing);
+}  // namespace nysalt::test
+#elif !defined NYSALT_THREAD_SANITIZER
 // Eigen's storage comes from malloc, and so does that of operator new. glibc lets a program wrap it by name.
 extern "C" void* __libc_malloc(std::size_t);
 extern "C" [[gnu::visibility("default")]] void* malloc(std::size_t size) {
