@@ -65,7 +65,7 @@ class InACopy(unittest.TestCase):
             "--steps names {} twice": None,
             "{} is being written by another run: wait for it": None,
             "{}: it is mustard": None,
-            "0 lags cannot be": None,
+            "lags of 0 are refused": None,
             "what is unknown '{}'": None,
         }.items():
             with self.subTest(text):

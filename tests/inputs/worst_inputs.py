@@ -38,7 +38,7 @@ TEXTS = {
     "large": lambda: "q1,q2,q3,q4,q5,q6\n" + "1,2,3,4,5,6\n" * (100 * MB // 12),
     "endless": None,  # /dev/zero
 }
-COMPARE = ["compare", "--methods", "verlet", "--steps", "0.01", "--trajectories", "2", "--horizon", "0.1", "--threads", "1"]
+COMPARE = ["compare", "--methods", "verlet", "--steps", "0.01", "--trajectories", "2", "--horizon", "0.1", "--threads", "1", "--output", "race"]
 JOURNAL = "race/journal.jsonl"
 RUN = ["run", "--method", "verlet", "--step", "0.01", "--horizon", "0.1", "--threads", "1"]
 
@@ -55,7 +55,7 @@ def commands_of_file(name):
     yield "checkpoint", [*RUN, "--output", "out.csv", "--checkpoint", name, "--every", "10", "--resume"]
     yield "system", [*RUN, "--system", name]
     yield "report", ["cite", name]
-    yield "journal", [*COMPARE, "--output", "race", "--resume"]
+    yield "journal", [*COMPARE, "--resume"]
 
 
 ENDINGS = {"options": ".toml", "starts": ".csv", "data": ".csv", "checkpoint": "", "system": ".hpp", "report": ".json"}
@@ -108,8 +108,8 @@ def long_and_right():
         *RUN, "--system", "logistic_regression", "--data"]
 
 
-def of_checkpoint(head, numbers):
-    """A checkpoint of that line, and of so many numbers, zeros, with the right CRC, as a file with a hole."""
+def checkpoint_writer(head, numbers):
+    """A function that writes a checkpoint to a path: the line `head`, `numbers` zeros (a sparse file), the right CRC."""
     end = zlib.crc32(head)
     for _ in range(numbers * 8 // MB):
         end = zlib.crc32(bytes(MB), end)
@@ -122,8 +122,8 @@ def of_checkpoint(head, numbers):
     return write
 
 
-def kept_and_edited():
-    """Journals and checkpoints of the program's own, at their bounds: (kind, name, path, writer, arguments)."""
+def journals_and_checkpoints_at_bounds():
+    """Journals and checkpoints that the program wrote, edited until they are as large as may be read: (kind, name, path, writer, arguments)."""
     # A gnuplot that draws nothing keeps a copy of the journal, which goes when the report is there.
     fake = os.path.join(FOLDER, "bin")
     os.makedirs(fake)
@@ -132,7 +132,7 @@ def kept_and_edited():
     os.chmod(os.path.join(fake, "gnuplot"), 0o755)
     quiet = {"cwd": FOLDER, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     shutil.rmtree(os.path.join(FOLDER, "race"), ignore_errors=True)
-    subprocess.run([PROGRAM, *COMPARE, "--output", "race"], check=True,
+    subprocess.run([PROGRAM, *COMPARE], check=True,
                    env={**os.environ, "PATH": f"{fake}:{os.environ['PATH']}"}, **quiet)
     shutil.rmtree(os.path.join(FOLDER, "race"))
     checkpointed = [*RUN, "--output", "out.csv", "--checkpoint", "kept_checkpoint", "--every", "10"]
@@ -156,7 +156,6 @@ def kept_and_edited():
                 file.write("\n".join([head, *lines]) + "\n")
         return write
 
-    resume = [*COMPARE, "--output", "race", "--resume"]
     numbers = [0.1] * (most - 100)
     texts = ["0123456789" * 6] * (60 * MB // 64)
     names = {f"n{i}": 1 for i in range(20_000)}
@@ -168,8 +167,7 @@ def kept_and_edited():
         "four of the longest lists": [part([1] * (most - 100))] * 4,
         "the most parts": [json.dumps({"part": f"p{i}", "result": 1}) for i in range(100_000)],
     }.items():
-        yield "journal", name, JOURNAL, journal(*lines), resume
-    again = [*RUN, "--output", "out.csv", "--checkpoint", "kept_checkpoint", "--every", "10", "--resume"]
+        yield "journal", name, JOURNAL, journal(*lines), [*COMPARE, "--resume"]
     unfinished = {**line, "finished": False, "step": 0}
     for name, more, count in (
         ("the most numbers", {}, 1 << 27),
@@ -178,7 +176,7 @@ def kept_and_edited():
         ("the longest question", {"question": {**line["question"], "system": texts}}, 1 << 27),
     ):
         text = json.dumps({**unfinished, **more}, separators=(",", ":")).encode() + b"\n"
-        yield "checkpoint", name, "kept_checkpoint", of_checkpoint(text, count), again
+        yield "checkpoint", name, "kept_checkpoint", checkpoint_writer(text, count), [*checkpointed, "--resume"]
 
 
 def limit():
@@ -239,17 +237,16 @@ def main():
             shown = [one if len(one) < 60 else one[:57] + "..." for one in arguments]
             print(f"{kind}, {name}: {problem}: {' '.join(shown)}", file=sys.stderr, flush=True)
 
+    os.makedirs(os.path.join(FOLDER, os.path.dirname(JOURNAL)))
     for name, text in list(TEXTS.items())[:1 if SOME else None]:
         for kind, _ in commands_of_file(""):
             path = "/dev/zero"
             if text is not None:
                 path = PLACES.get(kind, "input" + ENDINGS.get(kind, ".json"))
-                os.makedirs(os.path.join(FOLDER, "race"), exist_ok=True)
                 with open(os.path.join(FOLDER, path), "w", encoding="latin-1") as file:
                     file.write(text())
             elif kind in ("system", "journal"):
                 path = PLACES.get(kind, "zero.hpp")
-                os.makedirs(os.path.join(FOLDER, "race"), exist_ok=True)
                 if os.path.exists(os.path.join(FOLDER, path)):
                     os.remove(os.path.join(FOLDER, path))
                 os.symlink("/dev/zero", os.path.join(FOLDER, path))
@@ -260,7 +257,7 @@ def main():
         with open(os.path.join(FOLDER, path), "w", encoding="utf-8") as file:
             file.write(text)
         note(kind, "long and right", [*arguments, path])
-    for kind, name, path, write, arguments in [] if SOME else kept_and_edited():
+    for kind, name, path, write, arguments in [] if SOME else journals_and_checkpoints_at_bounds():
         write(os.path.join(FOLDER, path))
         note(kind, name, arguments)
     for kind, arguments in [] if SOME else commands_of_text():

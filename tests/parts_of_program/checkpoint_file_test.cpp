@@ -27,7 +27,7 @@ BOOST_AUTO_TEST_CASE(what_is_written_is_read_again) {
   BOOST_TEST(refuses<refusal>([&] { numbers_of_checkpoint(folder / "c", 2); }, {"was edited"}));
 }
 
-// Numbers that nobody may read: their count is what is asked.
+// Memory that may not be read (PROT_NONE): the size is refused before any number is read.
 BOOST_AUTO_TEST_CASE(what_is_too_large_to_be_read_is_not_written) {
   const scratch folder("checkpoint_file_large");
   constexpr std::size_t count = (std::size_t{1} << 27U) + 1;
