@@ -30,7 +30,7 @@ nysalt sample --system logistic_regression --data patients.csv --variance 4 --di
 # scalar          mean  standard error  deviation  effective draws  per 1000 evaluations      R
 # ---------  ---------  --------------  ---------  ---------------  --------------------  -----
 # potential     115.05         2.7e-02      1.226             2101                   111  1.002
-# q1         -0.083132         1.7e-03     0.1595             8903                   470  1.000
+# q1         -0.083132         1.8e-03     0.1595             8033                   424  1.000
 # q2            1.1341         2.4e-03     0.1824             5994                   316  1.000
 # q3           0.32083         2.0e-03      0.163             6771                   358  1.000
 # R is below 1.01 for all: the chains agree
