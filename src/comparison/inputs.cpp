@@ -49,6 +49,11 @@ void note_input(const std::filesystem::path& file) {
   all().insert(whole(file));
 }
 
+void forget_inputs() {
+  const std::lock_guard lock(guard);
+  all().clear();
+}
+
 bool is_input(const std::filesystem::path& file) {
   const std::lock_guard lock(guard);
   return all().contains(whole(file));

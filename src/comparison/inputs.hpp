@@ -17,6 +17,9 @@ bool is_there(const std::filesystem::path& file);
 /// Notes a file that is about to be read, which must be readable. Thread-safe.
 void note_input(const std::filesystem::path& file);
 
+/// Where a process begins with another command line.
+void forget_inputs();
+
 /// Whether the path leads to a file that was read.
 bool is_input(const std::filesystem::path& file);
 

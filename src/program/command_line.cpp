@@ -4,12 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "build_info.hpp"
 #include "command_text.hpp"
 #include "commands.hpp"
 #include "comparison/checks.hpp"
@@ -17,6 +15,7 @@
 #include "comparison/refusal.hpp"
 #include "mpi_session.hpp"
 #include "nysalt/detail/collectively.hpp"
+#include "options/shared_options.hpp"
 #include "options/subcommand.hpp"
 #include "options_file.hpp"
 #include "output.hpp"
@@ -85,12 +84,8 @@ int run_command_line(int argc, char** argv) {
   common.command = command_text(argc, argv);
   CLI::App app("Learned symplectic integrators: learn one for a system and a step, run it, compare it.",
                "nysalt");
-  app.set_version_flag("--version", version);
   app.require_subcommand(0, 1);
-  app.get_formatter()->column_width(34);
-  app.set_config("--config", "", "TOML file of options, as typed without the dashes");
-  app.config_formatter(std::make_shared<options_file>(app));
-  app.allow_config_extras(CLI::config_extras_mode::error);
+  add_of_program(app);
   const std::vector<subcommand> all = offer_all(app, common);
   for (auto* command : app.get_subcommands({})) {
     command->footer("--config FILE holds options, as typed without the dashes (TOML).\n\n" +

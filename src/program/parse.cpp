@@ -81,8 +81,10 @@ std::string typed_after(const std::string& name, int argc, char** argv) {
 
 std::optional<std::string> parse(CLI::App& app, int argc, char** argv) {
   if (const std::string file = typed_after("--config", argc, argv); !file.empty()) note_input(file);
-  refuse_empty_texts(app);
-  for (CLI::App* command : app.get_subcommands({})) refuse_empty_texts(*command);
+  if (!app.parsed()) {  // checks stay, and would be made twice of an app that reads a second line
+    refuse_empty_texts(app);
+    for (CLI::App* command : app.get_subcommands({})) refuse_empty_texts(*command);
+  }
   try {
     app.parse(argc, argv);
     return std::nullopt;

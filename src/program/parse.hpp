@@ -12,7 +12,8 @@ namespace nysalt::program {
 std::string typed_after(const std::string& name, int argc, char** argv);
 
 /// The help or the version, if that is asked for; else all options are read. The file of
-/// --config is noted as an input. Throws refusal, also for a text that is empty.
+/// --config is noted as an input. An app may read several lines. Throws refusal, also for a text that is
+/// empty.
 std::optional<std::string> parse(CLI::App& app, int argc, char** argv);
 
 }  // namespace nysalt::program

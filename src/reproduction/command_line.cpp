@@ -2,15 +2,12 @@
 #include "command_line.hpp"
 
 #include <CLI/CLI.hpp>
-#include <memory>
 
-#include "build_info.hpp"
 #include "comparison/checks.hpp"
 #include "program/command_text.hpp"
 #include "program/commands.hpp"
 #include "program/mpi_session.hpp"
 #include "program/options/shared_options.hpp"
-#include "program/options_file.hpp"
 #include "program/output.hpp"
 #include "program/parse.hpp"
 #include "reproduce.hpp"
@@ -23,11 +20,7 @@ int run_command_line(int argc, char** argv) {
   common.command = command_text(argc, argv);
   reproduce_command asked;
   CLI::App app("The paper's tables and figures beside our own.", "nysalt_paper");
-  app.set_version_flag("--version", version);
-  app.get_formatter()->column_width(34);
-  app.set_config("--config", "", "TOML file of options, as typed without the dashes");
-  app.config_formatter(std::make_shared<options_file>(app));
-  app.allow_config_extras(CLI::config_extras_mode::error);
+  add_of_program(app);
   app.add_option("parts", asked.parts, "linear, deterministic, langevin [all; some ten minutes]");
   app.add_option("--output", asked.output, "folder for paper.md, paper.html, paper.json and pictures");
   app.add_flag("--quick", asked.quick, "few trajectories and steps, to see it run");

@@ -2,8 +2,9 @@
 # Each check leaves its outcome in build/check/outcomes; build/check/table.md is all of them, with what was not run.
 
 check() {
-  local what=${1:-all} argument=${2-}
-  (($# <= 2)) || refuse "check takes a name and at most one argument, got $# arguments"
+  local what=${1:-all} argument=${2-} target=${3-}
+  (($# <= 2)) || [[ $# == 3 && $what == fuzz ]] ||
+    refuse "check takes a name and at most one argument, fuzz two, got $# arguments"
   packages+=(clang)
   case $what in
     gcc | clang | address | threads)
@@ -13,10 +14,12 @@ check() {
       recorded "$what" "$piece" check_tests "$what" "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}"
       ;;
     fuzz)
-      local runs=${argument:-20000} target
+      local runs=${argument:-20000}
       [[ $runs =~ ^[1-9][0-9]{0,8}$ ]] || refuse "check fuzz takes a number of inputs, got '$runs'"
+      [[ -z $target || -d tests/fuzz/corpus/$target ]] ||
+        refuse "check fuzz takes a target, one of $(cd tests/fuzz/corpus && echo *), got '$target'"
       build_fuzz_targets
-      for target in tests/fuzz/corpus/*; do
+      for target in tests/fuzz/corpus/${target:-*}; do
         recorded fuzz "${target##*/}" check_fuzz_target "${target##*/}" "$runs"
       done
       ;;

@@ -3,16 +3,22 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "offered_options.hpp"
 #include "program_run.hpp"
 #include "within_reach.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using nysalt::fuzz::run;
-  const std::string text(reinterpret_cast<const char*>(data), size);
-  const nysalt::fuzz::input_file file{"options.toml", nysalt::fuzz::within_reach(text)};
-  run({"--config", file.name, "stability"}, {file});
-  run({"--config", file.name, "run", "--threads", "1"}, {file});
-  if (size % 64 != 0) return 0;  // these are dear
+  using namespace nysalt::fuzz;
+  static offered_options offered;
+  const input_file file{"options.toml", within_reach({reinterpret_cast<const char*>(data), size})};
+  const std::vector<std::string> of_stability{"--config", file.name, "stability"};
+  const std::vector<std::string> of_run{"--config", file.name, "run", "--threads", "1"};
+  const bool is_taken =
+      takes([&] { offered.read(of_stability); }, {file}) | takes([&] { offered.read(of_run); }, {file});
+  if (!is_one_in(is_taken ? 16 : 256, file.text)) return 0;  // commands take a hundred times as long
+  run(of_stability, {file});
+  run(of_run, {file});
+  if (!is_one_in(4096, file.text)) return 0;  // and these ten thousand times
   run({"--config", file.name, "compare", "--threads", "1", "--trajectories", "2", "--learn-trajectories", "2",
        "--json"},
       {file});

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../../src/comparison/inputs.hpp"
 #include "../../src/program/command_line.hpp"
 #include "../../src/program/run_program.hpp"
 #include "../support/scratch.hpp"
@@ -71,24 +72,22 @@ class playground {
   fs::path inner_;
 };
 
-int run_here(const std::vector<std::string>& arguments, std::string& out, std::string& err) {
-  std::vector<std::string> words{"nysalt"};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+remains left_by(program::command_line part, std::vector<std::string> words) {
   std::vector<char*> pointers;
   for (auto& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
+  remains left;
   const caught printed(stdout);
   const caught complained(stderr);
-  const int code =
-      program::exit_code_of(program::run_command_line, static_cast<int>(words.size()), pointers.data());
-  out = printed.text();
-  err = complained.text();
-  return code;
+  left.code = program::exit_code_of(part, static_cast<int>(words.size()), pointers.data());
+  left.out = printed.text();
+  left.err = complained.text();
+  return left;
 }
 
 [[noreturn]] void tell(const std::string& promise, const std::vector<std::string>& arguments,
                        const remains& left) {
-  std::fprintf(stderr, "%s\n  nysalt", promise.c_str());
+  std::fprintf(stderr, "%s\n ", promise.c_str());
   for (const auto& word : arguments) std::fprintf(stderr, " '%s'", word.c_str());
   std::fprintf(stderr, "\n  exit code %d\n  standard error: %s\n  files:", left.code, left.err.c_str());
   for (const auto& name : left.files) std::fprintf(stderr, " %s", name.c_str());
@@ -98,20 +97,40 @@ int run_here(const std::vector<std::string>& arguments, std::string& out, std::s
 
 }  // namespace
 
-void run(const std::vector<std::string>& arguments, const std::vector<input_file>& inputs) {
+namespace {
+
+/// The exit code. Words that begin with "nysalt".
+int tried(program::command_line part, const std::vector<std::string>& words,
+          const std::vector<input_file>& inputs) {
   static const playground folder;
+  program::forget_inputs();
   for (const auto& [name, text] : inputs) std::ofstream(name, std::ios::binary) << text;
   const auto before = folder.files();
-  remains left;
-  left.code = run_here(arguments, left.out, left.err);
+  remains left = left_by(part, words);
   left.files = folder.files();
   for (const auto& [name, text] : inputs) {
     left.inputs_are_whole = left.inputs_are_whole && test::contents(name) == text;
   }
   const std::string promise = broken_promise(left, before);
-  if (!promise.empty()) tell(promise, arguments, left);
+  if (!promise.empty()) tell(promise, words, left);
   ++codes[static_cast<std::size_t>(left.code)];
   for (const auto& name : left.files) folder.remove(name);
+  return left.code;
+}
+
+}  // namespace
+
+void run(const std::vector<std::string>& arguments, const std::vector<input_file>& inputs) {
+  std::vector<std::string> words{"nysalt"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  tried(program::run_command_line, words, inputs);
+}
+
+bool takes(const std::function<void()>& part, const std::vector<input_file>& inputs) {
+  static const std::function<void()>* asked;
+  asked = &part;
+  const auto ask = [](int, char**) { return (*asked)(), 0; };
+  return tried(ask, {"nysalt", "(reading alone)"}, inputs) == 0;
 }
 
 const std::array<long, 4>& tally() { return codes; }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -13,6 +15,15 @@ struct input_file {
   std::string name;
   std::string text;
 };
+
+/// Whether a part of the program that reads takes an input, in a folder that holds these files alone: it
+/// returns or throws. It promises as much as a command: where a promise is broken the process aborts.
+bool takes(const std::function<void()>& part, const std::vector<input_file>& inputs = {});
+
+/// Whether a text is one of those, one in n, for which more is done; the same ones each time.
+inline bool is_one_in(std::size_t n, const std::string& text) {
+  return std::hash<std::string>{}(text) % n == 0;
+}
 
 /// Runs `nysalt arguments` in a folder of its own that holds these files alone. Where the program breaks a
 /// promise it is told on standard error, and the process aborts.

@@ -9,7 +9,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  nysalt::fuzz::run({"stability", "--method", "scheme.json"}, {{"scheme.json", text}});
+  nysalt::fuzz::try_method_file(text);
   const auto document = nlohmann::ordered_json::parse(text, nullptr, false);
   if (document.is_object()) nysalt::fuzz::try_method_file(nysalt::test::forged(text, [](auto&) {}));
   return 0;

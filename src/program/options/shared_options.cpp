@@ -5,16 +5,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "../../plugin/plugin.hpp"
 #include "../bundled_systems.hpp"
 #include "../comma_list.hpp"
+#include "../options_file.hpp"
 #include "comparison/number.hpp"
 #include "number_option.hpp"
 #include "nysalt/losses/loss_choice.hpp"
+#include "nysalt/version.hpp"
 
 namespace nysalt::program {
+
+void add_of_program(CLI::App& program) {
+  program.set_version_flag("--version", version);
+  program.get_formatter()->column_width(34);
+  program.set_config("--config", "", "TOML file of options, as typed without the dashes");
+  program.config_formatter(std::make_shared<options_file>(program));
+  program.allow_config_extras(CLI::config_extras_mode::error);
+}
 
 void add_common(CLI::App& command, common_settings& common) {
   add_number(command, "--seed", common.seed, "of all random numbers");
