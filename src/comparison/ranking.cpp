@@ -253,10 +253,10 @@ std::vector<double> levels_for(const comparison& all, std::size_t m) {
       high = std::max(high, one.error);
     }
   }
+  if (high == 0.0) return {};  // no row has an error, and `low` no logarithm
   std::size_t most = 0;
   std::vector<double> best;
-  for (int decade = static_cast<int>(std::floor(std::log10(low)));
-       high > 0.0 && std::pow(10.0, decade) <= high; ++decade) {
+  for (int decade = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, decade) <= high; ++decade) {
     for (const double digit : {1.0, 2.0, 5.0}) {
       const double level = digit * std::pow(10.0, decade);
       const auto crossing = static_cast<std::size_t>(std::ranges::count_if(by_method, [&](const auto& rows) {
