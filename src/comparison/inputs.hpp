@@ -17,7 +17,7 @@ bool is_there(const std::filesystem::path& file);
 /// Notes a file that is about to be read, which must be readable. Thread-safe.
 void note_input(const std::filesystem::path& file);
 
-/// Where a process begins with another command line.
+/// Forgets the files noted so far, where a process begins with another command line. Thread-safe.
 void forget_inputs();
 
 /// Whether the path leads to a file that was read.

@@ -15,7 +15,7 @@ files=("$corpus"/*)
 [[ -f ${files[0]} ]] || { printf 'fuzz.sh: there is no file in %s\n' "$corpus" >&2; exit 1; }
 mkdir -p "$kept"
 log=$kept.log
-# Without weights by entropy, whose upkeep for so many places takes longer than most inputs.
+# -entropic=0: the entropic power schedule costs more than most inputs, as the program has thousands of features.
 "$program" -runs="$inputs" -entropic=0 -timeout=60 -rss_limit_mb=2048 -max_len=4096 -print_final_stats=1 \
   -artifact_prefix="$kept." "$kept" "$corpus" >"$log" 2>&1 ||
   { tail -n 40 "$log" >&2; exit 1; }
