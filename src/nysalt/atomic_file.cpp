@@ -3,12 +3,15 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/magic.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/statfs.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -68,9 +71,40 @@ void remove_left(const std::filesystem::path& part, const std::filesystem::path&
   if (!is_free) another_writes(target);
 }
 
+/// What a symbolic link leads to, in one step; nothing if the path is no link, or cannot be read.
+std::optional<std::filesystem::path> behind_link(const std::filesystem::path& path) {
+  std::error_code failure;
+  if (!std::filesystem::is_symlink(path, failure)) return {};
+  const auto next = std::filesystem::read_symlink(path, failure);
+  if (failure) return {};
+  return path.parent_path() / next;  // an absolute one replaces all before it
+}
+
+/// Whether the kernel makes what is in a folder: devices, or names of what processes have open. A memory file
+/// system that is mounted below /dev, as /dev/shm, is for files.
+bool is_of_kernel(const std::filesystem::path& folder) {
+  struct statfs system {};
+  if (statfs(folder.c_str(), &system) != 0) return false;
+  if (system.f_type == PROC_SUPER_MAGIC) return true;
+  std::error_code failure;
+  const auto whole = std::filesystem::canonical(folder, failure).string() + '/';
+  if (failure || !whole.starts_with("/dev/")) return false;
+  struct stat here {};
+  struct stat devices {};
+  return system.f_type != TMPFS_MAGIC || stat(folder.c_str(), &here) != 0 || stat("/dev", &devices) != 0 ||
+         here.st_dev == devices.st_dev;
+}
+
+constexpr int longest_chain = 40;  // of links, as many as Linux follows
+
 }  // namespace
 
 std::string objection_to_replacing(const std::filesystem::path& file) {
+  std::optional<std::filesystem::path> name = file;
+  for (int i = 0; i < longest_chain && name; ++i, name = behind_link(*name)) {
+    if (is_of_kernel(name->has_parent_path() ? name->parent_path() : "."))
+      return "it is not a regular file; name another";
+  }
   struct stat found {};
   if (lstat(behind_links(file).c_str(), &found) != 0 || S_ISREG(found.st_mode)) return {};
   if (S_ISDIR(found.st_mode)) return "it is a folder; name another file";
@@ -99,13 +133,11 @@ int make_part(const std::filesystem::path& part, const std::filesystem::path& ta
 }
 
 std::filesystem::path behind_links(const std::filesystem::path& file) {
-  constexpr int longest = 40;  // as many as Linux follows
-  std::error_code failure;
   std::filesystem::path found = file;
-  for (int i = 0; i < longest && std::filesystem::is_symlink(found, failure); ++i) {
-    const auto next = std::filesystem::read_symlink(found, failure);
-    if (failure) return found;
-    found = found.parent_path() / next;  // an absolute one replaces all before it
+  for (int i = 0; i < longest_chain; ++i) {
+    const auto next = behind_link(found);
+    if (!next) break;
+    found = *next;
   }
   return found;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "output.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <climits>
 #include <cstdio>
 #include <filesystem>
+#include <system_error>
 
 #include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
@@ -47,7 +49,7 @@ void require_room_for_name(const std::filesystem::path& file) {
       file.string(), longest, needed);
 }
 
-/// Throws refusal for a path in the current folder, if that is no more.
+/// The path from the root. Throws refusal for one in the current folder, if that is no more.
 std::filesystem::path whole_path(const std::filesystem::path& path) {
   std::error_code failure;
   const auto whole = std::filesystem::absolute(path, failure);
@@ -58,14 +60,28 @@ std::filesystem::path whole_path(const std::filesystem::path& path) {
   return whole;
 }
 
+/// Why no file can be made in a folder; empty if one was made, and is gone. Permissions do not tell: a file
+/// system may take no file even of the superuser.
+std::string objection_to_files_in(const std::filesystem::path& folder) {
+  int file = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);  // has no name to remove
+  if (file < 0) {  // nor has any in a file system such as NFS
+    std::string name = folder / ".nysalt_trial_XXXXXX";
+    file = mkostemp(name.data(), O_CLOEXEC);
+    if (file < 0) {
+      return fmt::format("the folder {} must be writable, got the error: {}; name another", folder.string(),
+                         std::generic_category().message(errno));
+    }
+    unlink(name.c_str());
+  }
+  close(file);
+  return {};
+}
+
 }  // namespace
 
 void require_writable(const std::filesystem::path& named) {
   namespace fs = std::filesystem;
-  const std::string whole = whole_path(named).lexically_normal().string();
-  if (whole.starts_with("/dev/") || whole.starts_with("/proc/")) {
-    refuse("cannot write {}: it is not a regular file; name another, or leave out --output", named.string());
-  }
+  whole_path(named);  // asks for the current folder
   require_replaceable(named);
   const fs::path file = nysalt::detail::behind_links(named);
   require_room_for_name(file);
@@ -74,9 +90,8 @@ void require_writable(const std::filesystem::path& named) {
   if (!fs::is_directory(folder, ignored)) {
     refuse("cannot write {}: there is no folder {}; make it first", file.string(), folder.string());
   }
-  if (access(folder.c_str(), W_OK) != 0) {
-    refuse("cannot write {}: the folder {} is not writable", file.string(), folder.string());
-  }
+  if (const auto why = objection_to_files_in(folder); !why.empty())
+    refuse("cannot write {}: {}", file.string(), why);
 }
 
 void require_result(const std::filesystem::path& file) {
@@ -139,9 +154,8 @@ void require_folder(const std::filesystem::path& folder) {
   if (!fs::is_directory(there, ignored)) {
     refuse("cannot write into {}: {} is not a folder; name another", folder.string(), there.string());
   }
-  if (access(there.c_str(), W_OK) != 0) {
-    refuse("cannot write into {}: the folder {} is not writable", folder.string(), there.string());
-  }
+  if (const auto why = objection_to_files_in(there); !why.empty())
+    refuse("cannot write into {}: {}", folder.string(), why);
 }
 
 void require_report(const std::filesystem::path& folder, const std::vector<std::string>& files) {

@@ -395,6 +395,7 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written) {
                           {few + "--output file/scheme.json", {"file"}},
                           {few + "--output ''", {"--output", "empty"}},
                           {few + "--output there/", {"there"}},
+                          {few + "--output /sys/scheme.json", {"/sys"}},  // of the superuser too
                           {rows + "--output there", {"there", "folder"}},
                           {rows + "--output there/out.csv", {"there/manifest.json", "folder"}},
                           {rows + "--output manifest.json", {"manifest.json", "take another"}},

@@ -215,6 +215,25 @@ BOOST_AUTO_TEST_CASE(links_and_devices) {
     BOOST_TEST(done.code == 2, device);
     BOOST_TEST(done.err.find("not a regular file") != std::string::npos, done.err);
   }
+  // By way of links too; what the standard output leads to keeps its text.
+  std::filesystem::create_symlink("/dev/stdout", folder / "out.csv");
+  std::filesystem::create_symlink("/dev", folder / "devices");
+  std::filesystem::create_symlink("/proc/self", folder / "process");
+  for (const std::string name : {"out.csv", "devices/none.csv", "process/none.csv", "process/fd/1"}) {
+    const auto done =
+        shell(folder, "echo kept >real; \"$nysalt\" " + short_run + "--output " + name + " >>real");
+    BOOST_TEST(done.code == 2, name);
+    BOOST_TEST(done.err.find("not a regular file") != std::string::npos, done.err);
+    BOOST_TEST(contents(folder / "real") == "kept\n");
+  }
+  // A memory file system below /dev is for files, where there is one.
+  shell(folder, "d=$(mktemp -d -p /dev/shm) && ln -s \"$d\" memory");
+  if (std::filesystem::is_directory(folder / "memory")) {
+    const auto done = run(folder, short_run + "--output memory/a.csv");
+    BOOST_TEST(done.code == 0, done.err);
+    BOOST_TEST(contents(folder / "memory/a.csv").starts_with("trajectory,"));
+    shell(folder, "rm -r \"$(readlink memory)\"");
+  }
   const auto done = shell(
       folder, "mkfifo c.next.part; \"$nysalt\" " + short_run + "--output a.csv --checkpoint c --every 64");
   BOOST_TEST(done.code == 2);
