@@ -60,8 +60,8 @@ std::filesystem::path whole_path(const std::filesystem::path& path) {
   return whole;
 }
 
-/// Why no file can be made in a folder; empty if one was made, and is gone. Permissions do not tell: a file
-/// system may take no file even of the superuser.
+/// Why no file can be made in a folder; empty if one was made, and is gone. Permissions alone do not decide
+/// this: a file system may take no file even of the superuser.
 std::string objection_to_files_in(const std::filesystem::path& folder) {
   int file = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);  // has no name to remove
   if (file < 0) {  // nor has any in a file system such as NFS
