@@ -60,7 +60,7 @@ std::filesystem::path whole_path(const std::filesystem::path& path) {
   return whole;
 }
 
-/// Why no file can be made in a folder; empty if one was made, and is gone. Permissions alone do not decide
+/// Why no file can be made in a folder; empty if one was made, and is gone. Permissions do not decide
 /// this: a file system may take no file even of the superuser.
 std::string objection_to_files_in(const std::filesystem::path& folder) {
   int file = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);  // has no name to remove
