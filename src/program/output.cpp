@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <climits>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <system_error>
 
@@ -30,6 +31,17 @@ void print(std::string_view text) {
   if (written && std::fflush(stdout) == 0) return;
   if (errno == EPIPE) std::_Exit(0);  // the reader has seen enough
   throw nysalt::detail::write_failure("cannot write the standard output: it is closed, or the disk is full");
+}
+
+void write_and_print(const std::function<void()>& write, const std::function<void(bool)>& print_all) {
+  std::exception_ptr failure;
+  try {
+    write();
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  print_all(!failure);
+  if (failure) std::rethrow_exception(failure);
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,10 @@ namespace nysalt::program {
 
 /// Prints to standard output. Throws refusal if it cannot be written; a reader who went away is no error.
 void print(std::string_view text);
+
+/// Writes results to files, and prints them, be they written or not: work is not lost with a disk that is
+/// full. What the writing throws is thrown after that. The printing gets whether all was written.
+void write_and_print(const std::function<void()>& write, const std::function<void(bool written)>& print_all);
 
 /// Throws refusal now if a file could not be written there later.
 void require_writable(const std::filesystem::path& file);

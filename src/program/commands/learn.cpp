@@ -20,23 +20,28 @@ int learn(const learn_command& command, const common_settings& common) {
   const auto& learned = training.learned();
   const learned_scheme* bad = training.unusable();
   const bool keep = !command.output.empty() && (bad == nullptr || common.force);
-  on_first(all_ranks(), [&] {
-    if (keep) write_result(command.output, training.scheme(), common);
-  });
-  if (common.json) {
-    json result = training.document();
-    result["output"] = keep ? json(command.output) : json(nullptr);
-    print(text_of(result));
-  } else {
+  const auto write = [&] {
+    on_first(all_ranks(), [&] {
+      if (keep) write_result(command.output, training.scheme(), common);
+    });
+  };
+  write_and_print(write, [&](bool written) {
+    if (common.json) {
+      json result = training.document();
+      result["output"] = keep && written ? json(command.output) : json(nullptr);
+      print(text_of(result));
+      return;
+    }
     for (const auto& one : learned) {
-      print(command.step ? one.fit.full() : one.fit.brief() + "\n");
+      const bool in_full = command.step || !written;  // with all digits
+      print(in_full ? one.fit.full() : one.fit.brief() + "\n");
       if (one.course && command.step) print(fmt::format("  {:<22}{}\n", "enough", one.course->report()));
     }
     if (training.where())
       print(fmt::format("  {:<22}{}: {}\n", "letters O", to_string(*training.where()),
                         learned.front().method.letters().letters()));
-    if (keep) print(fmt::format("Written: {}\n", command.output));
-  }
+    if (keep && written) print(fmt::format("Written: {}\n", command.output));
+  });
   if (!common.json) {
     for (const auto& one : learned) {
       if (!one.course || one.course->is_reached) continue;

@@ -20,16 +20,20 @@ int print_result(auto& all, const std::string& output, const common_settings& co
   all.learn_and_rank();
   const auto scheme = all.scheme();
   const bool writes = scheme && !output.empty();
-  if (writes) on_first(all_ranks(), [&] { write_result(output, *scheme, common); });
-  if (common.json) {
-    json result = all.document();
-    result["output"] = writes ? json(output) : json(nullptr);
-    print(text_of(result));
-  } else {
+  const auto write = [&] {
+    if (writes) on_first(all_ranks(), [&] { write_result(output, *scheme, common); });
+  };
+  write_and_print(write, [&](bool written) {
+    if (common.json) {
+      json result = all.document();
+      result["output"] = writes && written ? json(output) : json(nullptr);
+      print(text_of(result));
+      return;
+    }
     print(all.readable());
     for (const auto& text : all.warnings()) warn(text);
-    if (writes) print(fmt::format("Written: {}\n", output));
-  }
+    if (writes && written) print(fmt::format("Written: {}\n", output));
+  });
   return all.has_result() ? done : no_result;
 }
 

@@ -309,19 +309,24 @@ int sample(const sample_command& command, const common_settings& common) {
   on_first(all_ranks(), [&] {
     std::vector<summary_of_scalar> all;
     for (std::size_t k = 0; k < draws.scalars(); ++k) all.push_back(summary_of(draws, k));
-    if (!command.output.empty()) write_result(command.output, draws.csv(), common);
-    std::error_code ignored;
-    if (!command.checkpoint.empty()) std::filesystem::remove(command.checkpoint, ignored);
-    if (common.json) {
-      json document = document_of(command, source, *system, options, found, all);
-      document["warnings"] = warnings;
-      if (!command.output.empty()) document["output"] = command.output;
-      print(text_of(document));
-      return;
-    }
-    for (const auto& warning : warnings) warn(warning);
-    print(text_of(command, source, *system, options, found, all) +
-          (command.output.empty() ? "" : fmt::format("Written: {}\n", command.output)));
+    const auto write = [&] {
+      if (!command.output.empty()) write_result(command.output, draws.csv(), common);
+      std::error_code ignored;
+      if (!command.checkpoint.empty()) std::filesystem::remove(command.checkpoint, ignored);
+    };
+    write_and_print(write, [&](bool written) {
+      const bool is_there = written && !command.output.empty();
+      if (common.json) {
+        json document = document_of(command, source, *system, options, found, all);
+        document["warnings"] = warnings;
+        if (is_there) document["output"] = command.output;
+        print(text_of(document));
+        return;
+      }
+      for (const auto& warning : warnings) warn(warning);
+      print(text_of(command, source, *system, options, found, all) +
+            (is_there ? fmt::format("Written: {}\n", command.output) : ""));
+    });
   });
   return done;
 }
