@@ -30,10 +30,17 @@ class task_arena {
   }
 
   inline static thread_local int threads_here = 1;
+  inline static thread_local int index_here = 0;  // of the thread, among those of the loop
 
  private:
   int threads_;
 };
+
+namespace this_task_arena {
+inline int current_thread_index() { return task_arena::index_here; }
+}  // namespace this_task_arena
+
+struct static_partitioner {};
 
 /// The body throws nothing: ours catch for themselves.
 template <class Index, class Body>
@@ -47,9 +54,20 @@ void parallel_for(Index first, Index last, const Body& body) {
     }
   };
   std::vector<std::thread> others;
-  for (int k = 1; k < task_arena::threads_here; ++k) others.emplace_back(work);
+  for (int k = 1; k < task_arena::threads_here; ++k) {
+    others.emplace_back([&work, k] {
+      task_arena::index_here = k;
+      work();
+    });
+  }
   work();
   for (auto& worker : others) worker.join();
+}
+
+/// Who takes which calls is not what is looked for.
+template <class Index, class Body>
+void parallel_for(Index first, Index last, const Body& body, static_partitioner) {
+  parallel_for(first, last, body);
 }
 
 }  // namespace oneapi::tbb
