@@ -2,9 +2,12 @@
 // Checks of numbers that all commands share.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "refusal.hpp"
 #include "seeds.hpp"
@@ -27,6 +30,14 @@ inline void require_positive(const char* option, double value) {
 
 inline void require_at_least_one(const char* option, std::int64_t value) {
   if (value < 1) refuse("{} must be at least 1, got {}", option, value);
+}
+
+/// Throws refusal if two of the values are the same, `same` of neighbours in increasing order.
+template <class T, class Same = std::ranges::equal_to>
+void require_different(const char* option, std::vector<T> values, const Same& same = {}) {
+  std::ranges::sort(values);
+  const auto twice = std::ranges::adjacent_find(values, same);
+  if (twice != values.end()) refuse("{} must be different, got {} twice; give each once", option, *twice);
 }
 
 /// floor(horizon/step + 1e-9). Throws refusal if that is no step, or more than can be counted.

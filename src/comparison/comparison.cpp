@@ -58,15 +58,6 @@ void comparison::name_metrics() {
   if (options_.learning.loss.empty()) options_.learning.loss = loss_for(metrics_, system_->heat_bath());
 }
 
-namespace {
-template <class T>
-void require_once(const char* option, const std::vector<T>& all, const auto& text) {
-  for (const T& one : all) {
-    if (std::ranges::count(all, one) > 1) refuse("{} must be different, got {} twice", option, text(one));
-  }
-}
-}  // namespace
-
 void comparison::require_sound_command() const {
   if (options_.methods.empty()) {
     refuse(
@@ -80,11 +71,12 @@ void comparison::require_sound_command() const {
   }
   for (const double step : options_.steps) require_positive("--steps", step);
   for (const double level : options_.levels) require_positive("--levels", level);
-  const auto as_it_is = [](const auto& x) { return x; };
-  require_once("--steps", options_.steps, as_it_is);
-  require_once("--levels", options_.levels, as_it_is);
-  require_once("--methods", options_.methods, as_it_is);
-  require_once("--metric", metrics_, [](const asked_metric& metric) { return metric.text(); });
+  require_different("--steps", options_.steps);
+  require_different("--levels", options_.levels);
+  require_different("--methods", options_.methods);
+  std::vector<std::string> metrics;
+  for (const auto& metric : metrics_) metrics.push_back(metric.text());
+  require_different("--metric", metrics);
   require_at_least_one("--trajectories", options_.trajectories);
   require_sound_prices(options_.prices, system_->letters());
   require_sound(options_.learning, "--learn-");

@@ -28,10 +28,8 @@ std::vector<double> steps_of(const learn_command& command) {
   for (const double step : steps) {
     require_positive(command.step ? "--step" : "--steps", step);
     steps_within("--horizon", command.learning.horizon_at(step), step);
-    const auto is_same = [&](double other) { return std::abs(other - step) <= 1e-8 * step; };
-    if (std::count_if(steps.begin(), steps.end(), is_same) > 1)
-      refuse("--steps must hold different steps, got {} twice", step);
   }
+  require_different("--steps", steps, [](double one, double next) { return next - one <= 1e-8 * one; });
   return steps;
 }
 

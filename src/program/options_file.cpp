@@ -72,7 +72,13 @@ std::string plain_toml(std::istream& input) {
   int number = 0;
   std::istringstream lines(bounded(input));
   for (std::string raw; std::getline(lines, raw);) {
-    const std::string line = without_comment(trimmed(raw), ++number);
+    // As long as one argument of a command may be on Linux: CLI11 copies what is left of a list at each
+    // value.
+    constexpr std::size_t longest = 131072;
+    ++number;
+    if (raw.size() >= longest)
+      refuse("--config, line {}: a line must be shorter than {} bytes, got {}", number, longest, raw.size());
+    const std::string line = without_comment(trimmed(raw), number);
     const auto wrong = [&](const char* what, const char* condition) {
       refuse("--config, line {}: {} must {}, got {}", number, what, condition, line);
     };

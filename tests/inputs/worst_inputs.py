@@ -96,13 +96,19 @@ def commands_of_text():
             yield f"trajectories {number}", [*RUN, "--trajectories", number, "--observables", "energy"]
         yield f"variables q[{number}]", [*RUN, "--potential", "0.5*sum(q^2)", "--variables", f"q[{number}]"]
 
+OPTIONS_OF_LISTS = ("steps", "levels", "methods", "metric", "prices", "range", "fix", "variables")  # of compare
+
 
 def long_and_right():
     """Files that are right, but long: (kind, ending, text, arguments before the name of the file)."""
-    steps = ", ".join(f"0.{100000 + i}" for i in range(100_000))
     short = ["--trajectories", "2", "--horizon", "0.1", "--threads", "1"]
-    yield "steps", ".toml", f"steps = [{steps}]\n", ["compare", "--methods", "verlet", *short, "--config"]
-    yield "steps", ".toml", f"steps = [{steps}]\n", ["learn", "--family", "bab2", *short, "--config"]
+    for many in (14_500, 100_000):  # as many as a line may hold, and too many
+        steps = ",".join(f"0.{100000 + i}" for i in range(many))
+        yield "steps", ".toml", f"steps = [{steps}]\n", ["compare", "--methods", "verlet", *short, "--config"]
+        yield "steps", ".toml", f"steps = [{steps}]\n", ["learn", "--family", "bab2", *short, "--config"]
+    for lines in (1, 7, 8):  # of the shortest values, in a file of nearly a megabyte, and in one too long
+        text = "".join(f"{name} = [{','.join('1' * 65_000)}]\n" for name in OPTIONS_OF_LISTS[:lines])
+        yield "steps", ".toml", text, ["compare", *short, "--config"]
     starts = "q1,q2,q3,q4,q5,q6\n" + "0.125,0.25,0.5,0.125,0.25,0.5\n" * (63 * MB // 30)
     yield "starts", ".csv", starts, [*RUN, "--start"]
     data = "a,b,c,label\n" + "0.125,0.25,1.5,1\n0.25,0.5,2.5,0\n" * (60 * MB // 32)

@@ -2,7 +2,6 @@
 #include "planned_run.hpp"
 
 #include <algorithm>
-#include <span>
 
 #include "comparison/all_ranks.hpp"
 #include "comparison/checks.hpp"
@@ -19,11 +18,7 @@ namespace {
 
 void require_observables(const run_command& command, const prepared_problem& system) {
   for (const auto& name : command.observables) system.require_observable(name);
-  for (std::size_t i = 1; i < command.observables.size(); ++i) {
-    const auto earlier = std::span(command.observables).first(i);
-    if (std::ranges::find(earlier, command.observables[i]) == earlier.end()) continue;
-    refuse("--observables must be different, got {} twice", command.observables[i]);
-  }
+  require_different("--observables", command.observables);
 }
 
 trajectories_plan plan_of(const run_command& command, const common_settings& common) {
