@@ -62,17 +62,15 @@ recorded() {
 check_tests() {
   preset=$1
   [[ $preset != gcc ]] || preset=release
-  local k=$2 n=$3 number name
+  local k=$2 n=$3 name
   configure -D NYSALT_TEST_PICTURES=OFF
   local -A targets=()
   while IFS=: read -r name _; do targets[$name]=1; done < <(cmake --build --preset "$preset" --target help)
-  local numbers=() names=() needed=(nysalt_program)
-  while read -r number name; do
-    numbers+=("$number")
-    names+=("$name")
-  done < <(ctest --preset "$preset" -N | sed -n 's/^ *Test *#\([0-9]*\): \(.*\)/\1 \2/p')
-  local first=$(((k - 1) * ${#names[@]} / n)) last=$((k * ${#names[@]} / n - 1))
+  local names=() needed=(nysalt_program)
+  mapfile -t names < <(ctest --preset "$preset" -N | sed -n 's/^ *Test *#[0-9]*: //p')
+  local first=$(((k - 1) * ${#names[@]} / n)) last=$((k * ${#names[@]} / n - 1)) piece
   ((first <= last)) || refuse "there are ${#names[@]} tests of $preset: they cannot be cut into $n pieces"
+  printf -v piece '%s|' "${names[@]:first:last - first + 1}"
   for name in "${names[@]:first:last - first + 1}"; do
     if [[ -v targets[$name] ]]; then
       needed+=("$name")
@@ -86,7 +84,7 @@ check_tests() {
   local report=$PWD/build/check/outcomes/tests.$$.xml status=0 jobs=2 others=()
   [[ $preset != threads ]] || jobs=1
   [[ $preset == release || $preset == clang ]] || others=(-LE '^docs$')  # which run nothing that is built
-  ctest --preset "$preset" -j "$jobs" "${others[@]}" -I "${numbers[first]},${numbers[last]}" --output-junit "$report" || status=$?
+  ctest --preset "$preset" -j "$jobs" "${others[@]}" -R "^(${piece%|})\$" --output-junit "$report" || status=$?
   tests/checks/outcomes.py count "$report" >"$counts"
   rm -f "$report"
   return "$status"
