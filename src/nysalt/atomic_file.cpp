@@ -3,10 +3,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <linux/magic.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <sys/statfs.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -80,19 +78,19 @@ std::optional<std::filesystem::path> behind_link(const std::filesystem::path& pa
   return path.parent_path() / next;  // an absolute one replaces all before it
 }
 
-/// Whether the kernel makes what is in a folder: devices, or names of what processes have open. A memory file
-/// system that is mounted below /dev, as /dev/shm, is for files.
+/// Whether the kernel makes what is in a folder: devices, or names of what processes have open. A file system
+/// that is mounted below /dev, as /dev/shm, is for files.
 bool is_of_kernel(const std::filesystem::path& folder) {
-  struct statfs system {};
-  if (statfs(folder.c_str(), &system) != 0) return false;
-  if (system.f_type == PROC_SUPER_MAGIC) return true;
   std::error_code failure;
   const auto whole = std::filesystem::canonical(folder, failure).string() + '/';
-  if (failure || !whole.starts_with("/dev/")) return false;
-  struct stat here {};
-  struct stat devices {};
-  return system.f_type != TMPFS_MAGIC || stat(folder.c_str(), &here) != 0 || stat("/dev", &devices) != 0 ||
-         here.st_dev == devices.st_dev;
+  if (failure) return false;
+  for (const std::string root : {"/dev", "/proc"}) {
+    struct stat here {};
+    struct stat there {};
+    if (whole.starts_with(root + '/') && stat(folder.c_str(), &here) == 0 && stat(root.c_str(), &there) == 0)
+      return here.st_dev == there.st_dev;
+  }
+  return false;
 }
 
 constexpr int longest_chain = 40;  // of links, as many as Linux follows

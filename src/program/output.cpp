@@ -75,8 +75,8 @@ std::filesystem::path whole_path(const std::filesystem::path& path) {
 /// Why no file can be made in a folder; empty if one was made, and is gone. Permissions do not decide
 /// this: a file system may take no file even of the superuser.
 std::string objection_to_files_in(const std::filesystem::path& folder) {
-  int file = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);  // has no name to remove
-  if (file < 0) {  // nor has any in a file system such as NFS
+  int file = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);  // without a name
+  if (file < 0) {  // as file systems such as NFS have no files without names
     std::string name = folder / ".nysalt_trial_XXXXXX";
     file = mkostemp(name.data(), O_CLOEXEC);
     if (file < 0) {

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstddef>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace oneapi::tbb {
@@ -23,10 +24,11 @@ class task_arena {
 
   template <class F>
   void execute(const F& f) const {
-    const int outside = threads_here;
-    threads_here = threads_;
+    const int threads_outside = std::exchange(threads_here, threads_);
+    const int index_outside = std::exchange(index_here, 0);
     f();
-    threads_here = outside;
+    threads_here = threads_outside;
+    index_here = index_outside;
   }
 
   inline static thread_local int threads_here = 1;
