@@ -100,7 +100,10 @@ OPTIONS_OF_LISTS = ("steps", "levels", "methods", "metric", "prices", "range", "
 
 
 def long_and_right():
-    """Files that are right, but long: (kind, ending, text, arguments before the name of the file)."""
+    """Files that are right, but long: (kind, ending, text, arguments before the name of the file).
+
+    Of steps what reads and checks the list is timed: the horizon is shorter than a step, as runs at all of them take long.
+    """
     short = ["--trajectories", "2", "--horizon", "0.1", "--threads", "1"]
     for many in (14_500, 100_000):  # as many as a line may hold, and too many
         steps = ",".join(f"0.{100000 + i}" for i in range(many))

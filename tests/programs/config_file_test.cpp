@@ -55,6 +55,19 @@ BOOST_AUTO_TEST_CASE(options_outside_sections_are_of_the_command_that_runs) {
                   "run") == typed("run --method verlet --step 0.01 --horizon 0.03 --observables energy,q1"));
 }
 
+BOOST_AUTO_TEST_CASE(a_line_is_shorter_than_an_argument_may_be) {
+  constexpr std::size_t longest = 131072;  // of Linux, MAX_ARG_STRLEN
+  const std::string line = "run --step 0.01 --horizon 0.03";
+  std::string text = "method = \"verlet\"  # ";
+  text.resize(longest - 1, 'x');
+  BOOST_TEST(with(text + "\n", line) == typed(line + " --method verlet"));
+  const auto refused = run(folder_with(text + "x\n"), line + " --config options.toml");
+  BOOST_TEST(refused.code == 2);
+  BOOST_TEST(
+      refused.err.find("line 1: a line must be shorter than 131072 bytes, got 131072") != std::string::npos,
+      refused.err);
+}
+
 BOOST_AUTO_TEST_CASE(a_section_is_of_its_command) {
   BOOST_TEST(with(sections, "learn --family nystrom --json") == typed(learned));
   BOOST_TEST(with(sections, "compare --json") == typed(compared));
