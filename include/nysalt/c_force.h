@@ -8,7 +8,7 @@
 #ifndef NYSALT_C_FORCE_H
 #define NYSALT_C_FORCE_H
 
-#include <stdint.h>
+#include <stdint.h>  // NOLINT(modernize-deprecated-headers): a header for C too
 
 #ifdef __cplusplus
 extern "C" {

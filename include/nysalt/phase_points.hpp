@@ -67,7 +67,7 @@ class vector_list {
   }
   /// Behind those that there are, of their dimension; x may be one of them.
   void push_back(const auto& x) {
-    const Eigen::VectorXd copy = x;
+    const Eigen::VectorXd copy = x;  // NOLINT(performance-unnecessary-copy-initialization)
     resize(size_ + 1, copy.size());
     (*this)[size_ - 1] = copy;
   }

@@ -52,7 +52,7 @@ struct declared_parameter {
 class parameter_values {
  public:
   /// Appends one value.
-  void add(std::string name, parameter_value value) { all_.emplace_back(std::move(name), value); }
+  void add(std::string name, parameter_value value) { all_.emplace_back(std::move(name), std::move(value)); }
   /// All parameters: names and values.
   const std::vector<std::pair<std::string, parameter_value>>& all() const { return all_; }
   /// Throws std::invalid_argument if none has the name.

@@ -13,8 +13,6 @@
 #include <cerrno>
 #include <csignal>
 
-extern char** environ;
-
 namespace nysalt::program {
 
 namespace {
@@ -69,10 +67,10 @@ class anonymous_file {
 
 /// What the child does before the program begins; it has a process group of its own, which can be ended
 /// whole.
-class start {
+class spawn_settings {
  public:
-  start(const std::filesystem::path& folder, const anonymous_file& output, error_output errors,
-        const sigset_t& signals) {
+  spawn_settings(const std::filesystem::path& folder, const anonymous_file& output, error_output errors,
+                 const sigset_t& signals) {
     posix_spawn_file_actions_init(&actions_);
     posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&actions_, output.descriptor(), STDOUT_FILENO);
@@ -87,12 +85,12 @@ class start {
     posix_spawnattr_setpgroup(&attributes_, 0);
     posix_spawnattr_setsigmask(&attributes_, &signals);
   }
-  ~start() {
+  ~spawn_settings() {
     posix_spawn_file_actions_destroy(&actions_);
     posix_spawnattr_destroy(&attributes_);
   }
-  start(const start&) = delete;
-  start& operator=(const start&) = delete;
+  spawn_settings(const spawn_settings&) = delete;
+  spawn_settings& operator=(const spawn_settings&) = delete;
 
   bool of(const std::vector<std::string>& command, pid_t& child) const {
     std::vector<char*> arguments;
@@ -115,7 +113,7 @@ child_result run_child(const std::vector<std::string>& command, const std::files
   pid_t child = 0;
   {
     const held_signals held;
-    if (!start(folder, output, errors, held.before()).of(command, child)) return {};
+    if (!spawn_settings(folder, output, errors, held.before()).of(command, child)) return {};
     running = child;
   }
   int status = 0;

@@ -14,7 +14,7 @@ namespace {
 
 /// JSON has no number that is not finite: null is NaN, a text infinity.
 json number(double x) { return std::isinf(x) ? json("infinite") : std::isnan(x) ? json(nullptr) : json(x); }
-double number_from(const json& text) {
+double double_from(const json& text) {
   if (text.is_null()) return std::numeric_limits<double>::quiet_NaN();
   if (text == "infinite") return std::numeric_limits<double>::infinity();
   return text.get<double>();  // throws unless it is one
@@ -35,13 +35,13 @@ void put(json& into, const char* name, const std::optional<double>& value) {
 }
 std::optional<double> taken(const json& from, const char* name) {
   if (!from.contains(name)) return std::nullopt;
-  return number_from(from.at(name));
+  return double_from(from.at(name));
 }
 
 json to_json(const estimate& value) { return {number(value.mean), number(value.standard_error)}; }
 estimate estimate_from(const json& text) {
   require(list_in(text).size() == 2, "value");
-  return {number_from(text[0]), number_from(text[1])};
+  return {double_from(text[0]), double_from(text[1])};
 }
 
 json numbers(const std::vector<double>& all) {
@@ -51,7 +51,7 @@ json numbers(const std::vector<double>& all) {
 }
 std::vector<double> numbers_from(const json& text) {
   std::vector<double> result;
-  for (const auto& x : list_in(text)) result.push_back(number_from(x));
+  for (const auto& x : list_in(text)) result.push_back(double_from(x));
   return result;
 }
 
@@ -64,8 +64,8 @@ json to_json(const distribution_of_errors& errors) {
 }
 distribution_of_errors spread_from(const json& text) {
   distribution_of_errors errors{.largest = {.count = text.at("count").get<double>(),
-                                            .skewness = number_from(text.at("skewness")),
-                                            .deciding = number_from(text.at("deciding"))},
+                                            .skewness = double_from(text.at("skewness")),
+                                            .deciding = double_from(text.at("deciding"))},
                                 .median = estimate_from(text.at("median"))};
   const auto quantiles = numbers_from(text.at("quantiles"));
   require(quantiles.size() == errors.quantiles.size(), "quantiles");
@@ -87,7 +87,7 @@ drawn_law law_from(const json& text) {
   drawn_law law{.x = numbers_from(text.at("x")),
                 .y = numbers_from(text.at("y")),
                 .mean = estimate_from(text.at("mean")),
-                .effective_sample_size = number_from(text.at("effective_sample_size")),
+                .effective_sample_size = double_from(text.at("effective_sample_size")),
                 .kinetic_temperature = taken(text, "kinetic_temperature"),
                 .half_step_kinetic_temperature = taken(text, "half_step_kinetic_temperature")};
   require(law.x.size() == law.y.size(), "law");

@@ -158,7 +158,7 @@ namespace {
 
 /// Between learned steps the stability of the method is not yet known.
 tabulated from_scheme(const method_source& source, const prepared_problem& system, double step, bool force) {
-  const tabulated method = with_letters_of(system, source.learned->at(step));
+  tabulated method = with_letters_of(system, source.learned->at(step));
   if (source.learned->is_learned_at(step) || force) return method;
   const std::string objection =
       system.guard(method.letters()).objection(method.letters(), method.coefficients(), step);
@@ -199,7 +199,7 @@ tabulated found_at(const method_source& source, const prepared_problem& system, 
     require_letters_of(source, system);
     const std::string why = out_of_place(*source.learned, system, step);
     if (why.empty()) {
-      const tabulated method = from_scheme(source, system, step, force);
+      tabulated method = from_scheme(source, system, step, force);
       if (is_of_other_size(*source.learned, system))
         take_at_size(source, method, system, step, force, warnings);
       return method;
@@ -258,7 +258,7 @@ tabulated adapted_to_bath(const method_source& source, tabulated method, const p
 tabulated coefficients_at(const method_source& source, const prepared_problem& system, double step,
                           bool force, std::optional<placement> otherwise,
                           std::vector<std::string>& warnings) {
-  const tabulated method =
+  tabulated method =
       adapted_to_bath(source, found_at(source, system, step, force, warnings), system, otherwise, warnings);
   system.require_served(method.letters());
   system.require_sound_letters(source.typed, method.letters(), step);

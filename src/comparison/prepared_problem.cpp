@@ -30,10 +30,9 @@ namespace nysalt::program {
 
 namespace {
 
-constexpr int dynamic = Eigen::Dynamic;
-using states_in_double = std::vector<phase_point<double, dynamic>>;
+using states_in_double = std::vector<phase_point<double, Eigen::Dynamic>>;
 
-vector<double, dynamic> vector_of(std::span<const double> numbers) {
+vector<double, Eigen::Dynamic> vector_of(std::span<const double> numbers) {
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), std::ssize(numbers));
 }
 
@@ -118,11 +117,11 @@ void prepared_problem::prepare_starts(std::uint64_t seed) {
   const model base = made_.system.base();
   try {
     if (start_ == start::gibbs && made_.has_exact_flow) {
-      starts_.emplace(gibbs_of_modes<dynamic>(base, made_.system.bath().temperature()));
+      starts_.emplace(gibbs_of_modes<Eigen::Dynamic>(base, made_.system.bath().temperature()));
     } else if (start_ == start::gibbs) {
       starts_.emplace(gibbs(made_.system, made_.starts));
     } else {
-      starts_.emplace(one_long_trajectory<dynamic>(made_.system, made_.starts, {.seed = seed}));
+      starts_.emplace(one_long_trajectory<Eigen::Dynamic>(made_.system, made_.starts, {.seed = seed}));
     }
   } catch (const std::runtime_error& problem) {
     refuse("cannot draw initial states: {}; take another temperature, or --start law", problem.what());
@@ -148,7 +147,7 @@ void prepared_problem::require_served(const run_time_word& word) const {
 
 namespace {
 
-using state_in_double = phase_point<double, dynamic>;
+using state_in_double = phase_point<double, Eigen::Dynamic>;
 
 Eigen::VectorXd column_of(const state_in_double& x) {
   Eigen::VectorXd all(2 * x.q.size());

@@ -23,8 +23,6 @@ namespace nysalt::program {
 
 namespace {
 
-constexpr int dynamic = Eigen::Dynamic;
-
 trajectory_options options_of(const trajectories_plan& plan, const counter& progress = {}) {
   return {.step = plan.step,
           .steps = plan.steps,
@@ -45,16 +43,16 @@ tabulated method_of_reference(const bath& in) {
 
 /// Requirements of exchanges of energies on a system.
 struct sprung_system {
-  static constexpr int dimension = dynamic;
+  static constexpr int dimension = Eigen::Dynamic;
   nysalt::detail::stiff_springs springs;
 
   Eigen::Index size() const { return 0; }
   template <class U>
-  void force(const vector<U, dynamic>&, vector<U, dynamic>&) const {
+  void force(const vector<U, Eigen::Dynamic>&, vector<U, Eigen::Dynamic>&) const {
   }  // required by the concept, never called
   Eigen::Index pairs() const { return springs.pairs; }
   template <class U>
-  U stiff_energy(const phase_point<U, dynamic>& x, Eigen::Index j) const {
+  U stiff_energy(const phase_point<U, Eigen::Dynamic>& x, Eigen::Index j) const {
     return springs.energy(x, j);
   }
 };
@@ -170,7 +168,7 @@ std::function<void()> prepared_problem::timed_run(const tabulated& method,
                                                   const trajectories_plan& plan) const {
   const auto stepper = make_stepper(made_.system, method, plan.step, counter_noise(plan.seed));
   return nysalt::detail::with_scalar_of(made_.system, [&]<class T>(T) -> std::function<void()> {
-    std::vector<phase_point<T, dynamic>> starts;
+    std::vector<phase_point<T, Eigen::Dynamic>> starts;
     for (std::int64_t m = 0; m < plan.count; m += lanes_in<T>) {
       const auto count = static_cast<int>(std::min<std::int64_t>(lanes_in<T>, plan.count - m));
       starts.push_back(sound_starts<T>(made_.system, *starts_, plan.seed, m, count));

@@ -24,8 +24,6 @@ namespace nysalt::program {
 
 namespace {
 
-constexpr int dynamic = Eigen::Dynamic;
-
 /// Number of trajectories that all ranks together hold in memory at a time, each of `numbers` doubles: 10^6
 /// doubles in all, but at least one block of lanes for each of the `workers`, the threads of all ranks; a
 /// whole number of blocks for each of these.
@@ -140,7 +138,7 @@ void integrate(const prepared_problem& system, const tabulated& method, const tr
                std::span<double> q, std::span<double> p, const counter& progress) {
   const auto n = static_cast<std::size_t>(system.dimension());
   const auto count = static_cast<std::size_t>(plan.count);
-  std::vector<phase_point<double, dynamic>> states;
+  std::vector<phase_point<double, Eigen::Dynamic>> states;
   for (std::size_t m = 0; m < count; ++m) {
     const auto part = [&](std::span<double> of) {
       return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(of.data() + m * n, system.dimension()));
@@ -165,7 +163,8 @@ void integrate(const prepared_problem& system, const tabulated& method, const tr
     std::ranges::copy(state.first(n), q.begin() + m * system.dimension());
     std::ranges::copy(state.last(n), p.begin() + m * system.dimension());
   };
-  run_from(nysalt::listed<dynamic>(std::move(states)), system.definition(), method, sampled, take, progress);
+  run_from(nysalt::listed<Eigen::Dynamic>(std::move(states)), system.definition(), method, sampled, take,
+           progress);
 }
 
 }  // namespace nysalt::program

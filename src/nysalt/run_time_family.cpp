@@ -113,10 +113,10 @@ namespace {
 /// Those of the processor from its parameters: of A and of B all but the last are parameters, in the order of
 /// the word, and the last of each is what makes their sum zero.
 void append_processor(std::vector<double>& coefficients, const Eigen::VectorXd& theta, Eigen::Index first,
-                      int pairs) {
+                      Eigen::Index pairs) {
   double sum_of_a = 0.0;
   double sum_of_b = 0.0;
-  for (int k = 0; k + 1 < pairs; ++k) {
+  for (Eigen::Index k = 0; k + 1 < pairs; ++k) {
     const double b = theta[first + 2 * k];
     const double a = theta[first + 2 * k + 1];
     coefficients.insert(coefficients.end(), {b, a});
@@ -145,16 +145,16 @@ run_time_family processed(const run_time_family& kernel, int pairs) {
                  kernel.name, kernel.letters.letters()));
   }
   run_time_family result = kernel;
-  const Eigen::Index all = kernel.parameters() + 2 * (pairs - 1);
-  result.contained = std::make_shared<const contained_family>(contained_family{
-      kernel, Eigen::MatrixXd::Identity(all, kernel.parameters()), Eigen::VectorXd::Zero(all)});
+  const Eigen::Index known = kernel.parameters();
+  const Eigen::Index further = Eigen::Index{2} * (pairs - 1);
+  const Eigen::Index all = known + further;
+  result.contained = std::make_shared<const contained_family>(
+      contained_family{kernel, Eigen::MatrixXd::Identity(all, known), Eigen::VectorXd::Zero(all)});
   std::string letters = kernel.letters.letters() + run_time_word::processor_mark;
   for (int k = 0; k < pairs; ++k) letters += "BA";
   result.letters = run_time_word(letters);
   result.name += sentence("+p{}", pairs);
   result.order = 2;
-  const Eigen::Index known = kernel.parameters();
-  const Eigen::Index further = 2 * (pairs - 1);
   for (Eigen::Index k = 0; k < further; ++k) {
     result.parameter_names.push_back(sentence("p{}", k + 1));
     result.ranges.push_back({-1.0, 1.0, false});
@@ -224,7 +224,7 @@ void put_equal_steps(const run_time_word& word, const std::string& times, char p
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t end = n + 1 < count ? letters[n + 1] : letters[0] + word.length;
     for (std::size_t i = letters[n] + 1; i < end; ++i) {
-      const std::size_t letter = i % word.length;
+      const std::size_t letter = i < word.length ? i : i - word.length;
       between[n] += times.substr(word.first_slot(letter), word.slots_of(letter));
     }
     others += between[n];

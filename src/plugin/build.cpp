@@ -222,13 +222,13 @@ fs::path compiled(const fs::path& source) {
   std::set<fs::path> seen;
   std::string sources;
   append_sources(source, seen, sources);
-  const fs::path library = cache_folder() / (name_of(all + sources) + ".so");
+  fs::path library = cache_folder() / (name_of(all + sources) + ".so");
   if (!fs::is_regular_file(library, ignored)) compile(source, name_of(sources), library, how);
   return library;
 }
 
 fs::path kept_source(const std::string& text) {
-  const fs::path file = cache_folder() / (name_of(text) + ".hpp");
+  fs::path file = cache_folder() / (name_of(text) + ".hpp");
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) write_file(file, text);
   return file;
@@ -243,7 +243,7 @@ std::string library_of(const std::string& source, const std::string& output) {
 }
 
 std::string build_library(const std::string& source, const std::string& output) {
-  const std::string to = library_of(source, output);
+  std::string to = library_of(source, output);
   if (const auto why = nysalt::detail::objection_to_replacing(to); !why.empty())
     refuse("cannot write {}: {}", to, why);
   std::error_code ignored;

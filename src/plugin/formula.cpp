@@ -85,26 +85,28 @@ class translation {
   std::string sum() {
     const level here(*this);
     std::string code = product();
-    for (;;) {
+    std::size_t operators = 0;
+    for (;; ++operators) {
       if (takes('+')) {
-        code = "(" + code + " + " + product() + ")";
+        code.append(" + ").append(product()).append(")");
       } else if (takes('-')) {
-        code = "(" + code + " - " + product() + ")";
+        code.append(" - ").append(product()).append(")");
       } else {
-        return code;
+        return std::string(operators, '(') + code;
       }
     }
   }
   std::string product() {
     std::string code = signed_factor();
-    for (;;) {
+    std::size_t operators = 0;
+    for (;; ++operators) {
       if (takes('*')) {
         if (takes('*')) wrong("a power", "be written as x^2");
-        code = "(" + code + " * " + signed_factor() + ")";
+        code.append(" * ").append(signed_factor()).append(")");
       } else if (takes('/')) {
-        code = "(" + code + " / " + signed_factor() + ")";
+        code.append(" / ").append(signed_factor()).append(")");
       } else {
-        return code;
+        return std::string(operators, '(') + code;
       }
     }
   }
@@ -116,7 +118,7 @@ class translation {
   }
   /// x^n is repeated multiplication for a whole number n, else x^c for a constant c.
   std::string power() {
-    const std::string base = primary();
+    std::string base = primary();
     if (!takes('^')) return base;
     const auto from = at_;
     const bool depended = depends_;

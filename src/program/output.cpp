@@ -64,7 +64,7 @@ void require_room_for_name(const std::filesystem::path& file) {
 /// The path from the root. Throws refusal for one in the current folder, if that is no more.
 std::filesystem::path whole_path(const std::filesystem::path& path) {
   std::error_code failure;
-  const auto whole = std::filesystem::absolute(path, failure);
+  auto whole = std::filesystem::absolute(path, failure);
   if (failure) {
     refuse("cannot write {}: the current folder cannot be found ({}); change to one that is there",
            path.string(), failure.message());

@@ -87,8 +87,8 @@ surroundings surroundings_of(const system_settings& settings) {
 parameter_value value_of(const declared_parameter& parameter, const std::string& text) {
   const std::string option = "--" + parameter.name;
   if (parameter.is_text()) return text;
-  const parameter_value value = parameter.is_whole() ? parameter_value(number_of<std::int64_t>(option, text))
-                                                     : parameter_value(number_of<double>(option, text));
+  parameter_value value = parameter.is_whole() ? parameter_value(number_of<std::int64_t>(option, text))
+                                               : parameter_value(number_of<double>(option, text));
   parameter.require(value);
   return value;
 }

@@ -299,6 +299,7 @@ page report_of(const comparison& all) {
   add_files(report, all);
   report.heading("How it was measured");
   std::vector<std::string> notes{
+      // NOLINTNEXTLINE(bugprone-suspicious-missing-comma)
       "evaluations are force evaluations of one trajectory per unit time, counted while running, the first "
       "one included",
       "ns/time: nanoseconds per unit time of one trajectory of a large ensemble on one thread, the least of "

@@ -20,7 +20,7 @@ const candidate* taken(const contest& among) {
 
 std::string in_words(const ratio_estimate& ratio) {
   if (std::isinf(ratio.value)) return "zero, and so smaller";
-  const std::string value = fmt::format("{:.3g} times smaller", ratio.value);
+  std::string value = fmt::format("{:.3g} times smaller", ratio.value);
   if (std::isnan(ratio.low)) return value;
   return fmt::format("{} (95 %: {:.3g} to {:.3g})", value, ratio.low, ratio.high);
 }
@@ -103,7 +103,7 @@ std::string recommendation::advice_on_seconds() const {
   const candidate* first = taken(*by_evaluations_);
   const candidate* fast = taken(*by_seconds_);
   if (first == nullptr || fast == nullptr) return {};
-  const std::string same = fmt::format(" By seconds {} is the choice too.", first->source.typed);
+  std::string same = fmt::format(" By seconds {} is the choice too.", first->source.typed);
   if (fast->source.typed == first->source.typed) return same;
   const std::string method_at_step = fmt::format("{} at step {:.4g}", fast->source.typed, fast->step);
   if (!options_.budget) {

@@ -14,7 +14,7 @@ namespace {
 std::vector<double> largest_change(const std::vector<record>& runs, std::size_t k, double part) {
   std::vector<double> result;
   for (const auto& run : runs) {
-    const auto samples = static_cast<std::size_t>(part * static_cast<double>(run.values.size() / 2));
+    const auto samples = static_cast<std::size_t>(part * 0.5 * static_cast<double>(run.values.size()));
     double most = 0.0;
     for (std::size_t i = 1; i < samples; ++i) {
       most = std::max(most, std::abs(run.values[2 * i + k] / run.values[k] - 1.0));

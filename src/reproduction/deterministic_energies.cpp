@@ -79,11 +79,11 @@ namespace {
 /// The first time at which I is above ten times its start; infinity if it never is.
 double blown_up_at(const record& run, double sample) {
   const double start = total(energies_at(run, 0));
-  for (std::size_t i = 1; i < run.values.size() / 3; ++i) {
+  const std::size_t samples = run.values.size() / 3;
+  for (std::size_t i = 1; i < samples; ++i) {
     if (!(total(energies_at(run, i)) <= 10.0 * start)) return sample * static_cast<double>(i);
   }
-  return run.diverged_at ? sample * static_cast<double>(run.values.size() / 3)
-                         : std::numeric_limits<double>::infinity();
+  return run.diverged_at ? sample * static_cast<double>(samples) : std::numeric_limits<double>::infinity();
 }
 
 tested_claim blow_up(const std::vector<record>& by_verlet, double step) {

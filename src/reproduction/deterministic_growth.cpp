@@ -63,7 +63,7 @@ growth growth_at(const setting& setup, const prepared_problem& system, double st
       state_errors(followed(setup, system, learned, step, horizon, sample, count, whole_state), reference);
   std::vector<double> t;
   for (std::size_t i = 0; i < e.size(); ++i) t.push_back(sample * static_cast<double>(i + 1));
-  const auto quiet = static_cast<std::ptrdiff_t>(std::min(40.0, horizon) / sample + 0.5);
+  const auto quiet = std::lround(std::min(40.0, horizon) / sample);
   const double level = 0.5 * *std::max_element(e.begin(), e.begin() + quiet);
   const auto first = std::find_if(e.begin(), e.end(), [&](double x) { return x > level; });
   const double saturated = t[static_cast<std::size_t>(first - e.begin())];

@@ -95,10 +95,12 @@ check_tidy() {
   preset=tidy
   configure
   say "reading src/ and all headers"
-  local log=build/check/tidy.log status=0
-  run-clang-tidy -quiet -p build/check/tidy -j "$(nproc)" "^$PWD/src/|/every_header.cpp\$" >"$log" 2>/dev/null || status=$?
+  local folder=$PWD/build/check/tidy log=build/check/tidy.log status=0 sources
+  sources=$(tests/checks/tidy_units.py "$folder/compile_commands.json" "$folder/units" \
+    "$PWD/src" "$folder/every_header.cpp")
+  run-clang-tidy -quiet -p "$folder/units" -j "$(nproc)" 2>/dev/null | sed 's/\x1b\[[0-9;]*m//g' >"$log" || status=$?
   grep -E '(warning|error): ' "$log" | sort -u || true
-  printf '%d files, %d findings' "$(grep -c '^clang-tidy' "$log" || true)" \
+  printf '%d sources and all headers, %d findings' "$((sources - 1))" \
     "$(grep -E '(warning|error): ' "$log" | sort -u | wc -l)" >"$counts"
   return "$status"
 }

@@ -63,7 +63,7 @@ class statistics_along {
   void add(std::int64_t n, std::span<const T> numbers, const condition_of<T>& live) {
     T all = numbers[0];
     for (const T& number : numbers.subspan(1)) all += number;
-    const auto lost = both(!(all - all == T(0.0)), live);
+    const auto lost = both(!(all - all == T(0.0)), live);  // NOLINT(misc-redundant-expression): NaN, infinity
     lost_at_.take(lost, n);
     if (n < wanted_->from) return;
     samples_ += 1.0;

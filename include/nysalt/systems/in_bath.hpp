@@ -29,7 +29,7 @@ template <NystromSystem S>
 class in_bath : public S {
  public:
   /// The bath may be one that does not act.
-  in_bath(S system, nysalt::bath heat_bath) : S(std::move(system)), bath_(std::move(heat_bath)) {}
+  in_bath(S system, const nysalt::bath& heat_bath) : S(std::move(system)), bath_(heat_bath) {}
 
   const nysalt::bath& bath() const { return bath_; }
   const S& base() const { return *this; }  ///< system without the bath

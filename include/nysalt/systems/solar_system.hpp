@@ -209,8 +209,8 @@ class solar_system : public sum_of_parts<kepler_motions<Planets>, planet_interac
   /// Jacobi's coordinates and momenta of positions and velocities from anywhere, body after body, the star
   /// first.
   phase_point<double, 3 * Planets> from_bodies(
-      const std::array<double, 3 * (Planets + 1)>& positions,
-      const std::array<double, 3 * (Planets + 1)>& velocities) const {
+      const std::array<double, std::size_t{3} * (Planets + 1)>& positions,
+      const std::array<double, std::size_t{3} * (Planets + 1)>& velocities) const {
     const auto& m = this->template part<0>().masses();
     phase_point<double, 3 * Planets> result;
     for (std::size_t c = 0; c < 3; ++c) {

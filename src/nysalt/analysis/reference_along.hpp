@@ -96,7 +96,9 @@ class reference_along {
     for (std::size_t i = 0; i < measures_->size(); ++i) {
       const auto here = measures_->part(i, all);
       auto sound = finite;
-      for (const T& number : here) sound = both(sound, number - number == T(0.0));
+      for (const T& number : here) {
+        sound = both(sound, number - number == T(0.0));  // NOLINT(misc-redundant-expression): NaN, infinity
+      }
       std::optional<T> scale;
       if (measures_->reads(i) && (*measures_)[i].scale) scale = (*measures_)[i].scale(here);
       for (int k = 0; k < count_; ++k) {

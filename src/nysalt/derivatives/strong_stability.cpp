@@ -62,7 +62,7 @@ symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step) {
     return result;
   }
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(step);
-  const Eigen::VectorXcd values = solver.eigenvalues();
+  const Eigen::VectorXcd& values = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
   double of_farthest = 0.0;
   for (const complex& value : values) {

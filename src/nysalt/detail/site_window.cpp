@@ -20,8 +20,8 @@ namespace {
 
 // q and p of a tile fill a first-level cache of 32 kB; where a few kicks reach further than that, they may
 // take half of a second-level cache of 512 kB.
-constexpr Eigen::Index values_of_tile = 32 * 1024 / sizeof(double);
-constexpr Eigen::Index most_values_of_tile = 256 * 1024 / sizeof(double);
+constexpr Eigen::Index values_of_tile = std::size_t{32} * 1024 / sizeof(double);
+constexpr Eigen::Index most_values_of_tile = std::size_t{256} * 1024 / sizeof(double);
 // Kicks of a site that take as long as moving the site to the cache and back, roughly; measured within a
 // factor of two on the processors of docs/performance.md, and the best number of kicks goes with the square
 // root.
@@ -145,7 +145,7 @@ site_window::site_window(const site_kernels& system, Eigen::Index first, Eigen::
   if (!has_halo) kicks_ = kicks_without_halo;
   kicks_ = static_cast<int>(std::clamp<std::int64_t>(kicks_at_once, 1, kicks_));
   edges_.resize(static_cast<std::size_t>(2 * (tiles - 1)) * halo_size(kicks_));
-  const Eigen::Index halos = has_halo ? 2 * kicks_ * reach : 0;
+  const Eigen::Index halos = has_halo ? 2 * reach * kicks_ : 0;
   const Eigen::Index most_sites = std::max(row * ((rows - 1) / tiles + 1), sites_of_leaf(layout_));
   workers_ = std::make_unique<workers>(threads, most_sites + halos, layout_.components);
 }

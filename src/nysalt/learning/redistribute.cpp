@@ -55,7 +55,7 @@ void unpack(std::span<const double> numbers, Eigen::Index dimension, flow_map_da
   };
   const auto take_count = [&] { return static_cast<std::size_t>(take()); };
   const auto take_vector = [&] {
-    const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(numbers.data(), dimension);
+    Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(numbers.data(), dimension);
     numbers = numbers.subspan(static_cast<std::size_t>(dimension));
     return x;
   };

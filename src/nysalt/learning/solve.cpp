@@ -150,8 +150,8 @@ attempt solve_as_it_is(const learning_problem& problem) {
   };
   // Where no trial can decide, the guard has the last word on all frequencies that were met.
   const auto instability_of = [&](const Eigen::VectorXd& theta, const trial_result& trial) {
-    if (const std::string linear = objection_of_guard(theta, met::often); !linear.empty()) return linear;
-    if (const std::string failed = trial.objection(); !failed.empty()) return failed;
+    if (std::string linear = objection_of_guard(theta, met::often); !linear.empty()) return linear;
+    if (std::string failed = trial.objection(); !failed.empty()) return failed;
     return shows_rare_states(trial) ? std::string() : objection_of_guard(theta, met::ever);
   };
   const auto withstands = [&](const Eigen::VectorXd& theta) {

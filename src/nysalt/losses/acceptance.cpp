@@ -28,7 +28,6 @@ std::vector<after_steps_options> stages_of_acceptance(int /*K*/, int shortest) {
   return result;
 }
 
-extern const loss_kind acceptance_loss;
 constinit const loss_kind acceptance_loss{.name = "acceptance",
                                           .counts_steps = false,
                                           .is_of_proposals = true,

@@ -18,7 +18,6 @@ objective of_law(const model& system, const run_time_family& family, double step
 }
 }  // namespace
 
-extern const loss_kind covariance_loss;
 constinit const loss_kind covariance_loss{.name = "covariance",
                                           .counts_steps = false,
                                           .needs_modes = true,

@@ -76,6 +76,10 @@ data_loss without_type(const std::shared_ptr<const Loss>& loss, const std::share
   };
 }
 
+/// What losses() lists, each in the source of that name.
+extern const loss_kind trajectory_loss, state_loss, energy_loss, acceptance_loss, gaussian_acceptance_loss,
+    covariance_loss;
+
 /// The mean over windows of the squares of these residuals.
 data_loss after_steps_of(const loss_inputs& from, const window_error<lanes>& error);
 data_loss after_steps_of(const loss_inputs& from, const window_error<double>& error);

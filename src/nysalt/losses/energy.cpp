@@ -31,7 +31,6 @@ data_loss of_energies(const loss_inputs& from) {
                        : after_steps_of(from, energy_error<double>(from.system, from.data));
 }
 
-extern const loss_kind energy_loss;
 constinit const loss_kind energy_loss{.name = "energy", .is_for_sampling = true, .over_data = of_energies};
 
 }  // namespace nysalt::detail

@@ -68,7 +68,6 @@ objective of_spectrum(const model& system, const run_time_family& family, double
 
 }  // namespace
 
-extern const loss_kind gaussian_acceptance_loss;
 constinit const loss_kind gaussian_acceptance_loss{.name = "gaussian_acceptance",
                                                    .counts_steps = false,
                                                    .is_of_proposals = true,

@@ -5,12 +5,9 @@
 #include <algorithm>
 #include <array>
 
-namespace nysalt {
+#include "data_loss.hpp"
 
-namespace detail {
-extern const loss_kind trajectory_loss, state_loss, energy_loss, acceptance_loss, gaussian_acceptance_loss,
-    covariance_loss;
-}  // namespace detail
+namespace nysalt {
 
 std::vector<after_steps_options> after_each_step(int K, int shortest) {
   return {{.steps = {K}, .apart = std::max(1, shortest / 4)}, {.steps = {K}}};

@@ -10,7 +10,6 @@ data_loss of_states(const loss_inputs& from) {
                        : after_steps_of(from, state_error<double>(*from.measure));
 }
 
-extern const loss_kind state_loss;
 constinit const loss_kind state_loss{
     .name = "state", .judge = judge_of_minima::held_out_end, .over_data = of_states};
 

@@ -37,7 +37,6 @@ std::vector<after_steps_options> stages_of_trajectory(int, int shortest) {
 
 }  // namespace
 
-extern const loss_kind trajectory_loss;
 constinit const loss_kind trajectory_loss{.name = "trajectory",
                                           .counts_steps = false,
                                           .judge = judge_of_minima::training_loss,

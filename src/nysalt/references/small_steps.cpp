@@ -11,8 +11,6 @@ namespace nysalt::detail {
 
 namespace {
 
-constexpr int dynamic = Eigen::Dynamic;
-
 /// Cost of one trajectory's steps, and of those of `count`.
 std::int64_t cost_of(const model& system, const run_time_word& word, std::int64_t steps, int count) {
   const std::int64_t all = word.evaluations_to_open + steps * word.evaluations_per_step;
@@ -28,8 +26,8 @@ class steps_run final : public reference_run<T> {
         stepper_(make_stepper(system_, method, t / static_cast<double>(steps))),
         steps_(steps) {}
 
-  std::int64_t advance(phase_point<T, dynamic>& x, int count, const path_place&,
-                       std::span<vector<T, dynamic>>) override {
+  std::int64_t advance(phase_point<T, Eigen::Dynamic>& x, int count, const path_place&,
+                       std::span<vector<T, Eigen::Dynamic>>) override {
     const std::int64_t before = system_.calls();
     auto run = stepper_.open(x);
     stepper_.advance(run, steps_);
@@ -87,8 +85,8 @@ class paths_run final : public reference_run<T> {
   paths_run(const model& system, const tabulated& method, double step, int halvings, double t)
       : system_(system.separate()), method_(method), step_(step), halvings_(halvings), t_(t) {}
 
-  std::int64_t advance(phase_point<T, dynamic>& x, int count, const path_place& at,
-                       std::span<vector<T, dynamic>> xi) override {
+  std::int64_t advance(phase_point<T, Eigen::Dynamic>& x, int count, const path_place& at,
+                       std::span<vector<T, Eigen::Dynamic>> xi) override {
     const std::int64_t before = system_.calls();
     const std::int64_t steps = advance_on_path(system_, method_, step_, halvings_, x, t_, at, xi);
     if (is_black_box(system_)) return (system_.calls() - before) * count;

@@ -22,7 +22,7 @@ constexpr const char* journal_name = "journal.jsonl";
 constexpr int unfinished = -1;  // no exit code
 
 /// The report, if the folder has a whole one. Throws refusal if it answers another question.
-std::optional<json> answer(const std::filesystem::path& folder, const json& question) {
+std::optional<json> finished_report(const std::filesystem::path& folder, const json& question) {
   for (const char* file : {"report.html", "report.md", "rows.csv"}) {
     if (!is_there(folder / file)) return std::nullopt;
   }
@@ -39,9 +39,9 @@ bool has_value(const json& report) {
 }
 
 /// Prints the report, if the folder has a whole one: the exit code.
-int print_answer(const std::filesystem::path& folder, const comparison& all) {
+int print_finished_report(const std::filesystem::path& folder, const comparison& all) {
   if (is_there(folder / journal_name)) return unfinished;
-  const auto there = answer(folder, all.question());
+  const auto there = finished_report(folder, all.question());
   if (!there) return unfinished;
   print(all.common().json ? text_of(*there) : fmt::format("It is finished: {}\n", folder.string()));
   return has_value(*there) ? done : no_result;
@@ -89,7 +89,7 @@ int compare(const compare_command& command, const common_settings& common) {
     int code = unfinished;
     on_first(all_ranks(), [&] {
       require_report(folder, {"report.json", "report.md", "report.html", "rows.csv", journal_name});
-      if (command.resume) code = print_answer(folder, all);
+      if (command.resume) code = print_finished_report(folder, all);
     });
     broadcast(all_ranks(), code);
     if (code != unfinished) return code;

@@ -31,7 +31,7 @@ std::string readable(const json& all) {
   }
   text += observables.text();
   for (const auto& s : all["systems"]) {
-    if (s["letters"] == "") continue;
+    if (s["letters"].get<std::string>().empty()) continue;
     text += fmt::format("\nLetters of {}, for words such as word:{}: {}\n", s["name"].get<std::string>(),
                         example_of(s["letters"]), s["letters"].get<std::string>());
   }

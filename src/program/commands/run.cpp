@@ -31,8 +31,10 @@ void require_room(const run_command& command, std::int64_t steps, bool whole_doc
   constexpr double most = 1e8;  // numbers: about a gigabyte, some more in a document
   const auto columns = static_cast<double>(command.observables.size());
   const std::int64_t at_once = longest_segment(steps, command.every);
-  const auto samples = static_cast<double>(at_once / command.sample_every + 1);
-  const std::int64_t at_a_time = whole_document ? command.trajectories : default_lanes * threads;
+  const std::int64_t apart = at_once / command.sample_every;
+  const auto samples = static_cast<double>(apart + 1);
+  const std::int64_t at_a_time =
+      whole_document ? command.trajectories : std::int64_t{default_lanes} * threads;
   const auto trajectories = static_cast<double>(std::min(command.trajectories, at_a_time));
   if (columns * samples * trajectories <= most) return;
   refuse(

@@ -41,8 +41,8 @@ bool has_converged(const std::vector<summary_of_scalar>& all) {
   return std::ranges::all_of(all, [](const summary_of_scalar& one) { return one.reduction < converged; });
 }
 
-hmc_options options_of(const sample_command& command, const prepared_problem& system,
-                       const method_source& source, const common_settings& common) {
+hmc_options hmc_options_of(const sample_command& command, const prepared_problem& system,
+                           const method_source& source, const common_settings& common) {
   hmc_options options{.step = command.step.value_or(0.0),
                       .length = command.length.value_or(0.5 * std::numbers::pi),
                       .temperature = command.temperature,
@@ -278,7 +278,7 @@ int sample(const sample_command& command, const common_settings& common) {
   collectively(all_ranks(), [&] { source = find_method(command.method, {}, system->letters()); });
   on_first(all_ranks(), [&] { require_files(command); });
   charge(source, *system);
-  hmc_options options = options_of(command, *system, source, common);
+  hmc_options options = hmc_options_of(command, *system, source, common);
   std::vector<std::string> warnings;
   const tabulated method = method_for(source, *system, options, common.force, warnings);
   const std::int64_t shown = std::min<std::int64_t>(system->dimension(), 1000);

@@ -112,13 +112,14 @@ void put_by_trajectory(const std::filesystem::path& from, const std::filesystem:
     const std::string_view text(static_cast<const char*>(region.get_address()), region.get_size());
     const std::size_t head = std::min(text.find('\n'), text.size() - 1) + 1;
     std::vector<piece> pieces;
-    for (std::size_t begin = head, end = head; begin < text.size(); begin = end) {
+    for (std::size_t begin = head; begin < text.size();) {
       std::int64_t trajectory = 0;
       std::from_chars(text.data() + begin, text.data() + text.size(), trajectory);
-      end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+      const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
       if (pieces.empty() || pieces.back().trajectory != trajectory)
         pieces.push_back({trajectory, begin, end});
       pieces.back().end = end;
+      begin = end;
     }
     std::ranges::stable_sort(pieces, {}, &piece::trajectory);
     atomic_file out(to, "sorted");  // a kill leaves one such file at most, which the next run writes again
