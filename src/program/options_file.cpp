@@ -2,6 +2,7 @@
 #include "options_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -54,11 +55,13 @@ std::string without_comment(const std::string& line, int number) {
 }
 
 std::string bounded(std::istream& input) {
-  constexpr std::streamsize most = 1 << 20;  // bytes: files of options are far shorter
-  std::string text(static_cast<std::size_t>(most), '\0');
-  input.read(text.data(), most);
-  if (input) refuse("--config: the file must be shorter than a megabyte");
-  text.resize(static_cast<std::size_t>(input.gcount()));
+  constexpr std::size_t most = 1 << 20;  // bytes: files of options are far shorter
+  std::string text;
+  std::array<char, 4096> block{};
+  while (input.read(block.data(), block.size()) || input.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(input.gcount()));
+    if (text.size() >= most) refuse("--config: the file must be shorter than a megabyte");
+  }
   return text;
 }
 
