@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <filesystem>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <sstream>
+#include <system_error>
+#include <utility>
 
 #include "comparison/did_you_mean.hpp"
 #include "comparison/inputs.hpp"
@@ -54,6 +59,10 @@ std::string without_comment(const std::string& line, int number) {
   return line;
 }
 
+/// What was read of --config where it is a pipe, which can be read once. Options are read from there, after
+/// the system of the options was.
+std::optional<std::string> text_of_pipe;
+
 std::string bounded(std::istream& input) {
   constexpr std::size_t most = 1 << 20;  // bytes: files of options are far shorter
   std::string text;
@@ -65,15 +74,27 @@ std::string bounded(std::istream& input) {
   return text;
 }
 
+/// Names between dots, each of a letter and letters, digits, '-' and '_': CLI11 marks sections by others.
+bool is_dotted_name(const std::string& text) {
+  bool begins = true;
+  for (const char c : text) {
+    const auto letter = static_cast<unsigned char>(c);
+    if (begins ? std::isalpha(letter) == 0 : std::isalnum(letter) == 0 && c != '-' && c != '_' && c != '.')
+      return false;
+    begins = c == '.';
+  }
+  return !begins;
+}
+
 /// CLI11 reads a part of TOML, and the rest wrongly without a word. So each line must be empty, a comment, a
 /// [section], or name = value with the value whole on that line, and nothing may be said twice. What is
 /// handed on has no comments.
-std::string plain_toml(std::istream& input) {
+std::string plain_toml(const std::string& text) {
   std::string plain;
   std::set<std::string> sections;
   std::set<std::string> names;
   int number = 0;
-  std::istringstream lines(bounded(input));
+  std::istringstream lines(text);
   for (std::string raw; std::getline(lines, raw);) {
     // As long as one argument of a command may be on Linux: CLI11 copies what is left of a list at each
     // value.
@@ -88,6 +109,8 @@ std::string plain_toml(std::istream& input) {
     plain += line + "\n";
     if (line.empty()) continue;
     if (line.front() == '[') {
+      if (line.back() == ']' && !is_dotted_name(trimmed(line.substr(1, line.size() - 2))))
+        wrong("the name of a section", "begin with a letter, and have letters, digits, '-' and '_' only");
       if (line.back() != ']') wrong("a section", "be [NAME] and nothing else on the line");
       if (!sections.insert(line).second) wrong("a section", "not be there twice");
       names.clear();
@@ -95,6 +118,8 @@ std::string plain_toml(std::istream& input) {
     }
     const auto equals = line.find('=');
     if (equals == std::string::npos) wrong("a line", "be name = value or [section]");
+    if (!is_dotted_name(trimmed(line.substr(0, equals))))
+      wrong("the name of an option", "begin with a letter, and have letters, digits, '-' and '_' only");
     if (!names.insert(trimmed(line.substr(0, equals))).second) wrong("an option", "not be there twice");
     const std::string value = trimmed(line.substr(equals + 1));
     if (value.empty()) wrong("an option", "have a value");
@@ -114,7 +139,10 @@ std::string system_in_options_file(const std::string& file, const std::string& c
   note_input(file);
   std::ifstream input(file);
   if (!input) return {};  // reported where options are read
-  std::istringstream text(plain_toml(input));
+  const std::string all = bounded(input);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) text_of_pipe = all;
+  std::istringstream text(plain_toml(all));
   std::string of_all;
   for (const auto& item : CLI::ConfigTOML().from_config(text)) {
     if (item.name != "system" || item.inputs.empty()) continue;
@@ -125,7 +153,7 @@ std::string system_in_options_file(const std::string& file, const std::string& c
 }
 
 std::vector<CLI::ConfigItem> options_file::from_config(std::istream& input) const {
-  std::istringstream text(plain_toml(input));
+  std::istringstream text(plain_toml(text_of_pipe ? *std::exchange(text_of_pipe, {}) : bounded(input)));
   auto items = CLI::ConfigTOML::from_config(text);
   const auto running = app_.get_subcommands();
   // Of two values for one option the first is taken.
@@ -142,7 +170,6 @@ std::vector<CLI::ConfigItem> options_file::from_config(std::istream& input) cons
 
 /// CLI11 refuses what it does not know too, but does not say what it knows.
 void options_file::require_known(const CLI::ConfigItem& item) const {
-  if (item.name == "++" || item.name == "--") return;  // a section begins or ends
   const CLI::App* command = &app_;
   for (const auto& section : item.parents) {
     const auto found =
@@ -154,6 +181,7 @@ void options_file::require_known(const CLI::ConfigItem& item) const {
     }
     command = found.front();
   }
+  if (item.name == "++" || item.name == "--") return;  // a section begins or ends
   if (const CLI::Option* known = command->get_option_no_throw("--" + item.name)) {
     const bool is_flag = known->get_expected_max() == 0 || known->get_type_size_max() == 0;
     const bool is_switch = item.inputs.size() == 1 && (item.inputs[0] == "true" || item.inputs[0] == "false");

@@ -12,6 +12,7 @@
 #include <exception>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
@@ -24,24 +25,33 @@
 
 namespace nysalt::program {
 
+namespace {
+std::exception_ptr failed_write;  // while write_and_print() prints what could not be written
+}  // namespace
+
 void print(std::string_view text) {
   if (!speaks_for_all()) return;
   errno = 0;
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return;
+  if (errno == EPIPE && failed_write) std::rethrow_exception(failed_write);
   if (errno == EPIPE) std::_Exit(0);  // the reader has seen enough
   throw nysalt::detail::write_failure("cannot write the standard output: it is closed, or the disk is full");
 }
 
 void write_and_print(const std::function<void()>& write, const std::function<void(bool)>& print_all) {
-  std::exception_ptr failure;
   try {
     write();
   } catch (...) {
-    failure = std::current_exception();
+    failed_write = std::current_exception();
   }
-  print_all(!failure);
-  if (failure) std::rethrow_exception(failure);
+  try {
+    print_all(!failed_write);
+  } catch (...) {
+    failed_write = nullptr;
+    throw;
+  }
+  if (failed_write) std::rethrow_exception(std::exchange(failed_write, nullptr));
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "run_program.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <exception>
 #include <new>
@@ -22,6 +25,14 @@ namespace {
 int reported(const std::string& text, int code) {
   complain(text);
   return code;
+}
+
+/// Opens something in the place of each standard stream that is closed, which cannot be read nor written. A
+/// result would be opened in that place otherwise, and what is printed would go into it.
+void occupy_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) == -1) open("/", O_RDONLY | O_DIRECTORY);  // at the least number that is free
+  }
 }
 
 }  // namespace
@@ -49,6 +60,8 @@ int exit_code_of(command_line run, int argc, char** argv) {
 }
 
 int run_program(command_line run, int argc, char** argv) {
+  occupy_closed_streams();
+  std::signal(SIGCHLD, SIG_DFL);  // where it is ignored no child can be waited for
   std::signal(SIGPIPE, SIG_IGN);  // print() ends quietly when a reader has seen enough
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is reported like a full disk
   allow_named_signals();

@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <charconv>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -69,12 +70,24 @@ std::string table::csv() const {
   return result;
 }
 
+namespace {
+/// Whether the whole text is a number, "inf" or "nan", which may have a sign.
+bool is_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double ignored = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ignored);
+  return end == text.data() + text.size() && error != std::errc::invalid_argument;
+}
+}  // namespace
+
 std::string table::quoted(const std::string& cell) {
-  // A spreadsheet takes a text that begins so for a formula; numbers begin with + or - too.
-  const bool is_formula = cell.size() > 1 &&
-                          std::string_view("=+-@").find(cell.front()) != std::string_view::npos &&
-                          std::isdigit(static_cast<unsigned char>(cell[1])) == 0 && cell[1] != '.' &&
-                          cell.substr(1) != "inf" && cell.substr(1) != "nan";
+  // A spreadsheet takes a text that begins so for a formula, and some do behind blanks; numbers begin with +
+  // or
+  // - too.
+  const std::size_t first = cell.find_first_not_of(" \t\r\n");
+  const bool is_formula = first != std::string::npos && first + 1 < cell.size() &&
+                          std::string_view("=+-@").find(cell[first]) != std::string_view::npos &&
+                          !is_number(cell);
   if (is_formula) return quoted("'" + cell);
   if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
   std::string result = "\"";

@@ -111,11 +111,25 @@ BOOST_AUTO_TEST_CASE(the_command_line_wins) {
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_option_is_refused) {
-  for (const char* text : {"nosuch = 1\n", "[learn]\nnosuch = 1\n", "[nosuch]\nstep = 0.02\n"}) {
+  for (const char* text :
+       {"nosuch = 1\n", "[learn]\nnosuch = 1\n", "[nosuch]\nstep = 0.02\n", "[nosuch]\n"}) {
     const auto done = run(folder_with(text), learned + " --config options.toml");
     BOOST_TEST(done.code == 2, text);
     BOOST_TEST(done.out == "");
     BOOST_TEST(done.err.find("nosuch") != std::string::npos, done.err);
+  }
+}
+
+// A pipe can be read once, and the system is read before the options are.
+BOOST_AUTO_TEST_CASE(options_of_a_pipe_count) {
+  const scratch folder("config");
+  const std::string line = "run --method verlet --step 0.01 --horizon 0.02 --observables energy ";
+  const std::string expected = run(folder, line + "--seed 5").out;
+  BOOST_TEST(expected != run(folder, line).out);
+  for (const char* more : {"", "--system fpu "}) {
+    const auto done = shell(folder, "echo seed = 5 | \"$nysalt\" " + line + more + "--config /dev/stdin");
+    BOOST_TEST(done.code == 0, done.err);
+    BOOST_TEST(done.out == expected);
   }
 }
 
@@ -124,7 +138,9 @@ BOOST_AUTO_TEST_CASE(what_is_not_plain_is_refused_with_its_line) {
   const std::string good = "step = 0.02\n";
   for (const char* text :
        {"fix = [\"b1=0.5\"\n", "output = \"h#b.json\"\n", "step = 0.03\n", "horizon = [\n0.5]\n", "horizon\n",
-        "horizon =\n", "[learn]\n[compare]\n[learn]\n"}) {
+        "horizon =\n", "[learn]\n[compare]\n[learn]\n",
+        // CLI11 marks the ends of sections by such names, and an empty section is none of its.
+        "=2\n", "++=1\n", "--=1\n", "learn.++=1\n", "x.--=3\n", "[]\n", "[++]\n"}) {
     const auto done = run(folder_with(good + text), "learn --config options.toml");
     BOOST_TEST(done.code == 2, text);
     BOOST_TEST(done.err.starts_with("nysalt: --config, line "), done.err);

@@ -43,9 +43,9 @@ BOOST_AUTO_TEST_CASE(a_file_that_cannot_be_written_is_4_and_loses_no_result) {
   const std::string learn = "learn --system henon_heiles --family bab2 --trajectories 8 --effort quick ";
   const std::string sample = "sample --system linear_chain --length 1 --draws 100 ";
   // No file may have a byte, so that streams are pipes; counts of lines go elsewhere.
-  const auto full = [&](const std::string& arguments) {
+  const auto full = [&](const std::string& arguments, const std::string& reader = "cat") {
     return shell(folder, "export LLVM_PROFILE_FILE=/dev/null; { { ulimit -f 0; \"$nysalt\" " + arguments +
-                             " --output o; echo \"code $?\" >&2; } 2>&1 >&3 | cat >&2; } 3>&1 | cat");
+                             " --output o; echo \"code $?\" >&2; } 2>&1 >&3 | cat >&2; } 3>&1 | " + reader);
   };
   for (const auto& [arguments, values, member] :
        {std::tuple{learn + "--step 0.3", "held-out loss", "/parameters"},
@@ -66,6 +66,22 @@ BOOST_AUTO_TEST_CASE(a_file_that_cannot_be_written_is_4_and_loses_no_result) {
     BOOST_TEST((!document.contains("output") || document["output"].is_null()));
     BOOST_TEST(!std::filesystem::exists(folder / "o"));
   }
+  // A reader who leaves does not hide that.
+  const auto left = full(sample, "true");
+  BOOST_TEST(left.err.find("code 4") != std::string::npos, left.err);
+}
+
+// Without an output the draws are on the standard output and in the checkpoint alone.
+BOOST_AUTO_TEST_CASE(draws_that_cannot_be_printed_stay_in_the_checkpoint) {
+  if (!std::filesystem::is_character_file("/dev/full")) return;
+  const scratch folder("kept");
+  const std::string line =
+      "sample --system gaussian --size 3 --length 1 --draws 20 --burn-in 100 --checkpoint c --every 50 "
+      "--json";
+  BOOST_TEST(shell(folder, "\"$nysalt\" " + line + " >/dev/full").code == 4);
+  BOOST_TEST((folder.files() == std::set<std::string>{"c"}));
+  BOOST_TEST(run(folder, line + " --resume").code == 0);
+  BOOST_TEST(folder.files().empty());
 }
 
 BOOST_AUTO_TEST_CASE(a_run_of_which_all_diverged_is_3) {

@@ -188,6 +188,29 @@ BOOST_AUTO_TEST_CASE(a_closed_standard_output_is_told) {
   refused_and_left(folder, done, {}, not_written);
 }
 
+// A file that is opened while a stream is closed would get the number of that stream, and what is printed.
+BOOST_AUTO_TEST_CASE(what_is_printed_to_a_closed_stream_goes_into_no_file) {
+  for (const std::string form : {"csv", "npy", "json"}) {
+    // The step is near the limit of stability, for which there is a warning.
+    const std::string line =
+        "run --system pendulum --method verlet --step 1.9 --horizon 4 --output o." + form;
+    const scratch undisturbed("closed");
+    const finished whole = run(undisturbed, line);
+    BOOST_TEST_REQUIRE(whole.code == 0, whole.err);
+    BOOST_TEST_REQUIRE(has(whole.err, "warning"));
+    BOOST_TEST_REQUIRE(whole.out != "");
+    for (const std::string closed : {"<&-", ">&-", "2>&-", "<&- >&-", ">&- 2>&-", "<&- >&- 2>&-"}) {
+      BOOST_TEST_CONTEXT(form << ' ' << closed) {
+        const scratch folder("closed");
+        const finished done = shell(folder, "\"$nysalt\" " + line + ' ' + closed);
+        const bool is_printed = closed.find(" >") == std::string::npos && closed.front() != '>';
+        BOOST_TEST(done.code == (is_printed ? 0 : not_written));
+        BOOST_TEST(contents(folder / ("o." + form)) == contents(undisturbed / ("o." + form)));
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_reader_who_leaves_is_no_error) {
   const scratch folder("pipe");
   const finished done =

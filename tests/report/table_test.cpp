@@ -45,6 +45,21 @@ BOOST_AUTO_TEST_CASE(csv_quotes_what_must_be_quoted_and_nothing_else) {
   BOOST_TEST(example().csv() == "method,error\nverlet,2e-2\nx,0.00039\n");
 }
 
+BOOST_AUTO_TEST_CASE(csv_has_no_cell_that_a_spreadsheet_computes) {
+  for (const std::string cell :
+       {"=1+1", "=cmd|x!A1", " =1", "\t@1", "@1", "+1.json", "-1+2", "-.5x", "=.5", "+inf+1", "--1", "+"}) {
+    table t({"a"});
+    t.add({cell});
+    const std::string safe = cell.size() > 1 ? "'" + cell : cell;  // a sign by itself is none
+    BOOST_TEST(t.csv() == "a\n" + safe + '\n', cell);
+  }
+  for (const std::string number : {"-1", "+1", "-1e-3", "+.5", "-inf", "+nan", "-nan", "1e400", "-1e-400"}) {
+    table t({"a"});
+    t.add({number});
+    BOOST_TEST(t.csv() == "a\n" + number + '\n');
+  }
+}
+
 BOOST_AUTO_TEST_CASE(no_rows_are_a_head_alone) {
   const table t({"a", "b"});
   BOOST_TEST(t.csv() == "a,b\n");

@@ -20,6 +20,7 @@
 #include "comparison/progress.hpp"
 #include "comparison/refusal.hpp"
 #include "comparison/seeds.hpp"
+#include "nysalt/atomic_file.hpp"
 #include "nysalt/detail/collectively.hpp"
 #include "nysalt/hmc.hpp"
 #include "report/manifest.hpp"
@@ -309,10 +310,15 @@ int sample(const sample_command& command, const common_settings& common) {
   on_first(all_ranks(), [&] {
     std::vector<summary_of_scalar> all;
     for (std::size_t k = 0; k < draws.scalars(); ++k) all.push_back(summary_of(draws, k));
-    const auto write = [&] {
-      if (!command.output.empty()) write_result(command.output, draws.csv(), common);
+    const auto remove_checkpoint = [&] {
       std::error_code ignored;
-      if (!command.checkpoint.empty()) std::filesystem::remove(command.checkpoint, ignored);
+      if (!command.checkpoint.empty())
+        std::filesystem::remove(nysalt::detail::behind_links(command.checkpoint), ignored);
+    };
+    const auto write = [&] {
+      if (command.output.empty()) return;
+      write_result(command.output, draws.csv(), common);
+      remove_checkpoint();
     };
     write_and_print(write, [&](bool written) {
       const bool is_there = written && !command.output.empty();
@@ -327,6 +333,7 @@ int sample(const sample_command& command, const common_settings& common) {
       print(text_of(command, source, *system, options, found, all) +
             (is_there ? fmt::format("Written: {}\n", command.output) : ""));
     });
+    if (command.output.empty()) remove_checkpoint();
   });
   return done;
 }
