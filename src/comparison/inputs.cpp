@@ -79,6 +79,12 @@ void require_replaceable(const std::filesystem::path& output) {
   if (const auto why = nysalt::detail::objection_to_replacing(output); !why.empty()) {
     refuse("cannot write {}: {}", output.string(), why);
   }
+  for (const auto& name : names_while_written(output)) {
+    std::error_code ignored;
+    const auto found = std::filesystem::symlink_status(name, ignored);
+    if (!std::filesystem::exists(found) || std::filesystem::is_regular_file(found)) continue;
+    refuse("cannot write {}: {} exists and is not a regular file; remove it", output.string(), name.string());
+  }
 }
 
 }  // namespace nysalt::program

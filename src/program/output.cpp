@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -42,6 +43,10 @@ void print(std::string_view text) {
 void write_and_print(const std::function<void()>& write, const std::function<void(bool)>& print_all) {
   try {
     write();
+  } catch (const nysalt::detail::write_failure&) {
+    failed_write = std::current_exception();
+  } catch (const std::runtime_error& problem) {  // another process writes there, or put something there
+    failed_write = std::make_exception_ptr(nysalt::detail::write_failure(problem.what()));
   } catch (...) {
     failed_write = std::current_exception();
   }

@@ -130,6 +130,10 @@ void require_manifest(const fs::path& file) {
         manifest.string(), file.string());
   }
   require_replaceable(manifest);
+  const fs::path folder = nysalt::detail::behind_links(manifest).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, ignored))
+    refuse("cannot write {}: it leads to {}, where there is no folder; remove it", manifest.string(),
+           folder.string());
   if (!is_there(manifest)) return;
   if (entries_in(manifest).is_null()) {
     refuse(

@@ -218,6 +218,27 @@ BOOST_AUTO_TEST_CASE(nothing_but_a_regular_file_is_replaced) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(what_stands_in_the_place_of_an_unfinished_file_is_seen_before_the_work) {
+  for (const std::string command :
+       {"run --method verlet --step 0.01 --horizon 1e9",
+        "sample --system gaussian --size 3 --length 1 --draws 1000000000",
+        "learn --family nystrom --step 0.02 --horizon 1e5"}) {  // work without end
+    for (const std::string name : {"o.new.part", "manifest.json.new.part"}) {
+      for (const bool is_link : {false, true}) {
+        const scratch folder("protected_part");
+        if (is_link)
+          fs::create_symlink("nowhere", folder / name);
+        else
+          fs::create_directory(folder / name);
+        refused(folder, command + " --output o", "not a regular file");
+      }
+    }
+    const scratch folder("protected_part");
+    fs::create_symlink("gone/deep", folder / "manifest.json");
+    refused(folder, command + " --output o", "no folder");
+  }
+}
+
 // Links that lead nowhere or back to themselves, and a folder that is gone.
 BOOST_AUTO_TEST_CASE(folders_that_cannot_be_made_are_refused_before_the_work) {
   const std::string compared =
