@@ -131,7 +131,7 @@ void require_manifest(const fs::path& file) {
   }
   require_replaceable(manifest);
   const fs::path folder = nysalt::detail::behind_links(manifest).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder, ignored))
+  if (fs::is_symlink(manifest, ignored) && !folder.empty() && !fs::is_directory(folder, ignored))
     refuse("cannot write {}: it leads to {}, where there is no folder; remove it", manifest.string(),
            folder.string());
   if (!is_there(manifest)) return;
