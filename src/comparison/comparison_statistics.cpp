@@ -104,8 +104,11 @@ void comparison::require_sound_statistics() const {
   }
   if (!options_.range.empty()) {
     const equal_bins bins{options_.range[0], options_.range[1], static_cast<int>(options_.bins)};
-    if (!(bins.low < bins.high && std::isfinite(bins.width()))) {
+    if (!(bins.low < bins.high)) {
       refuse("--range must be LOW,HIGH with LOW below HIGH, got {},{}", bins.low, bins.high);
+    }
+    if (!std::isfinite(bins.high - bins.low)) {
+      refuse("--range must have a finite width, got {},{}; take a narrower one", bins.low, bins.high);
     }
   }
   require_positive("--longest-lag", options_.longest_lag);

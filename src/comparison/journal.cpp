@@ -19,8 +19,16 @@ namespace {
 
 constexpr const char* format = "nysalt journal";
 
-std::string line_of(const json& document) {
+/// With a checksum as the last member.
+std::string line_of(json document) {
+  document["checksum"] = checksum(document);
   return document.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+/// Whether the checksum of a line is that of the line.
+bool is_as_written(json line) {
+  const json stated = line.value("checksum", json());
+  return stated.is_string() && stated == checksum(std::move(line));
 }
 
 }  // namespace
@@ -107,9 +115,10 @@ std::size_t journal::read(const std::string& text, const json& question, const s
   std::size_t at = 0;
   for (std::size_t end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
     const auto of_part = std::string_view(text).substr(at, end - at);
-    const json line = parsed(of_part);
+    json line = parsed(of_part);
     if (at == 0) {
-      if (!line.is_object() || line.value("format", json()) != format || !line.contains("question")) {
+      if (!line.is_object() || line.value("format", json()) != format || !line.contains("question") ||
+          !is_as_written(line)) {
         refuse_foreign(path_);
       }
       require_same_question(line["question"], question, path_);
@@ -120,6 +129,7 @@ std::size_t journal::read(const std::string& text, const json& question, const s
       refuse_foreign(path_);
     }
     found_[line["part"].get<std::string>()] = of_part;
+    if (!is_as_written(std::move(line))) refuse_foreign(path_);
   }
   // A line that was cut off: of ours, if it is the first.
   if (at == 0 && !head.starts_with(text)) refuse_foreign(path_);

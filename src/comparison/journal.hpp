@@ -20,10 +20,10 @@ namespace nysalt::program {
 void require_same_question(const json& stored_question, const json& question,
                            const std::filesystem::path& path);
 
-/// A file of one line a finished part, each written as soon as it is there. Numbers in it come back to the
-/// bit. A last line that was cut off does not count. Without a file nothing is kept. Rank 0 reads and writes
-/// the file, and all ranks know what is in it: they make one together, ask for the same parts, and fail
-/// alike.
+/// A file of one line a finished part, each with a checksum and written as soon as it is there. Numbers in it
+/// come back to the bit. A last line that was cut off does not count. Without a file nothing is kept. Rank 0
+/// reads and writes the file, and all ranks know what is in it: they make one together, ask for the same
+/// parts, and fail alike.
 class journal {
  public:
   /// Nowhere.
@@ -40,7 +40,7 @@ class journal {
   bool is_empty() const { return found_.empty() && !has_written_; }
   /// The result of a part, by the name of the part: read(json) of what was kept, or else that of work(), of
   /// which to_json() is kept. Throws refusal if it cannot be written, and where read() throws: read() must
-  /// take nothing of which a later use goes wrong, as people may have edited the file.
+  /// take nothing of which a later use goes wrong, as another version may have written the file.
   auto once(const std::string& part, const auto& read, const auto& work) {
     if (has(part)) {
       try {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "json.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
+#include <boost/crc.hpp>
 #include <fstream>
 #include <system_error>
 
@@ -13,6 +16,14 @@ std::string text_of(const json& document) {
 
 json as_kept(const json& document) {
   return json::parse(document.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+std::string checksum(json document) {
+  document.erase("checksum");
+  const std::string text = document.dump(-1, ' ', false, json::error_handler_t::replace);
+  boost::crc_32_type crc;
+  crc.process_bytes(text.data(), text.size());
+  return fmt::format("crc32:{:08x}", crc.checksum());
 }
 
 bool may_be_parsed(std::string_view text) {

@@ -2,10 +2,6 @@
 // Common parts of files of schemes and tables, to read and to write.
 #pragma once
 
-#include <string>
-
-#include "json.hpp"
-
 namespace nysalt::program {
 
 inline constexpr int known_version = 1;
@@ -13,8 +9,5 @@ inline constexpr int with_placement = 2;  // of a scheme that says where its let
 inline constexpr int as_curve = 3;        // of a scheme with several steps, perhaps with a placement
 inline constexpr const char* scheme_format = "nysalt scheme";
 inline constexpr const char* table_format = "nysalt table";
-
-/// Of every member of a document but the checksum itself, as the document would be written without spaces.
-std::string checksum(json document);
 
 }  // namespace nysalt::program

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -45,8 +44,11 @@ bool is_file_name(const std::string& text) {
 
 method_source find_method(const std::string& typed, const held_methods& held,
                           const detail::named_letters& of_system) {
-  if (std::ranges::any_of(typed, [](unsigned char c) { return std::iscntrl(c) != 0; })) {
-    refuse("the name of a method must have no line break and no other control character; rename the file");
+  if (of_letters(typed) != typed) {  // reports show the name in every format
+    refuse(
+        "the name of a method must be UTF-8 without line breaks and other control characters, got '{}'; "
+        "rename the file",
+        typed);
   }
   method_source source;
   source.typed = typed;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Schemes as they are written.
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/crc.hpp>
 
 #include "catalogue.hpp"
 #include "method_file.hpp"
@@ -12,14 +10,6 @@
 #include "prepared_problem.hpp"
 
 namespace nysalt::program {
-
-std::string checksum(json document) {
-  document.erase("checksum");
-  const std::string text = document.dump();
-  boost::crc_32_type crc;
-  crc.process_bytes(text.data(), text.size());
-  return fmt::format("crc32:{:08x}", crc.checksum());
-}
 
 std::string scheme_text(const std::vector<learned_scheme>& learned, const prepared_problem& system,
                         const learn_plan& plan) {

@@ -2,10 +2,12 @@
 #include "build.hpp"
 
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -177,6 +179,16 @@ struct temporary {
   nysalt::detail::unfinished_name name;
 };
 
+/// Waits until the bytes of a file are on the disk: a name that is there after the machine stopped is of all
+/// of the file.
+void require_on_disk(const fs::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool done = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const std::error_code problem(errno, std::generic_category());
+  if (descriptor >= 0) ::close(descriptor);
+  if (!done) cannot_write(file, problem);
+}
+
 void compile(const fs::path& source, const std::string& identity, const fs::path& library,
              const recipe& how) {
   const std::string unique = fmt::format("{}.{}", library.string(), ::getpid());
@@ -199,6 +211,7 @@ void compile(const fs::path& source, const std::string& identity, const fs::path
     refuse("cannot compile {}: the compiler {} cannot be started; install it", source.string(),
            command.front());
   if (!compiler.succeeded()) refuse("cannot compile {}: {}", source.string(), first_error(compiler.output));
+  require_on_disk(made.path);
   std::error_code problem;
   fs::rename(made.path, library, problem);
   if (problem) cannot_write(library, problem);
@@ -230,7 +243,7 @@ fs::path compiled(const fs::path& source) {
 fs::path kept_source(const std::string& text) {
   fs::path file = cache_folder() / (name_of(text) + ".hpp");
   std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) write_file(file, text);
+  if (!fs::is_regular_file(file, ignored) || text_of_file(file) != text) write_file(file, text);
   return file;
 }
 
@@ -249,8 +262,8 @@ std::string build_library(const std::string& source, const std::string& output) 
   std::error_code ignored;
   if (fs::equivalent(source, to, ignored))
     refuse("cannot write {}: it was read as input; name another file", to);
+  require_plugin(source);
   const fs::path library = compiled(source);
-  require_plugin(library.string(), source);
   const auto text = text_of_file(library);
   if (!text) refuse("cannot read {}: it was removed meanwhile; build again", library.string());
   write_file(to, *text);

@@ -2,11 +2,14 @@
 #include "plugin.hpp"
 
 #include <dlfcn.h>
+#include <link.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string_view>
 
@@ -61,6 +64,27 @@ class unloadable : public refusal {
   using refusal::refusal;
 };
 
+/// Whether all of the file that the loader would map is there; of one that was cut off the first use of what
+/// is missing would end the process. What is no library of this machine the loader refuses itself.
+bool is_whole(const fs::path& file) {
+  std::error_code failure;
+  const std::uintmax_t length = fs::file_size(file, failure);
+  std::ifstream input(file, std::ios::binary);
+  const auto read_into = [&](auto& to) {
+    return static_cast<bool>(input.read(reinterpret_cast<char*>(&to), sizeof to));
+  };
+  ElfW(Ehdr) header{};
+  if (failure || !read_into(header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return true;
+  if (header.e_phentsize != sizeof(ElfW(Phdr))) return true;
+  input.seekg(static_cast<std::streamoff>(header.e_phoff));
+  for (int k = 0; k < header.e_phnum; ++k) {
+    ElfW(Phdr) segment{};
+    if (!read_into(segment)) return false;
+    if (segment.p_filesz > length || segment.p_offset > length - segment.p_filesz) return false;
+  }
+  return true;
+}
+
 void require_sound(const system_declaration& declared, const std::string& path) {
   std::vector<std::string> names;
   for (const auto& parameter : declared.parameters) {
@@ -101,6 +125,8 @@ system_declaration declared_in(const fs::path& library_file, const std::string& 
     refuse("cannot load {}: there is no such file; name a library or source of a system", shown);
   if (!fs::is_regular_file(file, ignored))
     refuse("cannot load {}: it is not a regular file; name a library or source of a system", shown);
+  if (!is_whole(file))
+    throw unloadable(message("cannot load {} as a library: the file is cut off; build it again", shown));
   name_signals(shown);
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
@@ -141,7 +167,7 @@ system_declaration load(const std::string& path, const std::string& shown) {
 
 }  // namespace
 
-void require_plugin(const std::string& path, const std::string& shown) { declared_in(path, shown); }
+void require_plugin(const std::string& path) { load(path, path); }
 
 const system_declaration& plugin_at(const std::string& path, const std::string& shown) {
   auto& all = all_loaded();

@@ -15,8 +15,8 @@ namespace nysalt::program {
 /// that is no library or declares nothing, and for a library that was compiled for another version, compiler
 /// or number of lanes.
 const system_declaration& plugin_at(const std::string& path, const std::string& shown = "");
-/// Throws as plugin_at() does for what a library holds, and keeps nothing.
-void require_plugin(const std::string& path, const std::string& shown);
+/// Throws as plugin_at() does, and keeps nothing.
+void require_plugin(const std::string& path);
 
 /// Those that are loaded, in their order.
 std::vector<const system_declaration*> loaded_plugins();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "csv_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -52,6 +53,18 @@ std::string contents_of(const std::string& option, const std::string& file) {
   return text;
 }
 
+constexpr std::size_t most_cells = std::size_t{1} << 22U;  // which take some hundred megabytes
+
+/// Throws refusal for a table of more cells than are read.
+void require_few_cells(const std::string& option, const std::string& file, std::size_t lines,
+                       std::size_t columns) {
+  if (lines * columns <= most_cells) return;
+  refuse(
+      "{} {}: a table must have at most 2^22 = {} cells, got {} in a line and {} lines or more; take fewer "
+      "lines",
+      option, file, most_cells, columns, lines);
+}
+
 }  // namespace
 
 void read_csv(const std::string& option, const std::string& file,
@@ -61,16 +74,22 @@ void read_csv(const std::string& option, const std::string& file,
   const std::string text = contents_of(option, file);
   std::string_view left = text;
   std::vector<std::string_view> cells;
-  split(take_up_to('\n', left), cells);
+  const auto first = take_up_to('\n', left);
+  require_few_cells(option, file, 1, static_cast<std::size_t>(std::ranges::count(first, ',')) + 1);
+  split(first, cells);
   const std::vector<std::string> names(cells.begin(), cells.end());
   header(names);
+  std::size_t rows = 1;
   for (std::size_t number = 2; !left.empty(); ++number) {
-    split(take_up_to('\n', left), cells);
-    if (cells.empty()) continue;
-    if (cells.size() != names.size()) {
+    const auto line = take_up_to('\n', left);
+    if (line.empty() || line == "\r") continue;
+    const auto columns = static_cast<std::size_t>(std::ranges::count(line, ',')) + 1;
+    if (columns != names.size()) {
       refuse("{} {}: line {} must have {} columns as the first line, got {}", option, file, number,
-             names.size(), cells.size());
+             names.size(), columns);
     }
+    require_few_cells(option, file, ++rows, columns);
+    split(line, cells);
     row(number, cells);
   }
 }

@@ -12,9 +12,10 @@
 
 namespace nysalt::program {
 
-/// Reads a CSV file of at most 64 megabytes whose first line names its columns: header(names), then
-/// row(number of the line, cells) for each further line that is not empty. Throws refusal, in the name of the
-/// option, if the file cannot be read, is longer, or a line has another number of columns than the first.
+/// Reads a CSV file of at most 64 megabytes and 2^22 cells whose first line names its columns: header(names),
+/// then row(number of the line, cells) for each further line that is not empty. Throws refusal, in the name
+/// of the option, if the file cannot be read, is larger, or a line has another number of columns than the
+/// first.
 void read_csv(const std::string& option, const std::string& file,
               const std::function<void(const std::vector<std::string>&)>& header,
               const std::function<void(std::size_t, const std::vector<std::string_view>&)>& row);

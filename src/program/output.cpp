@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cctype>
@@ -39,6 +40,8 @@ void print(std::string_view text) {
   if (errno == EPIPE) std::_Exit(0);  // the reader has seen enough
   throw nysalt::detail::write_failure("cannot write the standard output: it is closed, or the disk is full");
 }
+
+std::string line_of_written(std::string_view file) { return fmt::format("Written: {}\n", of_letters(file)); }
 
 void write_and_print(const std::function<void()>& write, const std::function<void(bool)>& print_all) {
   try {
@@ -100,7 +103,14 @@ std::string objection_to_files_in(const std::filesystem::path& folder) {
     }
     unlink(name.c_str());
   }
+  struct stat made {};
+  const bool is_own = fstat(file, &made) != 0 || (made.st_mode & 0600U) == 0600U;
   close(file);
+  if (!is_own) {
+    return fmt::format(
+        "a file that is made must be readable and writable by the user, got the mode {:03o}; type umask 022",
+        made.st_mode & 0777U);
+  }
   return {};
 }
 

@@ -15,6 +15,9 @@ namespace nysalt::program {
 /// Prints to standard output. Throws refusal if it cannot be written; a reader who went away is no error.
 void print(std::string_view text);
 
+/// The line that says that a file was written; of the name what terminals take for commands is replaced.
+std::string line_of_written(std::string_view file);
+
 /// Writes results to files, and prints them, be they written or not: work is not lost with a disk that is
 /// full. What the writing throws is thrown after that. The printing gets whether all was written.
 void write_and_print(const std::function<void()>& write, const std::function<void(bool written)>& print_all);

@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "comparison/number.hpp"
@@ -19,13 +20,15 @@ namespace {
 /// Which column has q1, q2, ...
 std::vector<std::size_t> columns_of_positions(const std::string& file, const std::vector<std::string>& names,
                                               Eigen::Index count) {
+  std::unordered_map<std::string_view, std::size_t> places;
+  for (std::size_t k = 0; k < names.size(); ++k) places.emplace(names[k], k);
   std::vector<std::size_t> columns;
   for (Eigen::Index i = 1; i <= count; ++i) {
-    const auto found = std::ranges::find(names, fmt::format("q{}", i));
-    if (found == names.end()) {
+    const auto found = places.find(fmt::format("q{}", i));
+    if (found == places.end()) {
       refuse("{}: the first line must name the columns q1 to q{}, got no q{}", file, count, i);
     }
-    columns.push_back(static_cast<std::size_t>(found - names.begin()));
+    columns.push_back(found->second);
   }
   return columns;
 }

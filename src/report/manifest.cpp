@@ -8,7 +8,9 @@
 #include <Eigen/Core>
 #include <array>
 #include <boost/version.hpp>
+#include <cerrno>
 #include <ctime>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <system_error>
@@ -34,6 +36,10 @@ constexpr int version_of_manifest = 1;
 constexpr std::array kinds_of_pictures{".svg", ".png", ".gp", ".dat"};
 
 std::string is_foreign(const fs::path& manifest) {
+  errno = 0;
+  if (fs::is_regular_file(manifest) && !std::ifstream(manifest)) {
+    return fmt::format("{} cannot be read ({})", manifest.string(), std::generic_category().message(errno));
+  }
   return fmt::format("{} is no manifest of this version of nysalt, or too large to be read",
                      manifest.string());
 }

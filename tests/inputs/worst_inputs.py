@@ -112,10 +112,27 @@ def long_and_right():
     for lines in (1, 7, 8):  # of the shortest values, in a file of nearly a megabyte, and in one too long
         text = "".join(f"{name} = [{','.join('1' * 65_000)}]\n" for name in OPTIONS_OF_LISTS[:lines])
         yield "steps", ".toml", text, ["compare", *short, "--config"]
-    starts = "q1,q2,q3,q4,q5,q6\n" + "0.125,0.25,0.5,0.125,0.25,0.5\n" * (63 * MB // 30)
-    yield "starts", ".csv", starts, [*RUN, "--start"]
-    data = "a,b,c,label\n" + "0.125,0.25,1.5,1\n0.25,0.5,2.5,0\n" * (60 * MB // 32)
-    yield "data", ".csv", data, [*RUN, "--system", "logistic_regression", "--data"]
+    cells = 1 << 22  # of a table, at most
+    for starts in (
+        "q1,q2,q3,q4,q5,q6\n" + "0.125,0.25,0.5,0.125,0.25,0.5\n" * (cells // 6 - 1),
+        "q1,q2,q3,q4,q5,q6\n" + "0.125,0.25,0.5,0.125,0.25,0.5\n" * (63 * MB // 30),  # as long as may be
+        "q1,q2,q3,q4,q5,q6" + "," * (cells // 2 - 6) + "\n" + "0.125,0.25,0.5,0.125,0.25,0.5" + "," * (cells // 2 - 6) + "\n",
+        "q1,q2,q3,q4,q5,q6" + "," * (60 * MB) + "\n",
+    ):
+        yield "starts", ".csv", starts, [*RUN, "--start"]
+    of_one = [*RUN, "--system", "pendulum", "--start"]
+    yield "starts", ".csv", "q1\n" + "1\n" * (cells - 1), of_one
+    yield "starts", ".csv", "q1\n" + "1\n" * (31 * MB), of_one
+    columns = ",".join(f"q{1 + i}" for i in range(500_000)) + "\n" + ",".join(["0"] * 500_000) + "\n"
+    yield "starts", ".csv", columns, [*RUN, "--system", "phi4", "--masses", "500000", "--start"]
+    for data in (
+        "a,b,c,label\n" + "0.125,0.25,1.5,1\n0.25,0.5,2.5,0\n" * (60 * MB // 32),
+        "a,label\n" + "1,1\n0,0\n" * (8 * MB),
+        "a,label\n" + "1,1\n0,0\n" * (cells // 4 - 1),
+        *(",".join(f"c{i}" for i in range(columns)) + "\n" + (",".join(["1"] * columns) + "\n" + ",".join(["0"] * columns) + "\n") * (rows // 2)
+          for columns, rows in ((20_001, 600), (20_001, 200), (2_000, 2_000), (200_000, 18), (200, 20_000))),
+    ):
+        yield "data", ".csv", data, [*RUN, "--system", "logistic_regression", "--data"]
     yield "data", ".csv", ",".join(f"c{i}" for i in range(3000)) + "\n" + (",".join(["1", "0"] * 1500) + "\n") * 20, [
         *RUN, "--system", "logistic_regression", "--data"]
 
@@ -156,10 +173,13 @@ def journals_and_checkpoints_at_bounds():
 
     most = 1 << 22  # values of one document
 
+    def signed(document):
+        bare = {name: value for name, value in document.items() if name != "checksum"}
+        text = json.dumps(bare, separators=(",", ":"))
+        return f'{text[:-1]},"checksum":"crc32:{zlib.crc32(text.encode()):08x}"}}'
+
     def part(result):
-        document = json.loads(parts[-1])
-        document["result"] = result
-        return json.dumps(document)
+        return signed({**json.loads(parts[-1]), "result": result})
 
     def journal(*lines):
         def write(path):
@@ -177,7 +197,7 @@ def journals_and_checkpoints_at_bounds():
         "the most members": [part(names)],
         "four of the longest parts": [part(texts)] * 4,
         "four of the longest lists": [part([1] * (most - 100))] * 4,
-        "the most parts": [json.dumps({"part": f"p{i}", "result": 1}) for i in range(100_000)],
+        "the most parts": [signed({"part": f"p{i}", "result": 1}) for i in range(100_000)],
     }.items():
         yield "journal", name, JOURNAL, journal(*lines), [*COMPARE, "--resume"]
     unfinished = {**line, "finished": False, "step": 0}

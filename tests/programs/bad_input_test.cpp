@@ -318,6 +318,21 @@ BOOST_AUTO_TEST_CASE(requests_that_no_machine_can_hold) {
        {"memory", "--output"}},
       {"compare --methods verlet --steps 0.01 --trajectories 1000000000000", {"memory", "trajectories"}},
   });
+  const std::string sampled = "sample --system pendulum --length 1";
+  all_refused(after(sampled, {{"--burn-in 9223372036854775807", {"--burn-in", "2^48", "9223372036854775807"}},
+                              {"--burn-in 281474976710656", {"--burn-in", "2^48"}},
+                              {"--burn-in 71000000000000 --chains 4", {"--burn-in", "2^48"}},
+                              {"--chains 9223372036854775807", {"--chains", "9223372036854775807"}},
+                              {"--draws 9223372036854775807", {"--draws", "9223372036854775807"}},
+                              {"--chains 4611686018427387904 --draws 2", {"--chains", "4611686018427387904"}},
+                              {"--chains 4294967296 --draws 4294967296", {"--chains", "2^48"}}}));
+  all_refused(
+      after("compare --system oscillator --omega 1 --friction 0.5 --temperature 0.1 --methods baoab "
+            "--steps 0.2 --horizon 60 --trajectories 8 --metric distribution",
+            {{"--range=-1e308,1e308", {"--range", "finite width"}},
+             {"--range=-1e308,9e307", {"--range", "finite width"}},
+             {"--range=1,0", {"--range", "LOW below HIGH"}},
+             {"--range=1,1", {"--range", "LOW below HIGH"}}}));
 }
 
 BOOST_AUTO_TEST_CASE(files_of_options) {
@@ -414,6 +429,23 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written) {
                       });
   BOOST_TEST(contents(folder / "file") == "kept");
   BOOST_TEST(contents(folder / "foreign" / "manifest.json") == "{\"name\": \"a web page\"}");
+}
+
+// What is made there could not be read by the command that goes on, or draws it.
+BOOST_AUTO_TEST_CASE(outputs_that_could_not_be_read_again_are_refused) {
+  for (const char* mask : {"777", "600", "400", "200"}) {
+    for (const std::string line :
+         {"run --method verlet --step 0.02 --horizon 0.1 --output out.csv --plot",
+          "learn --trajectories 3 --step 0.02 --horizon 0.1 --output s.json",
+          "sample --system pendulum --length 1 --draws 10 --checkpoint c --every 10",
+          "compare --methods verlet --steps 0.02 --trajectories 3 --horizon 0.2 --output folder"}) {
+      const scratch folder("masked");
+      const finished done = shell(folder, "umask " + std::string(mask) + "; \"$nysalt\" " + line);
+      BOOST_TEST(done.code == 2, line << ": " << done.err);
+      BOOST_TEST(done.err.find("type umask 022") != std::string::npos, line << ": " << done.err);
+      BOOST_TEST(folder.files().empty());
+    }
+  }
 }
 
 // One trajectory has no error bar, and that is all that it lacks.

@@ -123,11 +123,13 @@ void edit_journal_of(const std::string& name, const std::string& line) {
   for (std::size_t k = 1; k < lines.size(); ++k) {
     for (const auto& [what, text] : edits_of(lines[k])) {
       if (number++ % every != 0) continue;
+      const bool is_of_checksum = what.starts_with("/checksum");
+      const std::string line_again = is_of_checksum ? text : signed_line(text);
       std::string edited;
-      for (std::size_t i = 0; i < lines.size(); ++i) edited += (i == k ? text : lines[i]) + "\n";
+      for (std::size_t i = 0; i < lines.size(); ++i) edited += (i == k ? line_again : lines[i]) + "\n";
       const std::string shown = lines[k].substr(0, 60) + ": " + what;
       const auto done = resumed(edited);
-      if (done.code == 2) {
+      if (done.code == 2 || is_of_checksum) {
         require_refused(done, "cannot resume from out/journal.jsonl: ", shown);
         ++refused;
         continue;

@@ -37,6 +37,30 @@ BOOST_AUTO_TEST_CASE(bad_input_is_2_and_one_line) {
   }
 }
 
+// A limit of processes, which the superuser has not, counts threads too.
+BOOST_AUTO_TEST_CASE(threads_that_the_system_does_not_start_are_one_line) {
+  const scratch folder("no_threads");
+  const std::string user = shell(folder, "[ \"$(id -u)\" = 0 ]").code == 0
+                               ? "setpriv --reuid=65534 --regid=65534 --clear-groups "
+                               : "";
+  if (shell(folder, user + "prlimit --nproc=1 \"$nysalt\" --version").code != 0) {
+    BOOST_TEST_MESSAGE("skipped: another user may not run the program");
+    return;
+  }
+  for (const std::string line :
+       {"run --method verlet --step 0.02 --horizon 1 --trajectories 64",
+        "run --system phi4 --masses 1000000 --method verlet --step 0.02 --horizon 1 --observables energy",
+        "compare --methods verlet,mclachlan2 --steps 0.02 --trajectories 64 --horizon 1",
+        "sample --system linear_chain --length 1 --draws 10 --chains 64"}) {
+    const auto done = shell(folder, user + "prlimit --nproc=1 \"$nysalt\" " + line + " --threads 8");
+    BOOST_TEST(done.code == 2, line << ": " << done.err);
+    BOOST_TEST(lines(done.err) == "1", done.err);
+    BOOST_TEST(done.err.find("threads must be as many as the system starts, got 8") != std::string::npos,
+               done.err);
+    BOOST_TEST(shell(folder, user + "prlimit --nproc=1 \"$nysalt\" " + line + " --threads 1").code == 0);
+  }
+}
+
 // What took the time is printed: the values that were learned with all digits, for each of several steps too.
 BOOST_AUTO_TEST_CASE(a_file_that_cannot_be_written_is_4_and_loses_no_result) {
   const scratch folder("full");

@@ -188,6 +188,21 @@ BOOST_AUTO_TEST_CASE(a_closed_standard_output_is_told) {
   refused_and_left(folder, done, {}, not_written);
 }
 
+// Terminals obey some letters, and a line break would begin a line that is not of the program.
+BOOST_AUTO_TEST_CASE(names_are_printed_in_letters) {
+  for (const std::string command :
+       {"run --method verlet --step 0.02 --horizon 0.1", "learn --trajectories 3 --step 0.02 --horizon 0.1",
+        "sample --system pendulum --length 1 --draws 10", "export verlet --to c",
+        "compare --methods verlet --steps 0.02 --trajectories 3 --horizon 0.2",
+        "stability --method verlet"}) {
+    const scratch folder("hostile_name");
+    const finished done = shell(folder, "\"$nysalt\" " + command + " --output '\x1b[31m\xff\nx.csv'");
+    BOOST_TEST(done.code == 0, command << ": " << done.err);
+    BOOST_TEST(has(done.out, "Written:  [31m? x.csv\n"), command << ": " << done.out);
+    BOOST_TEST(!has(done.out, "\x1b"), command);
+  }
+}
+
 // A file that is opened while a stream is closed would get the number of that stream, and what is printed.
 BOOST_AUTO_TEST_CASE(what_is_printed_to_a_closed_stream_goes_into_no_file) {
   for (const std::string form : {"csv", "npy", "json"}) {

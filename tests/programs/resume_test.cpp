@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "../support/program.hpp"
+#include "../support/signed_again.hpp"
 #include "../support/without_times.hpp"
 
 using namespace nysalt::test;
@@ -67,10 +69,47 @@ BOOST_AUTO_TEST_CASE(finished_parts_are_not_done_again) {
   const auto at = text.find(before);
   BOOST_TEST_REQUIRE(at != std::string::npos);
   text.insert(at + before.size(), "12345.5,0.25],\"was\":[");
+  const auto begin = text.rfind('\n', at) + 1;
+  const auto end = text.find('\n', at);
+  text.replace(begin, end - begin, signed_line(text.substr(begin, end - begin)));
   std::ofstream(journal) << text;
   const auto again = run(folder, line + "run --resume");
   BOOST_TEST_REQUIRE(again.code == 0, again.err);
   BOOST_TEST(rows(folder, "run").find(",12345.5,0.25,") != std::string::npos);
+}
+
+// Any digit, of the question or of a part, whatever the part does with it. The last digits of a number may
+// leave the same double.
+BOOST_AUTO_TEST_CASE(a_journal_of_which_a_digit_was_changed_is_refused) {
+  const scratch folder("resume_digits");
+  BOOST_TEST_REQUIRE(run(folder, line + "whole").code == 0);
+  const std::string journal = killed_after(folder, "run", 8);
+  const std::string text = contents(journal);
+  std::vector<std::size_t> digits;
+  for (std::size_t at = 0; at < text.rfind('\n'); ++at) {
+    if (text[at] >= '0' && text[at] <= '9') digits.push_back(at);
+  }
+  constexpr std::size_t tries = 30;
+  std::size_t refused = 0;
+  for (std::size_t k = 0; k < tries; ++k) {
+    const std::size_t at = digits.at(k * digits.size() / tries);
+    std::string edited = text;
+    edited[at] = edited[at] == '9' ? '1' : static_cast<char>(edited[at] + 1);
+    std::filesystem::remove_all(folder / "run");
+    std::filesystem::create_directory(folder / "run");
+    std::ofstream(journal) << edited;
+    const auto done = run(folder, line + "run --resume");
+    const std::string shown = text.substr(std::max<std::size_t>(at, 40) - 40, 80);
+    if (done.code == 0) {
+      BOOST_TEST(rows(folder, "run") == rows(folder, "whole"), shown);
+      continue;
+    }
+    BOOST_TEST(done.code == 2, shown << ": " << done.err);
+    BOOST_TEST(done.err.find("cannot resume from run/journal.jsonl: ") != std::string::npos, done.err);
+    BOOST_TEST(contents(journal) == edited);
+    ++refused;
+  }
+  BOOST_TEST(refused > tries * 2 / 3);  // of 17 digits at most 3 leave the same double
 }
 
 BOOST_AUTO_TEST_CASE(a_last_line_that_was_cut_off_does_not_count) {
@@ -101,17 +140,25 @@ BOOST_AUTO_TEST_CASE(a_finished_run_is_left_alone) {
   BOOST_TEST(contents(folder / "run/report.json") != report);
 }
 
-// Bytes that are no UTF-8, which a report in JSON cannot hold.
-BOOST_AUTO_TEST_CASE(a_method_file_may_have_any_name) {
+// A report shows the name, and would not be UTF-8 with it, or have a line more.
+BOOST_AUTO_TEST_CASE(a_method_file_may_have_any_name_in_letters) {
   const scratch folder("resume_name");
-  std::ofstream(folder / "m\xff.json")
-      << R"({"format": "nysalt table", "version": 1, "name": "mine", "letters": "ABA", "coefficients": [0.5, 1, 0.5]})";
-  const std::string compared =
-      "compare --methods m\xff.json --steps 0.01 --trajectories 2 --horizon 0.1 --output r";
-  BOOST_TEST(run(folder, compared).code == 0);
-  const auto again = run(folder, compared + " --resume");
+  const auto compared = [&](const std::string& name, const std::string& more) {
+    std::ofstream(folder / name)
+        << R"({"format": "nysalt table", "version": 1, "name": "mine", "letters": "ABA", "coefficients": [0.5, 1, 0.5]})";
+    return run(folder, "compare --methods '" + name +
+                           "' --steps 0.01 --trajectories 2 --horizon 0.1 --output r" + more);
+  };
+  BOOST_TEST(compared("m\xd0\xb6 <b>.json", "").code == 0);
+  const auto again = compared("m\xd0\xb6 <b>.json", " --resume");
   BOOST_TEST(again.code == 0, again.err);
   BOOST_TEST(again.out == "It is finished: r\n");
+  for (const char* name : {"m\xff.json", "m\xed\xa0\x80.json", "m\xd0.json", "m\n.json", "m\x1b[31m.json",
+                           "m\xc2\x9b.json", "m\x7f.json"}) {
+    const auto refused = compared(name, "");
+    BOOST_TEST(refused.code == 2);
+    BOOST_TEST(refused.err.find("the name of a method must be UTF-8") != std::string::npos, refused.err);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_leaves_nothing) {
@@ -145,15 +192,18 @@ BOOST_AUTO_TEST_CASE(journals_of_others_are_refused) {
   refused(line + "run --resume --levels 0.5", "another question (levels)");
   // What is no journal is left as it is, whatever is asked; so is one that was edited.
   const auto head = text.substr(0, text.find('\n') + 1);
-  for (const std::string& other : {std::string("{\"some\": \"file\"}\n"), std::string("some notes"),
-                                   head + "{\"part\": 7, \"result\": {}}\n", head + "some notes\n"}) {
+  for (const std::string& other :
+       {std::string("{\"some\": \"file\"}\n"), std::string("some notes"),
+        head + signed_line(R"({"part":7,"result":{}})") + "\n",
+        head + R"({"part":"paths at 0.2","result":{}})" + "\n", head + "some notes\n"}) {
     std::ofstream(journal) << other;
     for (const char* resume : {"", " --resume"}) refused(line + "run" + resume, "is no journal");
     BOOST_TEST(contents(journal) == other);
   }
-  for (const std::string& result : {std::string("5"), std::string("{\"behind\": {}, \"findings\": []}")}) {
+  for (const std::string& result : {std::string("5"), std::string("{\"behind\":{},\"findings\":[]}")}) {
     const auto paths = text.find("\"part\":\"paths at 0.2\"");
-    const std::string edited = head + "{\"part\":\"paths at 0.2\",\"result\":" + result + "}\n";
+    const std::string edited =
+        head + signed_line("{\"part\":\"paths at 0.2\",\"result\":" + result + "}") + "\n";
     BOOST_TEST(paths != std::string::npos);
     std::ofstream(journal) << edited;
     refused(line + "run --resume", "not whole, or was edited");

@@ -103,9 +103,11 @@ class logistic_regression {
     return sum;
   }
 
-  /// Upper bound of the largest eigenvalue of X^T X: the largest sum of a row's magnitudes.
+  /// Upper bound of the largest eigenvalue of X^T X, which is that of X X^T: the largest sum of a row's
+  /// magnitudes in the smaller of the two.
   static double bound_of_eigenvalues(const Eigen::MatrixXd& x) {
-    const Eigen::MatrixXd products = x.transpose() * x;
+    const Eigen::MatrixXd products =
+        x.cols() <= x.rows() ? Eigen::MatrixXd(x.transpose() * x) : Eigen::MatrixXd(x * x.transpose());
     return products.cwiseAbs().rowwise().sum().maxCoeff();
   }
 

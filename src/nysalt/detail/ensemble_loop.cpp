@@ -13,6 +13,8 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "in_arena.hpp"
+
 namespace nysalt {
 
 void for_each_block(std::int64_t count, int width, int threads,
@@ -64,7 +66,7 @@ void for_each_block(std::int64_t count, int width, int threads,
   // As many as were asked for, also beyond the number of cores.
   const global_control allowed(global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   oneapi::tbb::task_arena arena(threads);
-  arena.execute([&] { oneapi::tbb::parallel_for(std::int64_t{0}, blocks, guarded); });
+  detail::in_arena(arena, threads, [&] { oneapi::tbb::parallel_for(std::int64_t{0}, blocks, guarded); });
   if (thrown) std::rethrow_exception(thrown);
 }
 

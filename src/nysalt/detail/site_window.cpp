@@ -12,6 +12,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "in_arena.hpp"
 #include "nysalt/detail/sentence.hpp"
 
 namespace nysalt::detail {
@@ -108,7 +109,7 @@ struct site_window::workers {
       for (std::int64_t item = 0; item < items; ++item) work(item, buffers.front());
       return;
     }
-    arena->execute([&] {
+    in_arena(*arena, static_cast<int>(buffers.size()), [&] {
       using oneapi::tbb::this_task_arena::current_thread_index;
       const auto in_buffer = [&](std::int64_t item) {
         work(item, buffers[static_cast<std::size_t>(current_thread_index())]);

@@ -43,7 +43,8 @@ int print_finished_report(const std::filesystem::path& folder, const comparison&
   if (is_there(folder / journal_name)) return unfinished;
   const auto there = finished_report(folder, all.question());
   if (!there) return unfinished;
-  print(all.common().json ? text_of(*there) : fmt::format("It is finished: {}\n", folder.string()));
+  print(all.common().json ? text_of(*there)
+                          : fmt::format("It is finished: {}\n", of_letters(folder.string())));
   return has_value(*there) ? done : no_result;
 }
 
@@ -100,7 +101,7 @@ int compare(const compare_command& command, const common_settings& common) {
   } else {
     print(readable(all));
     for (const auto& text : all.warnings()) warn(text);
-    if (!command.output.empty()) print(fmt::format("Written: {}\n", command.output));
+    if (!command.output.empty()) print(line_of_written(command.output));
   }
   return all.has_result() ? done : no_result;
 }

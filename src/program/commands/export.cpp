@@ -34,7 +34,7 @@ int export_method(const export_command& command, const common_settings& common) 
     } else if (command.output.empty()) {
       print(text);
     } else {
-      print(fmt::format("Written: {}\n", command.output));
+      print(line_of_written(command.output));
     }
   });
   return done;

@@ -40,7 +40,7 @@ int learn(const learn_command& command, const common_settings& common) {
     if (training.where())
       print(fmt::format("  {:<22}{}: {}\n", "letters O", to_string(*training.where()),
                         learned.front().method.letters().letters()));
-    if (keep && written) print(fmt::format("Written: {}\n", command.output));
+    if (keep && written) print(line_of_written(command.output));
   });
   if (!common.json) {
     for (const auto& one : learned) {

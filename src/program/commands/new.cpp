@@ -116,7 +116,7 @@ int new_system(const new_command& command, const common_settings& common) {
   if (common.json) {
     print(text_of({{"output", file.string()}}));
   } else {
-    print(fmt::format("Written: {}\nTry: nysalt build {}\n", file.string(), file.string()));
+    print(line_of_written(file.string()) + fmt::format("Try: nysalt build {}\n", of_letters(file.string())));
   }
   return done;
 }

@@ -32,7 +32,7 @@ int print_result(auto& all, const std::string& output, const common_settings& co
     }
     print(all.readable());
     for (const auto& text : all.warnings()) warn(text);
-    if (writes && written) print(fmt::format("Written: {}\n", output));
+    if (writes && written) print(line_of_written(output));
   });
   return all.has_result() ? done : no_result;
 }

@@ -111,12 +111,12 @@ json with_times(std::vector<diverged_trajectory> lost, double step) {
 void print_result(const run_command& command, const json& document, bool was_finished) {
   constexpr std::size_t enough = 20;  // lines of warnings
   if (was_finished) {
-    print(fmt::format("{} is finished already: nothing was done\n", command.output));
+    print(fmt::format("{} is finished already: nothing was done\n", of_letters(command.output)));
   } else if (!command.output.empty()) {
-    print(fmt::format("{} trajectories of {} steps, {} force evaluations each, {:.3g} s\nWritten: {}\n",
+    print(fmt::format("{} trajectories of {} steps, {} force evaluations each, {:.3g} s\n",
                       command.trajectories, document["steps"].get<std::int64_t>(),
-                      document["evaluations"].get<std::int64_t>(), document["seconds"].get<double>(),
-                      command.output));
+                      document["evaluations"].get<std::int64_t>(), document["seconds"].get<double>()) +
+          line_of_written(command.output));
   }
   const json& diverged = document["diverged"];
   for (std::size_t i = 0; i < std::min(diverged.size(), enough); ++i) {

@@ -255,6 +255,15 @@ void require_numbers(const sample_command& command) {
   require_positive("--hmc-temperature", command.temperature);
   require_at_least_one("--chains", command.chains);
   require_at_least_one("--draws", command.draws);
+  constexpr std::int64_t most = std::int64_t{1} << 48U;  // trajectories with noise of their own
+  const auto of_chain = static_cast<double>(command.burn_in) + static_cast<double>(command.draws);
+  if (static_cast<double>(command.chains) * of_chain > static_cast<double>(most)) {
+    refuse(
+        "--chains times --burn-in and --draws must be at most 2^48 = {} trajectories, got {} times {} and "
+        "{}; "
+        "take fewer",
+        most, command.chains, command.burn_in, command.draws);
+  }
 }
 
 void require_room(const sample_command& command, std::int64_t shown) {
@@ -331,7 +340,7 @@ int sample(const sample_command& command, const common_settings& common) {
       }
       for (const auto& warning : warnings) warn(warning);
       print(text_of(command, source, *system, options, found, all) +
-            (is_there ? fmt::format("Written: {}\n", command.output) : ""));
+            (is_there ? line_of_written(command.output) : ""));
     });
     if (command.output.empty()) remove_checkpoint();
   });

@@ -335,7 +335,7 @@ int stability(const stability_command& command, const common_settings& common) {
   if (!command.output.empty()) {
     write_curve(command, target, chart, marked, common);
     result.document["output"] = command.output;
-    result.text += fmt::format("Written: {}\n", command.output);
+    result.text += line_of_written(command.output);
   }
   if (!common.json) {
     for (const auto& warning : warnings) warn(warning);

@@ -28,7 +28,7 @@ struct labelled_rows {
 labelled_rows rows_of(const std::string& file, const std::string& label) {
   std::size_t at = 0;
   std::vector<std::string> names;
-  std::vector<std::vector<double>> rows;
+  std::vector<double> values;  // row by row
   const auto header = [&](const std::vector<std::string>& found) {
     names = found;
     if (names.size() < 2) refuse("--data {}: it must have a predictor and a label, got one column", file);
@@ -40,25 +40,22 @@ labelled_rows rows_of(const std::string& file, const std::string& label) {
     at = label.empty() ? names.size() - 1 : static_cast<std::size_t>(named - names.begin());
   };
   read_csv("--data", file, header, [&](std::size_t number, const std::vector<std::string_view>& cells) {
-    auto& row = rows.emplace_back();
     for (std::size_t j = 0; j < cells.size(); ++j) {
-      row.push_back(number_in_cell(
+      values.push_back(number_in_cell(
           cells[j], [&] { return fmt::format("--data {}: line {}, {}", file, number, names[j]); }));
     }
-    if (row[at] != 0.0 && row[at] != 1.0) {
+    const double found = values[values.size() - cells.size() + at];
+    if (found != 0.0 && found != 1.0) {
       refuse("--data {}: line {}, {} must be 0 or 1 as a label, got {}", file, number, names[at], cells[at]);
     }
   });
-  if (rows.empty()) refuse("--data {}: it must have a row beside the line of names", file);
-  labelled_rows result{Eigen::MatrixXd(std::ssize(rows), std::ssize(names) - 1),
-                       Eigen::VectorXd(std::ssize(rows))};
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    Eigen::Index column = 0;
-    for (std::size_t j = 0; j < names.size(); ++j) {
-      const auto row = static_cast<Eigen::Index>(r);
-      (j == at ? result.labels[row] : result.predictors(row, column++)) = rows[r][j];
-    }
-  }
+  if (values.empty()) refuse("--data {}: it must have a row beside the line of names", file);
+  const auto columns = std::ssize(names);
+  const auto label_at = static_cast<Eigen::Index>(at);
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> all(
+      values.data(), std::ssize(values) / columns, columns);
+  labelled_rows result{Eigen::MatrixXd(all.rows(), columns - 1), all.col(label_at)};
+  result.predictors << all.leftCols(label_at), all.rightCols(columns - 1 - label_at);
   return result;
 }
 
