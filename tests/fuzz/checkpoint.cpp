@@ -24,7 +24,7 @@ void read_whole(const std::string& file) {
   read_checkpoint(file, head.value("question", json()), 1);
 }
 
-/// The readers of all texts, and the command, which takes a hundred times as long, of some.
+/// The readers of all texts, and the command, which takes many times as long, of some.
 void go_on(const std::string& text) {
   const nysalt::fuzz::input_file last{"last.checkpoint", text};
   const bool is_taken = nysalt::fuzz::takes([&] { read_whole(last.name); }, {last});

@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   typed.insert(typed.begin(), {"--config", short_runs.name});
   static nysalt::fuzz::offered_options offered;
   const bool is_taken = nysalt::fuzz::takes([&] { offered.read(typed); }, {short_runs});
-  // Commands take a hundred times as long.
+  // Commands take many times as long.
   if (nysalt::fuzz::is_one_in(is_taken ? 16 : 256, text)) nysalt::fuzz::run(typed, {short_runs});
   return 0;
 }

@@ -54,8 +54,10 @@ labelled_rows rows_of(const std::string& file, const std::string& label) {
   const auto label_at = static_cast<Eigen::Index>(at);
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> all(
       values.data(), std::ssize(values) / columns, columns);
+  const Eigen::Index behind = columns - 1 - label_at;
   labelled_rows result{Eigen::MatrixXd(all.rows(), columns - 1), all.col(label_at)};
-  result.predictors << all.leftCols(label_at), all.rightCols(columns - 1 - label_at);
+  result.predictors.leftCols(label_at) = all.leftCols(label_at);
+  result.predictors.rightCols(behind) = all.rightCols(behind);
   return result;
 }
 
