@@ -15,25 +15,46 @@ files=("$corpus"/*)
 [[ -f ${files[0]} ]] || { printf 'fuzz.sh: there is no file in %s\n' "$corpus" >&2; exit 1; }
 mkdir -p "$kept"
 log=$kept.log
-# -entropic=0: the entropic power schedule costs more than most inputs, as the program has thousands of features.
-"$program" -runs="$inputs" -entropic=0 -timeout=60 -rss_limit_mb=2048 -max_len=4096 -print_final_stats=1 \
-  -artifact_prefix="$kept." "$kept" "$corpus" >"$log" 2>&1 ||
-  { tail -n 40 "$log" >&2; exit 1; }
 number_of() { sed -n "s/^stat::$1: *//p" "$log" | tail -n 1; }
-followed=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -n 1)
-executed=$(number_of number_of_executed_units)
-if ((${executed:-0} < inputs)) || ((${followed:-0} < 2)); then
-  tail -n 5 "$log" >&2
-  printf 'fuzz.sh: %s was not fuzzed: %s inputs of %s, %s places of the program reached\n' "${program##*/}" \
-    "${executed:-0}" "$inputs" "${followed:-0}" >&2
-  exit 1
+larger() { printf '%s\n' "$1" "$2" | sort -n | tail -n 1; }
+# In rounds, after each of which it can be gone on with as long as the program is the same: hours may be cut short.
+round=${FUZZ_ROUND:-100000}
+rounds=$kept.rounds  # the program, inputs so far, places reached, the slowest input, memory, seconds
+identity=$(sha256sum "$program" | cut -d ' ' -f 1)
+executed=0 followed=0 slowest=0 memory=0 seconds=0
+if [[ -f $rounds ]]; then
+  read -r of_program executed followed slowest memory seconds <"$rounds"
+  [[ $of_program == "$identity" ]] || { executed=0 followed=0 slowest=0 memory=0 seconds=0; }
 fi
+while ((executed < inputs)); do
+  began=$SECONDS
+  asked=$((inputs - executed < round ? inputs - executed : round))
+  # -entropic=0: the entropic power schedule costs more than most inputs, as the program has thousands of features.
+  "$program" -runs="$asked" -entropic=0 -timeout=60 -rss_limit_mb=2048 -max_len=4096 -print_final_stats=1 \
+    -artifact_prefix="$kept." "$kept" "$corpus" >"$log" 2>&1 ||
+    { tail -n 40 "$log" >&2; exit 1; }
+  new=$(number_of number_of_executed_units)
+  reached=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -n 1)
+  if ((${new:-0} < asked)) || ((${reached:-0} < 2)); then
+    tail -n 5 "$log" >&2
+    printf 'fuzz.sh: %s was not fuzzed: %s inputs of %s, %s places of the program reached\n' "${program##*/}" \
+      "${new:-0}" "$asked" "${reached:-0}" >&2
+    exit 1
+  fi
+  ((executed += new))
+  followed=$(larger "$followed" "$reached")
+  slowest=$(larger "$slowest" "$(number_of slowest_unit_time_sec)")
+  memory=$(larger "$memory" "$(number_of peak_rss_mb)")
+  ((seconds += SECONDS - began + 1))
+  printf '%s\n' "$identity $executed $followed $slowest $memory $seconds" >"$rounds.new"
+  mv "$rounds.new" "$rounds"
+done
 least=$kept.least
 rm -rf "$least"
 mkdir "$least"
 "$program" -merge=1 -timeout=60 -rss_limit_mb=2048 -max_len=4096 "$least" "$kept" "$corpus" >"$log.merge" 2>&1 ||
   { tail -n 20 "$log.merge" >&2; exit 1; }
-rm -rf "$kept"
+rm -rf "$kept" "$rounds"
 mv "$least" "$kept"
-printf '%s inputs, %s places of the program reached, %s kept, slowest %s s, %s MB at most\n' "$executed" "$followed" \
-  "$(find "$kept" -type f | wc -l)" "$(number_of slowest_unit_time_sec)" "$(number_of peak_rss_mb)"
+printf '%s inputs in %d minutes, %s places of the program reached, %s kept, slowest %s s, %s MB at most\n' "$executed" \
+  $((seconds / 60)) "$followed" "$(find "$kept" -type f | wc -l)" "$slowest" "$memory"

@@ -29,4 +29,18 @@ expect 1 planted 'deadly signal' planted "$sources/one_letter"
 expect 1 silent 'was not fuzzed' silent "$sources/one_letter"
 expect 1 empty 'no file' sound "$folder/empty"
 expect 2 relative 'must be absolute' sound one_letter
+# What was cut short goes on: of four rounds two are made before the program fails, and two after it.
+cat >"$folder/mortal" <<END
+#!/bin/sh
+echo x >>"$folder/calls"
+[ "\$(wc -l <"$folder/calls")" -ne 3 ] || { echo "cut short"; exit 1; }
+exec "$folder/sound" "\$@"
+END
+chmod +x "$folder/mortal"
+: >"$folder/calls"
+export FUZZ_ROUND=500
+expect 1 mortal 'cut short' mortal "$sources/one_letter"
+expect 0 mortal '^2[0-9]* inputs' mortal "$sources/one_letter"
+calls=$(wc -l <"$folder/calls")
+((calls == 6)) || { failed=1; echo "mortal was called $calls times, expected 6: 2 rounds, a failure, 2 rounds, a merge"; }
 exit "$failed"
