@@ -34,6 +34,12 @@ bool is_dear(const words& typed) {
   return says("recommend") || says("--plot") || (says("compare") && says("--output"));
 }
 
+bool is_long(const words& typed) {
+  return std::ranges::any_of(typed, [](const std::string& word) {
+    return word == "learn" || word == "compare" || word == "sample";
+  });
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -43,7 +49,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   typed.insert(typed.begin(), {"--config", short_runs.name});
   static nysalt::fuzz::offered_options offered;
   const bool is_taken = nysalt::fuzz::takes([&] { offered.read(typed); }, {short_runs});
-  // Commands take many times as long.
-  if (nysalt::fuzz::is_one_in(is_taken ? 16 : 256, text)) nysalt::fuzz::run(typed, {short_runs});
+  // Commands take many times as long, and those that learn or sample still more.
+  const int rarely = is_long(typed) ? 32 : 1;
+  if (nysalt::fuzz::is_one_in(rarely * (is_taken ? 32 : 512), text)) nysalt::fuzz::run(typed, {short_runs});
   return 0;
 }

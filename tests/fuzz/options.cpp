@@ -15,10 +15,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::vector<std::string> of_run{"--config", file.name, "run", "--threads", "1"};
   const bool by_stability = takes([&] { offered.read(of_stability); }, {file});
   const bool by_run = takes([&] { offered.read(of_run); }, {file});
-  if (!is_one_in(by_stability || by_run ? 16 : 256, file.text)) return 0;  // commands take many times as long
+  if (!is_one_in(by_stability || by_run ? 64 : 1024, file.text))
+    return 0;  // commands take many times as long
   run(of_stability, {file});
   run(of_run, {file});
-  if (!is_one_in(4096, file.text)) return 0;  // and these still more
+  if (!is_one_in(16384, file.text)) return 0;  // and these still more
   run({"--config", file.name, "compare", "--threads", "1", "--trajectories", "2", "--learn-trajectories", "2",
        "--json"},
       {file});
