@@ -50,7 +50,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static nysalt::fuzz::offered_options offered;
   const bool is_taken = nysalt::fuzz::takes([&] { offered.read(typed); }, {short_runs});
   // Commands take many times as long, and those that learn or sample still more.
-  const int rarely = is_long(typed) ? 32 : 1;
+  const std::size_t rarely = is_long(typed) ? 32 : 1;
   if (nysalt::fuzz::is_one_in(rarely * (is_taken ? 32 : 512), text)) nysalt::fuzz::run(typed, {short_runs});
   return 0;
 }
