@@ -20,6 +20,12 @@ namespace detail {
 /// is that of a link, a folder or a device, or if the file cannot be made.
 int make_part(const std::filesystem::path& part, const std::filesystem::path& target);
 
+/// Whether the name is still that of the open file.
+bool has_name(int file, const std::filesystem::path& name);
+
+/// Whether a process holds the lock of a file, as one does that writes it.
+bool is_locked(const std::filesystem::path& file);
+
 /// The file that a link leads to, or the path itself.
 std::filesystem::path behind_links(const std::filesystem::path& file);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,11 @@ inline void require_sound(const common_settings& common) {
   if (common.seed >= seed_limit) refuse("--seed must be below 2^51 = {}, got {}", seed_limit, common.seed);
 }
 
+/// Subnormal numbers, of fewer digits, are too small.
 inline void require_positive(const char* option, double value) {
-  if (value > 0.0 && std::isfinite(value)) return;
+  constexpr double least = std::numeric_limits<double>::min();
+  if (value >= least && std::isfinite(value)) return;
+  if (value > 0.0 && value < least) refuse("{} must be at least {:.3g}, got {}", option, least, value);
   refuse("{} must be a positive, finite number, got {}", option, value);
 }
 

@@ -33,6 +33,9 @@ void require_fitting(const comparison_options& asked, const std::function<bool(c
   belongs("--bins", {"distribution"});
   belongs("--longest-lag", {"acf"});
   belongs("--hmc-temperature", {"acceptance"});
+  const auto is_learned = [](const std::string& method) { return method.starts_with("learned:"); };
+  if (is_given("--fix") && std::ranges::none_of(asked.methods, is_learned))
+    refuse("--fix must come with a method that is learned, got {}; leave --fix away", listed(asked.methods));
 }
 
 comparison::comparison(std::unique_ptr<prepared_problem> system, comparison_options asked,

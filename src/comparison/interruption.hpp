@@ -7,10 +7,15 @@
 
 namespace nysalt::program {
 
-/// Thrown where work ends because of a signal that was noted.
+/// Thrown where work ends because of a signal that was noted, here or at another rank.
 class interrupted : public std::exception {
  public:
+  explicit interrupted(int signal) : signal_(signal) {}
+  int signal() const noexcept { return signal_; }
   const char* what() const noexcept override { return "ended by a signal"; }
+
+ private:
+  int signal_;
 };
 
 /// Has the signals handled: of a process that is ended by one, files that are not finished go, and the exit

@@ -28,8 +28,8 @@ inline double fine_step_within(double step, std::optional<double> asked, double 
   }
   constexpr double too_many = 1e6;  // a million for one step: the program would seem to hang
   if (ratio * parts > too_many) {
-    refuse("the step {} must hold at most {:g} fine steps, got {:g} of {:g}; take a larger --fine-step", step,
-           too_many, ratio * parts, fine);
+    refuse("the step {} must hold at most {:g} fine steps, got {:g} of {:g}; take a {}", step, too_many,
+           ratio * parts, fine, asked ? "larger --fine-step" : "smaller step");
   }
   return fine;
 }

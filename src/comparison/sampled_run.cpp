@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "all_ranks.hpp"
+#include "interruption.hpp"
 #include "nysalt/detail/collectively.hpp"
 #include "nysalt/distributed_run.hpp"
 #include "nysalt/ensembles/listed.hpp"
@@ -103,11 +104,11 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
       shared.deliver(records, take);
       if (!plan.segment || end == all.steps) continue;
       const run_progress at{first, shared.gather(runs ? runs->save() : saved_runs())};
-      on_first(ranks, [&] { plan.reached(at); });
+      report_reached(plan, at, ranks);
     }
     first += count;
     under_way = 0;
-    if (plan.segment) on_first(ranks, [&] { plan.reached({first, {}}); });
+    if (plan.segment) report_reached(plan, {first, {}}, ranks);
   }
 }
 
@@ -128,6 +129,12 @@ void run_from(const initial_states& starts, const initial_value_problem& made, c
 }
 
 }  // namespace
+
+void report_reached(const sampled_plan& plan, const run_progress& at, const communicator& ranks) {
+  const auto signal = -static_cast<int>(ranks.minimum(-noted_signal()));
+  on_first(ranks, [&] { plan.reached(at, signal != 0); });
+  if (signal != 0) throw interrupted(signal);
+}
 
 void run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
          const record_taker& take, const counter& progress) {
@@ -153,7 +160,7 @@ void integrate(const prepared_problem& system, const tabulated& method, const tr
   for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("q{}", i));
   for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("p{}", i));
   sampled.segment = short_segment(system.dimension());
-  sampled.reached = [](const run_progress&) {};
+  sampled.reached = [](const run_progress&, bool) {};
   std::ranges::fill(q, std::numeric_limits<double>::quiet_NaN());
   std::ranges::fill(p, std::numeric_limits<double>::quiet_NaN());
   const auto take = [&](std::int64_t m, const record& segment) {

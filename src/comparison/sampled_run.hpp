@@ -43,8 +43,12 @@ struct sampled_plan {
   std::optional<std::int64_t> segment = {};  // steps after which to hand over what there is; nothing: all
   // Of rank 0 only:
   run_progress from = {};
-  std::function<void(const run_progress&)> reached = {};  // called after each segment, if there are any
+  // Called after each segment, if there are any; and whether the run ends there, as a signal was noted.
+  std::function<void(const run_progress&, bool ends)> reached = {};
 };
+
+/// Calls reached() at rank 0. Throws interrupted at all ranks if one has noted a signal. Collective.
+void report_reached(const sampled_plan& plan, const run_progress& at, const communicator& ranks);
 
 /// Steps that take some tenths of a second in all lanes, for callers that check progress.
 constexpr std::int64_t short_segment(std::int64_t dimension) {

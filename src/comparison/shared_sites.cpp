@@ -252,11 +252,11 @@ void run_on_shared_sites(const initial_value_problem& made, const initial_states
         here.numbers.insert(here.numbers.end(), numbers.begin(), numbers.end());
         here.diverged_at.push_back(one.diverged_at());
       }
-      on_first(ranks, [&] { plan.reached({first, std::move(here)}); });
+      report_reached(plan, {first, std::move(here)}, ranks);
     }
     first += count;
     under_way = 0;
-    if (plan.segment) on_first(ranks, [&] { plan.reached({first, {}}); });
+    if (plan.segment) report_reached(plan, {first, {}}, ranks);
   }
 }
 

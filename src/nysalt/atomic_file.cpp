@@ -31,6 +31,13 @@ void put_folder_on_disk(const std::filesystem::path& file) {
 
 namespace detail {
 
+bool has_name(int file, const std::filesystem::path& name) {
+  struct stat opened {};
+  struct stat named {};
+  return fstat(file, &opened) == 0 && lstat(name.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
+         opened.st_dev == named.st_dev;
+}
+
 namespace {
 
 [[noreturn]] void cannot_write(const std::filesystem::path& file, std::string_view why) {
@@ -45,14 +52,6 @@ namespace {
 [[noreturn]] void failed_to_write(const std::filesystem::path& file) {
   throw write_failure(
       fmt::format("cannot write {}: the folder is not there, not writable, or full", file.string()));
-}
-
-/// Whether the name is still that of the open file.
-bool has_name(int file, const std::filesystem::path& name) {
-  struct stat opened {};
-  struct stat named {};
-  return fstat(file, &opened) == 0 && lstat(name.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
-         opened.st_dev == named.st_dev;
 }
 
 /// Removes what a process that was stopped left at the name; that of a living one is locked.
@@ -108,6 +107,14 @@ std::string objection_to_replacing(const std::filesystem::path& file) {
   if (S_ISDIR(found.st_mode)) return "it is a folder; name another file";
   if (S_ISLNK(found.st_mode)) return "it is a link that leads back to itself; remove it";
   return "it is not a regular file; name another";
+}
+
+bool is_locked(const std::filesystem::path& file) {
+  const int opened = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (opened < 0) return false;
+  const bool is_held = flock(opened, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(opened);
+  return is_held;
 }
 
 int make_part(const std::filesystem::path& part, const std::filesystem::path& target) {
@@ -178,6 +185,11 @@ void atomic_file::commit(bool durable) {
   if (durable && fsync(file_) != 0) fail();
   if (const auto why = detail::objection_to_replacing(path_); !why.empty())
     throw detail::write_failure(fmt::format("cannot write {}: {}", path_.string(), why));
+  if (!detail::has_name(file_, part_)) {
+    throw detail::write_failure(
+        fmt::format("cannot write {}: another process removed or replaced {}; write it again", path_.string(),
+                    part_.string()));
+  }
   std::error_code failure;
   std::filesystem::rename(part_, path_, failure);
   if (failure) fail();

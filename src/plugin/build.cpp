@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -189,9 +190,21 @@ void require_on_disk(const fs::path& file) {
   if (!done) cannot_write(file, problem);
 }
 
+/// Removes what compilers left that were killed: none takes a day.
+void remove_left_parts(const fs::path& folder) {
+  const auto yesterday = fs::file_time_type::clock::now() - std::chrono::hours(24);
+  std::error_code failure;
+  for (fs::directory_iterator at(folder, failure), end; !failure && at != end; at.increment(failure)) {
+    std::error_code ignored;
+    const auto made = at->last_write_time(ignored);
+    if (!ignored && at->path().extension() == ".part" && made < yesterday) fs::remove(at->path(), ignored);
+  }
+}
+
 void compile(const fs::path& source, const std::string& identity, const fs::path& library,
              const recipe& how) {
   const std::string unique = fmt::format("{}.{}", library.string(), ::getpid());
+  remove_left_parts(library.parent_path());
   const temporary made{unique + ".part"};
   std::vector<std::string> command = how.before;
   for (const char* flag :
@@ -210,6 +223,8 @@ void compile(const fs::path& source, const std::string& identity, const fs::path
   if (!compiler.code || *compiler.code == 127)
     refuse("cannot compile {}: the compiler {} cannot be started; install it", source.string(),
            command.front());
+  if (compiler.output.find("No space left on device") != std::string::npos)
+    cannot_write(library, std::make_error_code(std::errc::no_space_on_device));
   if (!compiler.succeeded()) refuse("cannot compile {}: {}", source.string(), first_error(compiler.output));
   require_on_disk(made.path);
   std::error_code problem;

@@ -121,6 +121,8 @@ void require_writable(const std::filesystem::path& named) {
   whole_path(named);  // asks for the current folder
   require_replaceable(named);
   const fs::path file = nysalt::detail::behind_links(named);
+  if (nysalt::detail::is_locked(file))
+    refuse("cannot write {}: another process writes it; wait for that, or name another file", file.string());
   require_room_for_name(file);
   const fs::path folder = folder_of(file);
   std::error_code ignored;

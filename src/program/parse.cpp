@@ -19,6 +19,20 @@ void refuse_empty_texts(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) option->check(objection);
 }
 
+/// "--output=" behind which there is nothing: the next word would be the value.
+void refuse_missing_values(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* command = &app;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    for (const CLI::App* const named : app.get_subcommands({})) {
+      if (named->get_name() == word) command = named;
+    }
+    if (word.starts_with("--") && word.ends_with('=') && word.find('=') == word.size() - 1) {
+      refuse("{}: the value must not be empty; {}", word.substr(0, word.size() - 1), help_of(*command));
+    }
+  }
+}
+
 /// The first word, where a command is missing: options follow a command.
 [[noreturn]] void refuse_without_command(const CLI::App& app, const std::string& word) {
   if (word.starts_with('-')) {
@@ -85,6 +99,7 @@ std::optional<std::string> parse(CLI::App& app, int argc, char** argv) {
     refuse_empty_texts(app);
     for (CLI::App* command : app.get_subcommands({})) refuse_empty_texts(*command);
   }
+  refuse_missing_values(app, argc, argv);
   try {
     app.parse(argc, argv);
     return std::nullopt;

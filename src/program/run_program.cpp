@@ -40,11 +40,11 @@ void occupy_closed_streams() {
 int exit_code_of(command_line run, int argc, char** argv) {
   try {
     return run(argc, argv);
-  } catch (const interrupted&) {
+  } catch (const interrupted& by) {
     complain(
         fmt::format("cannot finish the run: signal {} ended it; take --resume to go on from the checkpoint",
-                    noted_signal()));
-    return 128 + noted_signal();
+                    by.signal()));
+    return 128 + by.signal();
   } catch (const std::bad_alloc&) {
     return reported(
         "the command must fit into memory; take fewer trajectories, a shorter horizon or a smaller system",
@@ -52,7 +52,9 @@ int exit_code_of(command_line run, int argc, char** argv) {
   } catch (const nysalt::detail::write_failure& problem) {
     return reported(problem.what(), not_written);
   } catch (const std::exception& problem) {
-    return reported(problem.what(), bad_input);
+    const std::string text = problem.what();
+    return reported(text.empty() ? "cannot go on: an exception without a message was thrown" : text,
+                    bad_input);
   } catch (...) {  // by a system of the user's own
     return reported("cannot go on: an exception was thrown that is no std::exception, and has no message",
                     bad_input);
@@ -68,7 +70,9 @@ int run_program(command_line run, int argc, char** argv) {
   try {
     const mpi_session ranks(argc, argv);
     handle_signals();  // after MPI, which may have handlers of its own
-    return ranks.leave(exit_code_of(run, argc, argv));
+    const int code = exit_code_of(run, argc, argv);
+    allow_exit();
+    return ranks.leave(code);
   } catch (const std::exception& problem) {
     complain(problem.what());
   } catch (...) {

@@ -208,7 +208,10 @@ std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& problem) {  // of the user's code
-    refuse("cannot make the system {}: {}", declared.name, problem.what());
+    const std::string text = problem.what();
+    if (text.empty())
+      refuse("cannot make the system {}: an exception without a message was thrown", declared.name);
+    refuse("cannot make the system {}: {}", declared.name, text);
   }
 }
 

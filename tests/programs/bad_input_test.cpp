@@ -208,6 +208,64 @@ BOOST_AUTO_TEST_CASE(lists_have_no_holes) {
   });
 }
 
+// The next word would be taken for the value: a file named --json, or a seed that is not asked for.
+BOOST_AUTO_TEST_CASE(an_option_with_an_equals_sign_has_a_value) {
+  for (const std::string command :
+       {"run", "learn", "compare", "sample", "recommend", "stability", "export"}) {
+    const scratch folder("equals");
+    const auto done = shell(folder, "for o in $(\"$nysalt\" " + command +
+                                        " --help | grep -o '^ *--[a-z-]*' | sort -u); do " +
+                                        "for next in '' --json --seed=3 x; do echo \"$o\"; \"$nysalt\" " +
+                                        command + " $o= $next 2>&1; echo $?; done; done");
+    const auto lines = std::ranges::count(done.out, '\n');
+    std::ptrdiff_t refused = 0;
+    for (auto at = done.out.find(": the value must not be empty; "); at != std::string::npos;
+         at = done.out.find(": the value must not be empty; ", at + 1)) {
+      ++refused;
+    }
+    BOOST_TEST(lines > 20);
+    BOOST_TEST(3 * refused == lines, done.out);  // each is the option, the line and the exit code
+    BOOST_TEST(folder.files().empty());
+  }
+}
+
+// Of fewer digits than others, so that steps and ratios of them are anything.
+BOOST_AUTO_TEST_CASE(subnormal_numbers_are_refused) {
+  for (const std::string value : {"5e-324", "1e-310", "2.2e-308"}) {
+    const std::vector<std::string> lines{
+        "run --method verlet --horizon 1 --step " + value,
+        "run --method verlet --step 0.1 --horizon " + value,
+        "run --method verlet --step 0.1 --horizon 1 --omega " + value,
+        "run --system oscillator --method verlet --step 0.1 --horizon 1 --omega " + value,
+        "run --system linear_chain --method verlet --step 0.1 --horizon 1 --spring " + value,
+        learn + " --enough " + value,
+        "compare --methods verlet --steps 0.1 --horizon " + value,
+        "sample --system pendulum --length " + value,
+        "sample --system pendulum --length 1 --hmc-temperature " + value,
+        "recommend --for sampling --system pendulum --length " + value,
+        "recommend --for sampling --system pendulum --length 1 --hmc-temperature " + value,
+        "recommend --budget 8 --horizon " + value,
+        "recommend --budget " + value,
+        "stability --method verlet --system oscillator --omega " + value};
+    for (const auto& line : lines) {
+      const scratch folder("subnormal");
+      const finished done = shell(folder, "\"$nysalt\" " + line, 20);
+      BOOST_TEST(done.code == 2, line << ": " << done.code << done.err);
+      BOOST_TEST(is_one_line(done.err), line << ": " << done.err);
+    }
+  }
+}
+
+// Squares of frequencies decide about stability.
+BOOST_AUTO_TEST_CASE(frequencies_without_a_square_are_refused) {
+  all_refused(after("stability --method verlet --step 0.1 --system",
+                    {{"oscillator --omega 1e308", {"highest frequency", "1e+308"}},
+                     {"oscillator --omega 1e-300", {"highest frequency", "1e-300"}},
+                     {"phi4_lattice --mass_squared=1e308", {"highest frequency", "inf"}},
+                     {"linear_chain --spring 1e-307", {"highest frequency"}},
+                     {"fpu --omega 1e200", {"highest frequency"}}}));
+}
+
 BOOST_AUTO_TEST_CASE(parameters_of_a_family) {
   all_refused(after("stability --family nystrom", {{"", {"2 parameters", "b1, beta1", "0"}},
                                                    {"--parameters 0.5", {"2 parameters", "1"}},
@@ -304,7 +362,7 @@ BOOST_AUTO_TEST_CASE(requests_that_no_machine_can_hold) {
       {learn + " --pairs 9223372036854775808", {"--pairs", "9223372036854775808"}},
       {"learn --trajectories 1000000000000 --step 0.02 --output scheme.json", {"memory", "trajectories"}},
       {learn + " --horizon 1e14", {"memory", "horizon"}},
-      {learn + " --omega 1e12", {"fine steps", "--fine-step"}},
+      {learn + " --omega 1e12", {"fine steps", "smaller step"}},
       {learn + " --fine-step 1e-300", {"fine steps", "--fine-step"}},
       {"compare --methods verlet --steps 0.02 --trajectories 3 --fine-step 1e-12",
        {"fine steps", "--fine-step"}},
@@ -318,6 +376,7 @@ BOOST_AUTO_TEST_CASE(requests_that_no_machine_can_hold) {
        {"memory", "--output"}},
       {"compare --methods verlet --steps 0.01 --trajectories 1000000000000", {"memory", "trajectories"}},
   });
+  all_refused({{"compare --methods verlet --steps 0.02 --fix garbage", {"--fix", "learned", "verlet"}}});
   const std::string sampled = "sample --system pendulum --length 1";
   all_refused(after(sampled, {{"--burn-in 9223372036854775807", {"--burn-in", "2^48", "9223372036854775807"}},
                               {"--burn-in 281474976710656", {"--burn-in", "2^48"}},

@@ -181,6 +181,42 @@ BOOST_AUTO_TEST_CASE(of_two_runs_into_one_file_the_second_is_refused) {
   }
 }
 
+// The name of an unfinished file may be named as an output, and a checkpoint too.
+BOOST_AUTO_TEST_CASE(no_result_takes_the_place_of_what_is_under_way) {
+  for (const std::string kind : {".csv", ".npy", ".h5"}) {
+    const scratch folder("two_names");
+    const auto begun = [&](const std::string& more) {
+      return "\"$nysalt\" " + long_run + "--output a" + kind + more +
+             " >/dev/null 2>err & p=$!; for i in $(seq 500); do [ -e c ] && break; sleep 0.01; done; ";
+    };
+    const std::string checkpointed = " --checkpoint c --every 100000000";
+    for (const std::string& name : {"a" + kind + ".part", std::string("c"), std::string("link")}) {
+      const auto done =
+          shell(folder, "rm -f a* c link; ln -s a" + kind + ".part link; " + begun(checkpointed) +
+                            "\"$nysalt\" " + short_run + "--output " + name +
+                            "; echo $?; \"$nysalt\" sample --system pendulum --length 1 --draws 10 "
+                            "--output " +
+                            name + "; echo $?; kill -KILL $p; wait $p");
+      BOOST_TEST(done.out == "2\n2\n", name << ": " << done.out << done.err);
+      const bool is_checkpoint = name == "c";
+      BOOST_TEST(done.err.find(is_checkpoint ? "it is a checkpoint of what has not finished"
+                                             : "another process writes it") != std::string::npos,
+                 done.err);
+    }
+    // What took the place all the same does not become the result.
+    const auto taken =
+        shell(folder, "rm -f a* c link; " +
+                          std::string("\"$nysalt\" run --method verlet --step 0.001 --horizon 20000 ") +
+                          "--trajectories 3 --sample-every 1000 --output a" + kind + checkpointed +
+                          " >/dev/null 2>err & p=$!; for i in $(seq 500); do [ -e c ] && break; sleep "
+                          "0.01; done; echo other >x; mv x a" +
+                          kind + ".part; wait $p; echo $?");
+    BOOST_TEST(taken.out == "4\n", taken.out << contents(folder / "err"));
+    BOOST_TEST(contents(folder / "err").find("another process removed or replaced") != std::string::npos);
+    BOOST_TEST(!std::filesystem::exists(folder / ("a" + kind)));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(no_result_takes_the_place_of_an_input) {
   const scratch folder("inputs");
   std::ofstream(folder / "o.toml") << "method = \"verlet\"\nstep = 0.01\nhorizon = 1\n";

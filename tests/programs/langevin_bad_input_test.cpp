@@ -157,7 +157,7 @@ BOOST_AUTO_TEST_CASE(fine_steps_divide_the_intervals_of_the_noise) {
   all_refused(after(compare + "obabo --steps 0.1" + in_the_bath, {{"--fine-step 0.02", {"2 equal parts"}}}));
   BOOST_TEST(run(compare + "baoab --steps 0.1 --fine-step 0.02" + in_the_bath).code == 0);
   all_refused(
-      {{compare + "baoab --steps 0.1 --friction 1e9 --temperature 1", {"fine steps", "--fine-step"}}});
+      {{compare + "baoab --steps 0.1 --friction 1e9 --temperature 1", {"fine steps", "smaller step"}}});
 }
 
 BOOST_AUTO_TEST_CASE(metrics_that_say_nothing_there) {

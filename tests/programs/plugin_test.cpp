@@ -60,6 +60,10 @@ BOOST_AUTO_TEST_CASE(a_new_system_builds_and_runs) {
   const scratch folder("plugin_new");
   BOOST_TEST(run(folder, "new morse_chain").code == 0);
   BOOST_TEST(run(folder, "new morse_chain").code == 2);  // it is there
+  // Words and macros of C++, functions of C, names that the source has.
+  for (const std::string name :
+       {"class", "errno", "assert", "j1", "lgamma", "select", "random", "main", "model"})
+    BOOST_TEST(run(folder, "new " + name).code == 2, name);
   const auto built = run(folder, "build morse_chain.hpp");
   BOOST_TEST(built.code == 0, built.err);
   BOOST_TEST(built.out.find("--masses 4 --depth 1 --width 1 --spread 1") != std::string::npos, built.out);
@@ -185,9 +189,15 @@ BOOST_AUTO_TEST_CASE(a_damaged_library_in_the_cache_is_compiled_again) {
         .code;
   };
   BOOST_TEST(cut("cache/nysalt/plugins/*.so", 100) == 0);
+  // What a compiler left that was killed goes with the next one, unless it may be at work.
+  BOOST_TEST(
+      shell(folder, "cd cache/nysalt/plugins; touch -d '2 days ago' x.so.1.part; touch x.so.2.part").code ==
+      0);
   const auto again = shell(folder, use + "well.hpp");
   BOOST_TEST(again.code == 0, again.err);
   BOOST_TEST(again.out == first.out);
+  BOOST_TEST(!std::filesystem::exists(folder / "cache/nysalt/plugins/x.so.1.part"));
+  BOOST_TEST(std::filesystem::exists(folder / "cache/nysalt/plugins/x.so.2.part"));
   BOOST_TEST(cut("cache/nysalt/plugins/*.so", length / 2) == 0);
   const auto built = shell(folder, "XDG_CACHE_HOME=$PWD/cache $nysalt build well.hpp");
   BOOST_TEST(built.code == 0, built.err);
@@ -240,7 +250,10 @@ BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
   const std::string by_k = oscillator_source(
       potential_that(
           "if (k == 2.0) throw std::runtime_error(\"I will not\"); if (k == 3.0) throw 42; "
-          "if (k == 4.0) return 0.5 * k * q[0] * q[0] * std::nan(\"\"); if (k == 5.0) std::abort();") +
+          "if (k == 4.0) return 0.5 * k * q[0] * q[0] * std::nan(\"\"); if (k == 5.0) std::abort(); "
+          "if (k == 8.0) { volatile char room[1000]; room[0] = 1; const T deeper = potential(q); "
+          "room[999] = room[0]; return deeper * q[0]; } if (k == 9.0) std::exit(0); "
+          "if (k == 10.0) throw std::length_error(\"\");") +
           " template <class T> void force(const nysalt::vector<T, 1>& q, nysalt::vector<T, 1>& f) const { "
           "f[0] = (k == 6.0 ? k : -k) * q[0]; } int n = 1;",
       ", parameter(\"n\", &tried::n, \"not used\").at_least(1), "
@@ -250,6 +263,9 @@ BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
   must_say(by_k, "--k 4", "must be finite");
   must_say(by_k, "--k 6", "check its sign");
   must_say(by_k, "--k 7", "frequency(...) must be positive and finite, got -1");
+  must_say(by_k, "--k 9",
+           "exit() was called while the plug-in ./tried.hpp was in use: check the plug-in first");
+  must_say(by_k, "--k 10", "an exception without a message");
   must_say(by_k, "--n 4294967297", "at most 2147483647, got 4294967297");  // which an int would take for 1
   must_say(by_k, "--n 0", "--n must be at least 1");
   const auto crashed =
@@ -257,6 +273,10 @@ BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
   BOOST_TEST(crashed.code != 0);
   BOOST_TEST(crashed.err.find("SIGABRT while the plug-in ./tried.hpp was in use") != std::string::npos,
              crashed.err);
+  const auto overflown = run(folder, "run --system ./tried.hpp --k 8 --method verlet --step 0.1 --horizon 1");
+  BOOST_TEST(overflown.code != 0);
+  BOOST_TEST(overflown.err.find("SIGSEGV while the plug-in ./tried.hpp was in use") != std::string::npos,
+             overflown.err);
   BOOST_TEST(!folder.files().contains("out"));
   BOOST_TEST(
       run(folder, "run --system ./tried.hpp --method verlet --step 0.1 --horizon 1 --output out").code == 0);

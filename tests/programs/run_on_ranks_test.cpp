@@ -178,6 +178,36 @@ BOOST_AUTO_TEST_CASE(a_rank_that_dies_ends_the_job_and_others_go_on_with_it) {
   }
 }
 
+// A batch system may warn any of the ranks, or all.
+BOOST_AUTO_TEST_CASE(a_signal_to_any_rank_makes_a_checkpoint) {
+  const scratch folder("ranks_signalled");
+  const std::string line = in_bath("4000");
+  const auto whole = run(folder, line + "--output whole.csv");
+  BOOST_TEST_REQUIRE(whole.code == 0, whole.err);
+  const std::string command =
+      line + "--output a.csv --checkpoint a.checkpoint --threads 1 --every 1000000000";
+  for (const std::string to : {"pid.0", "pid.1", "pid.0 pid.1"}) {
+    const auto done = shell(folder, "rm -f a.* pid.*; " + on_known_ranks(2, command) +
+                                        " >/dev/null 2>err & pid=$!\n" + wait_for("a.checkpoint", 500) +
+                                        "sleep 0.1; kill -USR1 $(cat " + to + "); wait $pid; echo $?");
+    const std::string err = contents(folder / "err");
+    BOOST_TEST(done.out == "138\n", to << ": " << done.out << err);
+    BOOST_TEST(count(err, "signal 10 ended it; take --resume") == 1U, err);
+    const auto resumed = run(folder, command + " --resume");
+    BOOST_TEST(resumed.code == 0, resumed.err);
+    BOOST_TEST((contents(folder / "a.csv") == contents(folder / "whole.csv")));
+  }
+}
+
+// One of them makes the file; the others do not find it in their way.
+BOOST_AUTO_TEST_CASE(a_new_system_is_made_once) {
+  const scratch folder("ranks_new");
+  const auto done = run_on(3, folder, "new mine");
+  BOOST_TEST(done.code == 0, done.err);
+  BOOST_TEST(done.err == "");
+  BOOST_TEST(std::filesystem::exists(folder / "mine.hpp"));
+}
+
 BOOST_AUTO_TEST_CASE(bad_input_is_told_once_and_all_know_that_all_diverged) {
   const scratch folder("ranks_refused");
   refused_once(folder, on_ranks(3) + in_bath("20") + "--output none/a.csv", "there is no folder none");

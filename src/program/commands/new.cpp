@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -8,8 +9,10 @@
 #include "../../plugin/names.hpp"
 #include "../commands.hpp"
 #include "../output.hpp"
+#include "comparison/all_ranks.hpp"
 #include "comparison/json.hpp"
 #include "comparison/refusal.hpp"
+#include "nysalt/detail/collectively.hpp"
 
 namespace nysalt::program {
 
@@ -33,11 +36,15 @@ void require_name(const std::string& name) {
       "cos",       "tan",       "sqrt",      "pow",       "abs",        "fabs",      "floor",
       "ceil",      "gamma",     "j0",        "j1",        "jn",         "y0",        "y1",
       "yn",        "div",       "time",      "clock",     "index",      "signal",    "read",
-      "write",     "open",      "close",     "link",      "main",       "std"};
-  if (!is_plain_name(name) || taken.contains(name)) {
+      "write",     "open",      "close",     "link",      "main",       "std",       "assert",
+      "errno",     "offsetof",  "setjmp",    "stdin",     "stdout",     "stderr",    "va_arg",
+      "va_copy",   "va_end",    "va_start",  "linux",     "unix"};
+  const bool is_function = dlsym(RTLD_DEFAULT, name.c_str()) != nullptr;
+  if (!is_plain_name(name) || taken.contains(name) || is_function) {
     refuse(
-        "the name of a system must be lower-case letters, digits and _, a letter first, and no word of C++, "
-        "got '{}'",
+        "the name of a system must be lower-case letters, digits and _, a letter first, and no word of C++ "
+        "or "
+        "function of C, got '{}'; take another",
         name);
   }
 }
@@ -102,17 +109,19 @@ NYSALT_SYSTEM(NAME, "masses between walls, joined by Morse bonds",
 int new_system(const new_command& command, const common_settings& common) {
   require_name(command.name);
   const std::filesystem::path file = command.name + ".hpp";
-  std::error_code ignored;
-  if (std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) {
-    refuse("cannot write {}: a file of that name is there; take another name, or move the file",
-           file.string());
-  }
-  require_writable(file);
-  std::string text = beginning;
-  for (auto at = text.find("NAME"); at != std::string::npos; at = text.find("NAME", at)) {
-    text.replace(at, 4, command.name);
-  }
-  write_file(file, text);
+  on_first(all_ranks(), [&] {
+    std::error_code ignored;
+    if (std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) {
+      refuse("cannot write {}: a file of that name is there; take another name, or move the file",
+             file.string());
+    }
+    require_writable(file);
+    std::string text = beginning;
+    for (auto at = text.find("NAME"); at != std::string::npos; at = text.find("NAME", at)) {
+      text.replace(at, 4, command.name);
+    }
+    write_file(file, text);
+  });
   if (common.json) {
     print(text_of({{"output", file.string()}}));
   } else {

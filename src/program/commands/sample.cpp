@@ -72,6 +72,7 @@ hmc_options hmc_options_of(const sample_command& command, const prepared_problem
 /// Throws refusal for bad options of files, before any work.
 void require_files(const sample_command& command) {
   require_table(command.output, false);
+  require_no_checkpoint(command.output);
   if (command.checkpoint.empty()) {
     if (command.resume) refuse("--resume must come with --checkpoint; name the file to go on from");
     if (command.every) refuse("--every must come with --checkpoint; name the file of the checkpoint");
@@ -84,8 +85,9 @@ void require_files(const sample_command& command) {
   std::error_code ignored;
   if (!command.resume && std::filesystem::exists(command.checkpoint, ignored)) {
     refuse(
-        "cannot write {}: the checkpoint is of chains that were stopped; take --resume to go on with the "
-        "chains, or remove the file to begin anew",
+        "cannot write {}: the checkpoint is of chains that were stopped, or are under way; name another "
+        "file, or, once no process writes it, take --resume to go on with the chains, or remove the file to "
+        "begin anew",
         command.checkpoint);
   }
 }

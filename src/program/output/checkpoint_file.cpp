@@ -104,6 +104,16 @@ void write_checkpoint_file(const std::filesystem::path& file, const json& head,
   out.commit(true);
 }
 
+void require_no_checkpoint(const std::filesystem::path& output) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(output, ignored)) return;
+  std::ifstream input(output, std::ios::binary);
+  const json head = parsed(first_line(input));
+  if (!head.is_object() || head.value("format", json()) != format_of_checkpoint) return;
+  if (head.value("finished", json()) == true) return;
+  refuse("cannot write {}: it is a checkpoint of what has not finished; name another file", output.string());
+}
+
 json head_of_checkpoint(const std::filesystem::path& file, const std::string& command) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {

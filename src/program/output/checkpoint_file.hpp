@@ -19,6 +19,9 @@ namespace nysalt::program {
 void write_checkpoint_file(const std::filesystem::path& file, const json& head,
                            std::span<const double> numbers);
 
+/// Throws refusal for an output in the place of a checkpoint of any run or chains that have not finished.
+void require_no_checkpoint(const std::filesystem::path& output);
+
 /// The line of JSON of a checkpoint, beside what is its own: `command`, `question` (all that decides the
 /// bytes of the output). Throws refusal for what is no checkpoint of that command, not whole, edited, or of a
 /// newer format. Memory: that of the line.

@@ -6,7 +6,6 @@
 
 #include "checkpoint_file.hpp"
 #include "comparison/inputs.hpp"
-#include "comparison/interruption.hpp"
 #include "comparison/refusal.hpp"
 #include "program/output.hpp"
 
@@ -56,8 +55,9 @@ run_output::~run_output() {
 void run_output::make_part(const json& question) {
   if (is_there(checkpoint_) && is_of_unfinished_run(checkpoint_)) {
     refuse(
-        "cannot write {}: the checkpoint is of a run that was stopped; take --resume to go on with the run, "
-        "or remove the file to begin anew",
+        "cannot write {}: the checkpoint is of a run that was stopped, or is under way; name another file, "
+        "or, once no process writes it, take --resume to go on with the run, or remove the file to begin "
+        "anew",
         checkpoint_.string());
   }
   if (checkpoint_.empty()) {
@@ -131,7 +131,7 @@ void run_output::begin(sampled_plan& plan) {
   if (state_.at.is_new()) samples_->begin();
   plan.from = state_.at;
   saved_at_ = {state_.at.first, state_.at.batch.step};
-  plan.reached = [this](const run_progress& at) { reached(at); };
+  plan.reached = [this](const run_progress& at, bool ends) { reached(at, ends); };
 }
 
 void run_output::take(std::int64_t trajectory, const record& segment) {
@@ -139,13 +139,13 @@ void run_output::take(std::int64_t trajectory, const record& segment) {
   if (segment.diverged_at) state_.lost.push_back({trajectory, *segment.diverged_at});
 }
 
-void run_output::reached(const run_progress& at) {
+void run_output::reached(const run_progress& at, bool ends) {
   if (checkpoint_.empty()) return;
   // Of a single trajectory what is written is in order, wherever it is cut.
   if (at.batch.diverged_at.size() > 1 && !is_of_arrays_) state_.in_order = false;
   const std::int64_t step = at.batch.step;
   const bool is_due = at.first != saved_at_.first || step / every_ != saved_at_.step / every_;
-  if (!is_due && noted_signal() == 0) return;
+  if (!is_due && !ends) return;
   saved_at_ = {at.first, step};
   samples_->flush();
   part_->put_on_disk();
@@ -155,7 +155,6 @@ void run_output::reached(const run_progress& at) {
   is_fresh_ = false;
   fresh_name_.reset();
   save(at);
-  if (noted_signal() != 0) throw interrupted();
 }
 
 void run_output::commit() {
@@ -165,6 +164,7 @@ void run_output::commit() {
   if (state_.in_order) {
     part_->finish();
   } else {
+    part_->require_own();
     put_by_trajectory(part_->part(), output_);
   }
 }

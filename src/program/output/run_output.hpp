@@ -54,7 +54,7 @@ class run_output {
   void make_part(const json& question);
   void lay_out();
   void go_on(const json& question, std::int64_t dimension);
-  void reached(const run_progress& at);
+  void reached(const run_progress& at, bool ends);
   void save(const run_progress& at);
 
   std::string output_;

@@ -101,9 +101,8 @@ unfinished_file::unfinished_file(const std::filesystem::path& file, origin from)
            part_.string());
   }
   struct stat opened {};
-  struct stat named {};  // who held the lock before may have given the file its name meanwhile
-  const bool is_known = fstat(file_.number, &opened) == 0 && stat(part_.c_str(), &named) == 0;
-  if (!is_known || opened.st_ino != named.st_ino || opened.st_dev != named.st_dev) {
+  // Who held the lock before may have given the file its name meanwhile.
+  if (fstat(file_.number, &opened) != 0 || !nysalt::detail::has_name(file_.number, part_)) {
     refuse("cannot write {}: another run has just finished it; take that file, or name another --output",
            path_.string());
   }
@@ -162,8 +161,16 @@ void unfinished_file::keep() {
   name_.reset();
 }
 
+void unfinished_file::require_own() const {
+  if (nysalt::detail::has_name(file_.number, part_)) return;
+  throw nysalt::detail::write_failure(
+      message("cannot write {}: another process removed or replaced {}; run it again", path_.string(),
+              part_.string()));
+}
+
 void unfinished_file::finish() {
   put_on_disk();
+  require_own();
   if (const auto why = nysalt::detail::objection_to_replacing(path_); !why.empty()) {
     throw nysalt::detail::write_failure(message("cannot write {}: {}", path_.string(), why));
   }

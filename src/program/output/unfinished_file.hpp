@@ -67,7 +67,9 @@ class unfinished_file {
   file_sum written() const { return {length_, sum_.checksum()}; }
 
   void keep();
-  /// FILE.part becomes FILE. Throws refusal if renaming fails.
+  /// Throws write_failure if another process removed or replaced FILE.part.
+  void require_own() const;
+  /// FILE.part becomes FILE. Throws write_failure as require_own() does, and if renaming fails.
   void finish();
   /// FILE was made of FILE.part in another way.
   void remove();
