@@ -34,6 +34,7 @@ void declared_parameter::require(const parameter_value& value) const {
   };
   if (!std::isfinite(x)) refuse("finite");
   if (is_positive && !(x > 0.0)) refuse("positive");
+  if (std::fpclassify(x) == FP_SUBNORMAL) refuse("of full precision");
   if (!(x < below)) refuse("below " + text_of_bound(*this, below));
   if (x >= least && x <= most) return;
   std::string condition;

@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(histograms_and_lags_are_in_place) {
                      {"--range 0,1,2", {"--range", "two numbers", "3"}},
                      {"--range 1,1", {"--range", "LOW below HIGH", "1,1"}},
                      {"--range 2,1", {"--range", "LOW below HIGH", "2,1"}},
-                     {"--range=-1e308,1e308", {"--range", "LOW below HIGH"}},
+                     {"--range=-1e308,1e308", {"--range", "finite width"}},
                      {"--range 0,nan", {"--range", "'nan'", "finite"}},
                      {"--range 0,,1", {"--range", "empty"}},
                      {"--range 100,200", {"--range", "100,200", "energy"}},
