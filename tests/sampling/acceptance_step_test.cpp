@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(of_a_gaussian_target_many_times_larger_the_step_is_that_of_
     const double relative = standard_errors(false_alarms / 2) * found.log_step.standard_error +
                             0.005;  // a fourth of 2 %, as mu is of h^4
     BOOST_TEST(std::abs(found.step / exact - 1.0) <= relative);
-    BOOST_TEST(relative < 0.05);
+    BOOST_TEST(relative < 0.1);  // sharp enough for what must differ
     const double not_scaled = gaussian_step(method, frequencies(), 0.9);
     BOOST_TEST(std::abs(found.step / not_scaled - 1.0) > 5.0 * relative);
     BOOST_TEST(std::accumulate(found.log_of_each.begin(), found.log_of_each.end(), 0.0) / 800.0 ==
