@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "nysalt/detail/sentence.hpp"
@@ -34,7 +35,8 @@ void declared_parameter::require(const parameter_value& value) const {
   };
   if (!std::isfinite(x)) refuse("finite");
   if (is_positive && !(x > 0.0)) refuse("positive");
-  if (std::fpclassify(x) == FP_SUBNORMAL) refuse("of full precision");
+  constexpr double least_normal = std::numeric_limits<double>::min();
+  if (is_positive && x < least_normal) refuse("at least " + text_of_bound(*this, least_normal));
   if (!(x < below)) refuse("below " + text_of_bound(*this, below));
   if (x >= least && x <= most) return;
   std::string condition;
