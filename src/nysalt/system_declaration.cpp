@@ -35,8 +35,8 @@ void declared_parameter::require(const parameter_value& value) const {
   };
   if (!std::isfinite(x)) refuse("finite");
   if (is_positive && !(x > 0.0)) refuse("positive");
-  constexpr double least_normal = std::numeric_limits<double>::min();
-  if (is_positive && x < least_normal) refuse("at least " + text_of_bound(*this, least_normal));
+  const std::string precise = "0 or at least " + text_of_bound(*this, std::numeric_limits<double>::min());
+  if (std::fpclassify(x) == FP_SUBNORMAL) refuse(precise);
   if (!(x < below)) refuse("below " + text_of_bound(*this, below));
   if (x >= least && x <= most) return;
   std::string condition;
