@@ -223,9 +223,11 @@ void compile(const fs::path& source, const std::string& identity, const fs::path
   if (!compiler.code || *compiler.code == 127)
     refuse("cannot compile {}: the compiler {} cannot be started; install it", source.string(),
            command.front());
-  if (compiler.output.find("No space left on device") != std::string::npos)
-    cannot_write(library, std::make_error_code(std::errc::no_space_on_device));
-  if (!compiler.succeeded()) refuse("cannot compile {}: {}", source.string(), first_error(compiler.output));
+  if (!compiler.succeeded()) {
+    if (compiler.output.find("No space left on device") != std::string::npos)
+      cannot_write(library, std::make_error_code(std::errc::no_space_on_device));
+    refuse("cannot compile {}: {}", source.string(), first_error(compiler.output));
+  }
   require_on_disk(made.path);
   std::error_code problem;
   fs::rename(made.path, library, problem);

@@ -20,6 +20,10 @@ std::string_view take_up_to(char end, std::string_view& text) {
   return taken;
 }
 
+std::size_t columns_of(std::string_view line) {
+  return static_cast<std::size_t>(std::ranges::count(line, ',')) + 1;
+}
+
 /// Of a line that is empty none.
 void split(std::string_view line, std::vector<std::string_view>& cells) {
   cells.clear();
@@ -75,7 +79,7 @@ void read_csv(const std::string& option, const std::string& file,
   std::string_view left = text;
   std::vector<std::string_view> cells;
   const auto first = take_up_to('\n', left);
-  require_few_cells(option, file, 1, static_cast<std::size_t>(std::ranges::count(first, ',')) + 1);
+  require_few_cells(option, file, 1, columns_of(first));
   split(first, cells);
   const std::vector<std::string> names(cells.begin(), cells.end());
   header(names);
@@ -83,7 +87,7 @@ void read_csv(const std::string& option, const std::string& file,
   for (std::size_t number = 2; !left.empty(); ++number) {
     const auto line = take_up_to('\n', left);
     if (line.empty() || line == "\r") continue;
-    const auto columns = static_cast<std::size_t>(std::ranges::count(line, ',')) + 1;
+    const auto columns = columns_of(line);
     if (columns != names.size()) {
       refuse("{} {}: line {} must have {} columns as the first line, got {}", option, file, number,
              names.size(), columns);

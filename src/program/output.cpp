@@ -22,6 +22,7 @@
 #include "mpi_session.hpp"
 #include "nysalt/atomic_file.hpp"
 #include "nysalt/detail/write_failure.hpp"
+#include "output/checkpoint_file.hpp"
 #include "report/comparison_report.hpp"
 #include "report/manifest.hpp"
 
@@ -135,6 +136,7 @@ void require_writable(const std::filesystem::path& named) {
 
 void require_result(const std::filesystem::path& file) {
   require_writable(file);
+  require_no_checkpoint(file);
   require_manifest(file);
 }
 

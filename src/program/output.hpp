@@ -25,7 +25,8 @@ void write_and_print(const std::function<void()>& write, const std::function<voi
 /// Throws refusal now if a file could not be written there later.
 void require_writable(const std::filesystem::path& file);
 
-/// The same of a result, which is recorded in the manifest of its folder.
+/// The same of a result, which is recorded in the manifest of its folder, and takes no place of a checkpoint
+/// from which something can be gone on with.
 void require_result(const std::filesystem::path& file);
 
 /// Whether two paths lead to one file, be it there or not.

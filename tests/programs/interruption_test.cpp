@@ -196,8 +196,10 @@ BOOST_AUTO_TEST_CASE(no_result_takes_the_place_of_what_is_under_way) {
                             "\"$nysalt\" " + short_run + "--output " + name +
                             "; echo $?; \"$nysalt\" sample --system pendulum --length 1 --draws 10 "
                             "--output " +
-                            name + "; echo $?; kill -KILL $p; wait $p");
-      BOOST_TEST(done.out == "2\n2\n", name << ": " << done.out << done.err);
+                            name + "; echo $?; \"$nysalt\" export verlet --to c --output " + name +
+                            "; echo $?; \"$nysalt\" stability --method verlet --output " + name +
+                            "; echo $?; kill -KILL $p; wait $p");
+      BOOST_TEST(done.out == "2\n2\n2\n2\n", name << ": " << done.out << done.err);
       const bool is_checkpoint = name == "c";
       BOOST_TEST(done.err.find(is_checkpoint ? "it is a checkpoint of what has not finished"
                                              : "another process writes it") != std::string::npos,

@@ -19,32 +19,28 @@ namespace nysalt::program {
 namespace {
 
 void require_name(const std::string& name) {
+  // Functions of C are found in what the program has loaded.
   static const std::set<std::string> taken{
-      "alignas",   "alignof",   "and",       "asm",       "auto",       "bool",      "break",
-      "case",      "catch",     "char",      "class",     "concept",    "const",     "consteval",
-      "constexpr", "constinit", "continue",  "decltype",  "default",    "delete",    "do",
-      "double",    "else",      "enum",      "explicit",  "export",     "extern",    "false",
-      "float",     "for",       "friend",    "goto",      "if",         "inline",    "int",
-      "long",      "mutable",   "namespace", "new",       "noexcept",   "not",       "nullptr",
-      "operator",  "or",        "private",   "protected", "public",     "register",  "requires",
-      "return",    "short",     "signed",    "sizeof",    "static",     "struct",    "switch",
-      "template",  "this",      "throw",     "true",      "try",        "typedef",   "typename",
-      "union",     "unsigned",  "using",     "virtual",   "void",       "volatile",  "while",
-      "xor",       "nysalt",    "model",     "system",    "name",       "source",    "description",
-      "spread",    "potential", "parameter", "starts",    "observable", "frequency", "first_bond",
-      "starts_of", "masses",    "depth",     "width",     "exp",        "log",       "sin",
-      "cos",       "tan",       "sqrt",      "pow",       "abs",        "fabs",      "floor",
-      "ceil",      "gamma",     "j0",        "j1",        "jn",         "y0",        "y1",
-      "yn",        "div",       "time",      "clock",     "index",      "signal",    "read",
-      "write",     "open",      "close",     "link",      "main",       "std",       "assert",
-      "errno",     "offsetof",  "setjmp",    "stdin",     "stdout",     "stderr",    "va_arg",
-      "va_copy",   "va_end",    "va_start",  "linux",     "unix"};
+      "alignas",   "alignof",   "and",       "asm",        "auto",      "bool",        "break",
+      "case",      "catch",     "char",      "class",      "concept",   "const",       "consteval",
+      "constexpr", "constinit", "continue",  "decltype",   "default",   "delete",      "do",
+      "double",    "else",      "enum",      "explicit",   "export",    "extern",      "false",
+      "float",     "for",       "friend",    "goto",       "if",        "inline",      "int",
+      "long",      "mutable",   "namespace", "new",        "noexcept",  "not",         "nullptr",
+      "operator",  "or",        "private",   "protected",  "public",    "register",    "requires",
+      "return",    "short",     "signed",    "sizeof",     "static",    "struct",      "switch",
+      "template",  "this",      "throw",     "true",       "try",       "typedef",     "typename",
+      "union",     "unsigned",  "using",     "virtual",    "void",      "volatile",    "while",
+      "xor",       "nysalt",    "model",     "name",       "source",    "description", "spread",
+      "potential", "parameter", "starts",    "observable", "frequency", "first_bond",  "starts_of",
+      "masses",    "depth",     "width",     "main",       "std",       "assert",      "errno",
+      "offsetof",  "va_arg",    "va_copy",   "va_end",     "va_start",  "linux",       "unix"};
   const bool is_function = dlsym(RTLD_DEFAULT, name.c_str()) != nullptr;
   if (!is_plain_name(name) || taken.contains(name) || is_function) {
     refuse(
         "the name of a system must be lower-case letters, digits and _, a letter first, and no word of C++ "
-        "or "
-        "function of C, got '{}'; take another",
+        "or function "
+        "of C, got '{}'; take another",
         name);
   }
 }

@@ -16,7 +16,6 @@
 #include "comparison/progress.hpp"
 #include "comparison/sampled_run.hpp"
 #include "nysalt/detail/collectively.hpp"
-#include "program/output/checkpoint_file.hpp"
 #include "program/output/planned_run.hpp"
 #include "program/output/run_output.hpp"
 #include "report/manifest.hpp"
@@ -68,7 +67,6 @@ void draw_run(const run_command& command, const run_output& output, std::int64_t
 /// Throws refusal for bad options of the files of a run, before any work.
 void require_files(const run_command& command) {
   require_table(command.output, command.plot);
-  require_no_checkpoint(command.output);
   if (command.checkpoint.empty()) {
     if (command.resume) refuse("--resume must come with --checkpoint; name the file to go on from");
     if (command.every) refuse("--every must come with --checkpoint; name the file of the checkpoint");

@@ -72,7 +72,6 @@ hmc_options hmc_options_of(const sample_command& command, const prepared_problem
 /// Throws refusal for bad options of files, before any work.
 void require_files(const sample_command& command) {
   require_table(command.output, false);
-  require_no_checkpoint(command.output);
   if (command.checkpoint.empty()) {
     if (command.resume) refuse("--resume must come with --checkpoint; name the file to go on from");
     if (command.every) refuse("--every must come with --checkpoint; name the file of the checkpoint");
