@@ -72,8 +72,7 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
     const program::sampled_plan sampled{.trajectories = plan,
                                         .observables = observables,
                                         .every = every,
-                                        .segment = program::short_segment(planned_system.dimension()),
-                                        .reached = [](const program::run_progress&) {}};
+                                        .segment = program::short_segment(planned_system.dimension())};
     const auto take = [&](std::int64_t m, const program::record& one) {
       const std::int64_t row = m * samples + one.first / every;
       std::ranges::copy(one.values, to.begin() + row * std::ssize(observables));

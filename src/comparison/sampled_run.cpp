@@ -132,7 +132,9 @@ void run_from(const initial_states& starts, const initial_value_problem& made, c
 
 void report_reached(const sampled_plan& plan, const run_progress& at, const communicator& ranks) {
   const auto signal = -static_cast<int>(ranks.minimum(-noted_signal()));
-  on_first(ranks, [&] { plan.reached(at, signal != 0); });
+  on_first(ranks, [&] {
+    if (plan.reached) plan.reached(at, signal != 0);
+  });
   if (signal != 0) throw interrupted(signal);
 }
 
@@ -160,7 +162,6 @@ void integrate(const prepared_problem& system, const tabulated& method, const tr
   for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("q{}", i));
   for (std::size_t i = 1; i <= n; ++i) sampled.observables.push_back(fmt::format("p{}", i));
   sampled.segment = short_segment(system.dimension());
-  sampled.reached = [](const run_progress&, bool) {};
   std::ranges::fill(q, std::numeric_limits<double>::quiet_NaN());
   std::ranges::fill(p, std::numeric_limits<double>::quiet_NaN());
   const auto take = [&](std::int64_t m, const record& segment) {
