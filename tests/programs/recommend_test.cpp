@@ -75,7 +75,8 @@ BOOST_AUTO_TEST_CASE(seconds_decide_too) {
   const auto all = document("recommend --system fpu --budget 60 --horizon 2 --families aba6,r_fg4 " + few);
   BOOST_TEST(all["winner"] == "learned:r_fg4");
   const auto& by_seconds = all["by_seconds"];
-  BOOST_TEST(by_seconds["winner"] == "learned:aba6");
+  const std::string winner = by_seconds["winner"];
+  BOOST_TEST(winner != "learned:r_fg4");  // which other wins depends on the machine too
   const auto row = [&](const json& rows, const std::string& name) {
     for (const auto& one : rows) {
       if (one["method"] == name) return one;
@@ -83,7 +84,7 @@ BOOST_AUTO_TEST_CASE(seconds_decide_too) {
     return json();
   };
   const json first = row(all["rows"], "learned:r_fg4");
-  const json fast = row(by_seconds["rows"], "learned:aba6");
+  const json fast = row(by_seconds["rows"], winner);
   BOOST_TEST(fast["error"].get<double>() < 0.2 * first["error"].get<double>());
   // Equal seconds; timings of one method differ by a few percent, of two in a busy machine by more.
   const double ratio = fast["seconds_per_time"].get<double>() / first["seconds_per_time"].get<double>();
@@ -92,7 +93,7 @@ BOOST_AUTO_TEST_CASE(seconds_decide_too) {
   const std::string advice = all["advice"];
   BOOST_TEST(advice.find("Take learned:r_fg4") != std::string::npos, advice);
   BOOST_TEST(advice.find("By seconds another wins") != std::string::npos, advice);
-  BOOST_TEST(advice.find("learned:aba6") != std::string::npos, advice);
+  BOOST_TEST(advice.find(winner) != std::string::npos, advice);
 }
 
 BOOST_AUTO_TEST_CASE(a_budget_of_seconds_gives_equal_seconds) {
