@@ -204,7 +204,12 @@ class sample_arrays final : public sample_writer {
 
   void write_into(unfinished_file& file) {
     file_ = &file;
-    places_ = places_in(file.part());
+    try {
+      places_ = places_in(file.part());
+    } catch (const refusal&) {
+      file.require_own();  // or another file took the place of the part
+      throw;
+    }
   }
 
   void write_gathered(gathered& numbers) {
