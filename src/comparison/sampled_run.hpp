@@ -47,7 +47,8 @@ struct sampled_plan {
   std::function<void(const run_progress&, bool ends)> reached = {};
 };
 
-/// Calls reached() at rank 0. Throws interrupted at all ranks if one has noted a signal. Collective.
+/// Calls reached(), if it is set, at rank 0. Throws interrupted at all ranks if one has noted a signal.
+/// Collective.
 void report_reached(const sampled_plan& plan, const run_progress& at, const communicator& ranks);
 
 /// Steps that take some tenths of a second in all lanes, for callers that check progress.

@@ -39,8 +39,7 @@ void require_name(const std::string& name) {
   if (!is_plain_name(name) || taken.contains(name) || is_function) {
     refuse(
         "the name of a system must be lower-case letters, digits and _, a letter first, and no word of C++ "
-        "or function "
-        "of C, got '{}'; take another",
+        "or function of C, got '{}'; take another",
         name);
   }
 }
