@@ -159,7 +159,7 @@ atomic_file::atomic_file(std::filesystem::path path, const std::string& writer)
 
 atomic_file::~atomic_file() {
   std::error_code ignored;
-  if (!committed_) std::filesystem::remove(part_, ignored);
+  if (!committed_ && detail::has_name(file_, part_)) std::filesystem::remove(part_, ignored);
   if (file_ >= 0) close(file_);
 }
 

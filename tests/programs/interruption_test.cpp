@@ -216,6 +216,16 @@ BOOST_AUTO_TEST_CASE(no_result_takes_the_place_of_what_is_under_way) {
     BOOST_TEST(taken.out == "4\n", taken.out << contents(folder / "err"));
     BOOST_TEST(contents(folder / "err").find("another process removed or replaced") != std::string::npos);
     BOOST_TEST(!std::filesystem::exists(folder / ("a" + kind)));
+    // Nor is it removed by a run without a checkpoint.
+    const std::string is_begun = kind == ".csv" ? "-e" : "-s";
+    const auto kept =
+        shell(folder,
+              "rm -f a* c; \"$nysalt\" run --method verlet --step 0.001 --horizon 20000 "
+              "--trajectories 3 --sample-every 1000 --output a" +
+                  kind + " >/dev/null 2>err & p=$!; for i in $(seq 500); do [ " + is_begun + " a" + kind +
+                  ".new.part ] && break; sleep 0.01; done; echo other >x; mv x a" + kind +
+                  ".new.part; wait $p; echo $?; cat a" + kind + ".new.part");
+    BOOST_TEST(kept.out == "4\nother\n", kept.out << contents(folder / "err"));
   }
 }
 

@@ -124,3 +124,19 @@ BOOST_AUTO_TEST_CASE(of_two_writers_the_second_is_refused) {
   write_file(folder / "a.txt", "second");
   BOOST_TEST(contents(folder / "a.txt") == "second");
 }
+
+BOOST_AUTO_TEST_CASE(what_took_the_place_of_the_part_stays) {
+  const scratch folder("write_file_place");
+  const auto replace = [&] {
+    std::ofstream(folder / "x") << "other";
+    std::filesystem::rename(folder / "x", folder / "a.txt.new.part");
+  };
+  {
+    atomic_file file(folder / "a.txt");
+    file.write("text");
+    replace();
+    BOOST_TEST(refuses<detail::write_failure>([&] { file.commit(); }, {"removed or replaced"}));
+  }
+  BOOST_TEST(contents(folder / "a.txt.new.part") == "other");
+  BOOST_TEST((folder.files() == names{"a.txt.new.part"}));
+}

@@ -184,6 +184,7 @@ void unfinished_file::finish() {
 }
 
 void unfinished_file::remove() {
+  if (!nysalt::detail::has_name(file_.number, part_)) return;  // of another process
   std::error_code ignored;
   std::filesystem::remove(part_, ignored);
 }
