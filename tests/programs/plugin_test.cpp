@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(a_damaged_library_in_the_cache_is_compiled_again) {
     BOOST_TEST(done.err.find("cannot load ./own.so as a library") != std::string::npos, done.err);
     ++refused;
   }
-  BOOST_TEST(refused > cuts / 2);
+  BOOST_TEST(refused > cuts / 10);  // the rest may be names for debuggers, which are not loaded
 }
 
 // Without them everything works, thirty times as slowly.

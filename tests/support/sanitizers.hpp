@@ -17,4 +17,9 @@ constexpr bool under_address_sanitizer = true;
 #else
 constexpr bool under_address_sanitizer = false;
 #endif
+#if defined NYSALT_THREAD_SANITIZER
+constexpr bool under_thread_sanitizer = true;
+#else
+constexpr bool under_thread_sanitizer = false;
+#endif
 }  // namespace nysalt::test

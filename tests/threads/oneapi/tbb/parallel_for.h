@@ -6,6 +6,9 @@
 
 #include <atomic>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -44,7 +47,8 @@ inline int current_thread_index() { return task_arena::index_here; }
 
 struct static_partitioner {};
 
-/// The body throws nothing: ours catch for themselves.
+/// The body throws nothing: ours catch for themselves. Throws std::runtime_error if a thread does not start,
+/// with the first word of the message of TBB, when the threads that have started are done.
 template <class Index, class Body>
 void parallel_for(Index first, Index last, const Body& body) {
   // Relaxed, so that one call of the body is not ordered behind another by it.
@@ -56,14 +60,20 @@ void parallel_for(Index first, Index last, const Body& body) {
     }
   };
   std::vector<std::thread> others;
-  for (int k = 1; k < task_arena::threads_here; ++k) {
-    others.emplace_back([&work, k] {
-      task_arena::index_here = k;
-      work();
-    });
+  std::string problem;
+  try {
+    for (int k = 1; k < task_arena::threads_here; ++k) {
+      others.emplace_back([&work, k] {
+        task_arena::index_here = k;
+        work();
+      });
+    }
+  } catch (const std::system_error& failure) {
+    problem = std::string("pthread_create: ") + failure.what();
   }
   work();
   for (auto& worker : others) worker.join();
+  if (!problem.empty()) throw std::runtime_error(problem);
 }
 
 /// Who takes which calls is not what is looked for.
