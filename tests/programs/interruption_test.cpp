@@ -79,7 +79,7 @@ kill -)" + std::string(signal) +
 }
 
 BOOST_AUTO_TEST_CASE(a_signal_ends_the_compiler_of_a_plug_in) {
-  if (under_thread_sanitizer) return;
+  if (under_thread_sanitizer) return;  // the same
   const scratch folder("signal_compiling");
   const auto done = shell(folder, "cp " NYSALT_SOURCE_DIR R"sh(/examples/plugins/toda.hpp mine.hpp
 compilers() { cat /proc/[0-9]*/cmdline 2>/dev/null | tr '\0' ' ' | grep -c '[c]c1plus.*signal_compiling'; }

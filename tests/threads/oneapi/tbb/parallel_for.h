@@ -27,11 +27,15 @@ class task_arena {
 
   template <class F>
   void execute(const F& f) const {
-    const int threads_outside = std::exchange(threads_here, threads_);
-    const int index_outside = std::exchange(index_here, 0);
+    const struct outside {
+      int threads;
+      int index;
+      ~outside() {
+        threads_here = threads;
+        index_here = index;
+      }
+    } restored{std::exchange(threads_here, threads_), std::exchange(index_here, 0)};
     f();
-    threads_here = threads_outside;
-    index_here = index_outside;
   }
 
   inline static thread_local int threads_here = 1;
