@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "../support/document.hpp"
+#include "../support/sanitizers.hpp"
 #include "../support/without_times.hpp"
 
 using namespace nysalt::test;
@@ -297,10 +298,11 @@ BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
   BOOST_TEST(crashed.code != 0);
   BOOST_TEST(crashed.err.find("SIGABRT while the plug-in ./tried.hpp was in use") != std::string::npos,
              crashed.err);
-  const auto overflown = run(  // of other threads an overflow is not reported
-      folder, "run --system ./tried.hpp --k 8 --method verlet --step 0.1 --horizon 1 --threads 1");
+  const auto overflown = run(folder, "run --system ./tried.hpp --k 8 --method verlet --step 0.1 --horizon 1");
   BOOST_TEST(overflown.code != 0);
-  BOOST_TEST(overflown.err.find("SIGSEGV while the plug-in ./tried.hpp was in use") != std::string::npos,
+  // Under ThreadSanitizer, which has a handler of its own before ours, only some of the overflows get here.
+  BOOST_TEST((under_thread_sanitizer ||
+              overflown.err.find("SIGSEGV while the plug-in ./tried.hpp was in use") != std::string::npos),
              overflown.err);
   BOOST_TEST(!folder.files().contains("out"));
   BOOST_TEST(
