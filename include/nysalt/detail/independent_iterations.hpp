@@ -2,24 +2,34 @@
 // Loops whose iterations do not depend on each other, and what compilers want to know of them.
 #pragma once
 
-/// Before a loop: what an iteration writes no other reads, so that compilers vectorise without comparing
-/// addresses first. NYSALT_END_OF_ITERATIONS follows the loop: clang++ would warn, in the user's build, of a
-/// loop that stays scalar, as under sanitizers.
-#if defined __clang__
-#define NYSALT_INDEPENDENT_ITERATIONS                                                    \
-  _Pragma("clang diagnostic push") _Pragma("clang diagnostic ignored \"-Wpass-failed\"") \
-      _Pragma("clang loop vectorize(assume_safety)")
-#define NYSALT_END_OF_ITERATIONS _Pragma("clang diagnostic pop")
-#else
-#define NYSALT_END_OF_ITERATIONS
-#if defined __GNUC__
-#define NYSALT_INDEPENDENT_ITERATIONS _Pragma("GCC ivdep")
-#else
-#define NYSALT_INDEPENDENT_ITERATIONS
-#endif
-#endif
+#include <Eigen/Core>
+#include <type_traits>
 
 namespace nysalt::detail {
+
+/// body(n) for n = begin .. end - 1, where what an iteration writes no other reads: compilers vectorise
+/// without comparing addresses first. T is the type of the numbers: clang++ is asked to vectorise over
+/// doubles only, as it warns, in the user's build, of a loop that stays scalar, such as one over packs or
+/// dual numbers.
+template <class T>
+[[gnu::always_inline]] inline void for_independent(Eigen::Index begin, Eigen::Index end, const auto& body) {
+#if defined __clang__
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wpass-failed"  // where instrumented; needs -g1 to apply here
+  if constexpr (std::is_floating_point_v<T>) {
+#pragma clang loop vectorize(assume_safety)
+    for (Eigen::Index n = begin; n < end; ++n) body(n);
+  } else {
+    for (Eigen::Index n = begin; n < end; ++n) body(n);
+  }
+#pragma clang diagnostic pop
+#else
+#if defined __GNUC__
+#pragma GCC ivdep
+#endif
+  for (Eigen::Index n = begin; n < end; ++n) body(n);
+#endif
+}
 
 /// The array x, which compilers take for another one. Of x[n] and x[n + 1] in one loop clang++ carries the
 /// second over to the next n in a register, and then does not vectorise.

@@ -240,12 +240,11 @@ class fpu_chain {
       }
       if (first + count == last) soft[count] = pull(T(-q(1, last - 1)));
       const T* right = detail::as_another_array(soft + 1);
-      NYSALT_INDEPENDENT_ITERATIONS
-      for (Eigen::Index n = 0; n < count; ++n) {
-        const Eigen::Index i = first + n;
-        take(i, T((q(1, i) - q(0, i)) * k), soft[n], right[n]);
-      }
-      NYSALT_END_OF_ITERATIONS
+      detail::for_independent<T>(
+          0, count, [&](Eigen::Index n) __attribute__((always_inline)) {
+            const Eigen::Index i = first + n;
+            take(i, T((q(1, i) - q(0, i)) * k), soft[n], right[n]);
+          });
     }
   }
 

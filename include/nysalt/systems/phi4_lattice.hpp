@@ -161,9 +161,8 @@ class phi4_lattice {
     one(0, here[last], here[1 < side_ ? 1 : 0]);
     const T* left = detail::as_another_array(here - 1);
     const T* right = detail::as_another_array(here + 1);
-    NYSALT_INDEPENDENT_ITERATIONS
-    for (Eigen::Index k = 1; k < last; ++k) one(k, left[k], right[k]);
-    NYSALT_END_OF_ITERATIONS
+    detail::for_independent<T>(
+        1, last, [&](Eigen::Index k) __attribute__((always_inline)) { one(k, left[k], right[k]); });
     one(last, here[last - 1], here[0]);
   }
 
