@@ -75,7 +75,7 @@ int main() {
                             tabulated(learn(aba<3>{}, system, data, unseen).method.anywhere())};
   const auto errors = trajectory_errors(system, reference, starts, methods, state_measure(system),
                                         {.step = step, .steps = 20, .trajectories = 100, .seed = 3});
-  for (int k : {0, 1})
+  for (std::size_t k = 0; k < methods.size(); ++k)
     fmt::print("  {:<6} state error {:.1e}\n", methods[k].name(), errors.methods[k].error.mean);
 }
 
