@@ -14,8 +14,10 @@ namespace nysalt::detail {
 template <class T>
 [[gnu::always_inline]] inline void for_independent(Eigen::Index begin, Eigen::Index end, const auto& body) {
 #if defined __clang__
+// A loop with the instructions of a sanitizer or of coverage stays scalar; with -g1 or more clang++ places
+// the warning here, without debug information at the caller.
 #pragma clang diagnostic push
-#pragma clang diagnostic ignored "-Wpass-failed"  // where instrumented; needs -g1 to apply here
+#pragma clang diagnostic ignored "-Wpass-failed"
   if constexpr (std::is_floating_point_v<T>) {
 #pragma clang loop vectorize(assume_safety)
     for (Eigen::Index n = begin; n < end; ++n) body(n);
