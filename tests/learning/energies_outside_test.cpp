@@ -107,9 +107,12 @@ BOOST_AUTO_TEST_CASE(starts_of_the_same_law_are_hardly_ever_serious) {
 }
 
 BOOST_AUTO_TEST_CASE(starts_of_other_energies_are_serious) {
-  gaussian_energies draw(12.0, 1.0);
-  gaussian_energies hotter(12.0, 4.0);
-  gaussian_energies colder(12.0, 0.05);
+  // Of 60 degrees, 100 energies are in [8, 75] but for a probability of 5e-7, as their distribution is
+  // Gamma(30): all of the colder ones are then below 0.05 * 75, and 0.98 of the hotter ones above 75. Of 12
+  // degrees the least of 100 is so near to 0, one time in 200, that everything below is gentle.
+  gaussian_energies draw(60.0, 1.0);
+  gaussian_energies hotter(60.0, 4.0);
+  gaussian_energies colder(60.0, 0.05);
   const auto seen = range_of(draw(100));
   for (auto* other : {&hotter, &colder}) {
     for (const std::size_t n : {40U, 1000U}) {  // of ten at most three are outside once in 300 times
