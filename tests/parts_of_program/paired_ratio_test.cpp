@@ -95,18 +95,19 @@ BOOST_AUTO_TEST_CASE(a_root_is_the_root_and_equal_methods_tie) {
   BOOST_TEST(!paired_ratio(two, one, mean).is_above_one());
 }
 
-// 1,000 samples: a bound of 97.7 % fails in 23 of them.
+// 4,000 samples: a bound of 97.7 % fails in 92 of them at most. Of 100 numbers it is the largest, which fails
+// in 0.95^100 of them: in 24, and in none with a probability of 6e-11.
 BOOST_AUTO_TEST_CASE(the_upper_bound_of_a_quantile_holds_for_any_tail) {
   std::mt19937_64 draw(nysalt::test::seed(8));
   const double exact = std::exp(3.0 * 1.6448536269514722);  // z of .95 [R 4.2, qnorm(.95)]
   int failures = 0;
   int below = 0;
-  for (int k = 0; k < 1000; ++k) {
+  for (int k = 0; k < 4000; ++k) {
     const auto scores = drawn(draw, 100, 3.0, 1.0).b;
     failures += quantile.upper_bound(scores) < exact;
     below += quantile.lower_bound(scores) > exact;
   }
-  const int allowed = most_of(1000, 0.023, false_alarms / 2);
+  const int allowed = most_of(4000, 0.023, false_alarms / 2);
   BOOST_TEST(failures <= allowed);
   BOOST_TEST(below <= allowed);
   BOOST_TEST(failures > 0);
