@@ -75,8 +75,9 @@ BOOST_AUTO_TEST_CASE(seconds_decide_too) {
   const auto all = document("recommend --system fpu --budget 60 --horizon 2 --families aba6,r_fg4 " + few);
   BOOST_TEST(all["winner"] == "learned:r_fg4");
   const auto& by_seconds = all["by_seconds"];
-  const std::string winner = by_seconds["winner"];
-  BOOST_TEST(winner != "learned:r_fg4");  // which other wins depends on the machine too
+  // Which other wins depends on the machine too; of a tie the classical one is taken.
+  const std::string winner = by_seconds[by_seconds["winner"].is_null() ? "best_classical" : "winner"];
+  BOOST_TEST(winner != "learned:r_fg4");
   const auto row = [&](const json& rows, const std::string& name) {
     for (const auto& one : rows) {
       if (one["method"] == name) return one;
