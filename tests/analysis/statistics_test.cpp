@@ -37,6 +37,23 @@ BOOST_AUTO_TEST_CASE(the_median_is_in_the_middle) {
   BOOST_TEST(std::isnan(median({})));
 }
 
+// The numbers n/100 are as uniform as can be: their median has the deviation 1/(2 sqrt(101)), and a farthest
+// number does not change that.
+BOOST_AUTO_TEST_CASE(the_error_of_a_median_is_that_of_its_place) {
+  numbers uniform;
+  for (int n = 0; n <= 100; ++n) uniform.push_back(n / 100.0);
+  const auto rounding = boost::test_tools::tolerance(1e-14);
+  const double error = 0.5 / std::sqrt(101.0);
+  BOOST_TEST(median_and_error(uniform).mean == 0.5, rounding);
+  BOOST_TEST(median_and_error(uniform).standard_error == error, rounding);
+  uniform.back() = INFINITY;
+  BOOST_TEST(median_and_error(uniform).standard_error == error, rounding);
+  for (std::size_t n = 55; n <= 100; ++n) uniform[n] += 0.1;  // a gap among the places that count
+  BOOST_TEST(median_and_error(uniform).mean == 0.5, rounding);
+  BOOST_TEST(median_and_error(uniform).standard_error > 1.5 * error);
+  BOOST_TEST(std::isnan(median_and_error(numbers{7.0}).standard_error));
+}
+
 // A large offset would drown squares that are not centred.
 BOOST_AUTO_TEST_CASE(an_offset_does_not_change_the_error) {
   const double offset = 1e8;
