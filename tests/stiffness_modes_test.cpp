@@ -4,6 +4,7 @@
 #include "nysalt/detail/stiffness_modes.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "support/draws.hpp"
 #include "support/refusal.hpp"
@@ -48,6 +49,17 @@ BOOST_AUTO_TEST_CASE(they_diagonalise_the_weighted_stiffness) {
       BOOST_TEST(norm(basis.transpose() * stiffness * basis - squares) > 1e-3);  // masses matter
       BOOST_TEST(frequencies.minCoeff() >= 0.0);
     }
+  }
+}
+
+// Where squares of entries overflow or underflow too. A power of four scales without rounding.
+BOOST_AUTO_TEST_CASE(frequencies_scale_with_the_root_of_the_stiffness) {
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(3);
+  const auto known = stiffness_modes(of_free_chain(), ones, "test").frequencies;
+  for (const int power : {-260, -1, 1, 260}) {
+    const auto scaled =
+        stiffness_modes(std::ldexp(1.0, 2 * power) * of_free_chain(), ones, "test").frequencies;
+    BOOST_TEST((scaled == std::ldexp(1.0, power) * known), "4^" << power << ": " << scaled.transpose());
   }
 }
 

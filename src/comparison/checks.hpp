@@ -44,6 +44,15 @@ void require_different(const char* option, std::vector<T> values, const Same& sa
   if (twice != values.end()) refuse("{} must be different, got {} twice; give each once", option, *twice);
 }
 
+/// Throws refusal if the square of the highest frequency of `system` overflows, or has fewer digits than
+/// others.
+inline void require_square_of_frequency(const std::string& system, double frequency) {
+  const double square = frequency * frequency;
+  if (std::isfinite(square) && (frequency == 0.0 || square >= std::numeric_limits<double>::min())) return;
+  refuse("{}: the highest frequency must have a square of full precision, got {}; take other parameters",
+         system, frequency);
+}
+
 /// floor(horizon/step + 1e-9). Throws refusal if that is no step, or more than can be counted.
 inline std::int64_t steps_within(const char* option, double horizon, double step) {
   require_positive(option, horizon);

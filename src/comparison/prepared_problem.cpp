@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "catalogue.hpp"
+#include "checks.hpp"
 #include "json.hpp"
 #include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/ensemble.hpp"
@@ -50,11 +51,7 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
       source_of_kind_(std::move(source)),
       start_(conditions.start) {
   for (const auto& one : made_.letters) letters_.push_back(one.named);
-  const double square = made_.frequency * made_.frequency;
-  if (!std::isfinite(square) || (made_.frequency > 0.0 && square < std::numeric_limits<double>::min())) {
-    refuse("{}: the highest frequency must have a square of full precision, got {}; take other parameters",
-           description(), made_.frequency);
-  }
+  require_square_of_frequency(description(), made_.frequency);
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
   if (start_ != start::law && !has_frequency_bands(made_.system)) {
     refuse(

@@ -126,6 +126,12 @@ void recommendation::consider(candidate contender) {
     contender.step = contender.source.evaluations_per_step / rate;
     if (contender.is_learned()) contender.where = placement_in(contender.source, *system_, otherwise);
     if (options_.budget) {
+      if (contender.step > options_.horizon * (1.0 + 1e-9)) {  // the rounding that steps_within() allows
+        return leave_out(
+            fmt::format("--budget must be at least {:g}, for one step within --horizon, got {:g}",
+                        contender.source.evaluations_per_step / options_.horizon + processing_of(contender),
+                        *options_.budget));
+      }
       plan_at(contender.step, options_.trajectories, 0);
       if (!contender.is_learned()) {
         std::vector<std::string> ignored;  // what is not stable is seen to diverge

@@ -43,9 +43,19 @@ bath bath_of(const bath_settings& settings, bool takes_temperature) {
   require("--friction", *settings.friction);
   if (settings.temperature) {
     require("--temperature", *settings.temperature);
+    if (!std::isfinite(2.0 * *settings.friction * *settings.temperature)) {
+      refuse("--friction and --temperature must have a finite product, got {} and {}; give smaller ones",
+             *settings.friction, *settings.temperature);
+    }
     return bath::of_temperature(*settings.friction, *settings.temperature);
   }
   require("--sigma", *settings.sigma);
+  if (*settings.friction > 0.0 &&
+      !std::isfinite(*settings.sigma * *settings.sigma / (2.0 * *settings.friction))) {
+    refuse(
+        "--friction and --sigma must have a finite kT = sigma^2/(2 friction), got {} and {}; give other ones",
+        *settings.friction, *settings.sigma);
+  }
   return bath::of_sigma(*settings.friction, *settings.sigma);
 }
 

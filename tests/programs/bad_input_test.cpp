@@ -259,11 +259,24 @@ BOOST_AUTO_TEST_CASE(subnormal_numbers_are_refused) {
 // Squares of frequencies decide about stability.
 BOOST_AUTO_TEST_CASE(frequencies_without_a_square_are_refused) {
   all_refused(after("stability --method verlet --step 0.1 --system",
-                    {{"oscillator --omega 1e308", {"harmonic_oscillator(omega=1e+308)"}},
+                    {{"oscillator --omega 1e308", {"harmonic_oscillator", "highest frequency", "1e+308"}},
+                     {"oscillator --omega 1e160", {"harmonic_oscillator", "highest frequency", "1e+160"}},
                      {"oscillator --omega 1e-300", {"highest frequency", "1e-300"}},
                      {"phi4_lattice --mass_squared=1e308", {"highest frequency", "inf"}},
                      {"linear_chain --spring 1e308 --masses 3", {"linear_chain"}},
                      {"fpu --omega 1e200", {"highest frequency"}}}));
+}
+
+// What is named was typed, and not what is computed from it.
+BOOST_AUTO_TEST_CASE(numbers_whose_product_overflows_are_refused_by_their_names) {
+  all_refused(after("run --system pendulum --method baoab --step 0.1 --horizon 1",
+                    {{"--friction 1e308 --temperature 1", {"--friction", "--temperature", "1e+308"}},
+                     {"--friction 1e200 --temperature 1e200", {"--friction", "--temperature", "1e+200"}},
+                     {"--friction 1 --sigma 1e308", {"--friction", "--sigma", "1e+308"}},
+                     {"--friction 1e-300 --sigma 1e10", {"--friction", "--sigma", "1e-300"}}}));
+  all_refused(after("recommend --system henon_heiles --horizon 10",
+                    {{"--budget 1e-300", {"--budget", "at least", "0.1", "1e-300"}},
+                     {"--budget 0.09", {"--budget", "at least", "0.1", "0.09"}}}));
 }
 
 BOOST_AUTO_TEST_CASE(parameters_of_a_family) {

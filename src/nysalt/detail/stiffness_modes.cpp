@@ -28,7 +28,7 @@ normal_modes stiffness_modes(const Eigen::MatrixXd& stiffness, const Eigen::Vect
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(weighted);
   const double largest = std::max(0.0, solver.eigenvalues().maxCoeff());
   // The solver's eigenvalues are off by up to about n eps |K|: below that, a frequency is zero.
-  const double rounding = 8.0 * static_cast<double>(n) * 2.2e-16 * std::max(largest, weighted.norm());
+  const double rounding = 8.0 * static_cast<double>(n) * 2.2e-16 * std::max(largest, weighted.stableNorm());
   Eigen::VectorXd squares = solver.eigenvalues();
   if (squares.minCoeff() < -rounding) {
     throw std::invalid_argument(
