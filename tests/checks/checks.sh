@@ -42,9 +42,11 @@ check() {
   esac
 }
 
-# recorded WHAT PIECE COMMAND...: runs the command and records exit status, seconds and the counts it wrote.
+# recorded WHAT PIECE COMMAND...: runs the command and records exit status, seconds and the counts it wrote, with the
+# commit of before, as hours later the sources may be those of another.
 recorded() {
-  local what=$1 piece=$2 began=$SECONDS status=0
+  local what=$1 piece=$2 began=$SECONDS status=0 commit
+  commit=$(tests/checks/outcomes.py commit)
   counts=$PWD/build/check/outcomes/counts.$$
   mkdir -p build/check/outcomes
   : >"$counts"
@@ -52,8 +54,8 @@ recorded() {
   (set -e; "${@:3}")
   status=$?
   set -e
-  tests/checks/outcomes.py add build/check --check "$what" --piece "$piece" --status "$status" \
-    --seconds "$((SECONDS - began))" --counts "$(cat "$counts")"
+  tests/checks/outcomes.py add build/check --check "$what" --piece "$piece" --commit "$commit" \
+    --status "$status" --seconds "$((SECONDS - began))" --counts "$(cat "$counts")"
   rm -f "$counts"
   ((status == 0)) || exit "$status"
 }

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSL-1.0
 """Outcomes of the long checks: each with the date, commit, time and counts of the run, and a table of all.
 
-usage: outcomes.py add FOLDER --check NAME --piece PIECE --status STATUS --seconds SECONDS --counts TEXT
+usage: outcomes.py commit            the commit of the sources, for `add`
+       outcomes.py add FOLDER --check NAME --piece PIECE --commit COMMIT --status STATUS --seconds SECONDS --counts TEXT
        outcomes.py count REPORT      the counts of a JUnit report of ctest, in words
        outcomes.py table FOLDER      print the table
 
@@ -66,7 +67,7 @@ def add(folder, arguments):
         "passed": arguments.status == 0,
         "counts": arguments.counts.strip(),
         "seconds": arguments.seconds,
-        "commit": commit(),
+        "commit": arguments.commit,
         "date": datetime.date.today().isoformat(),
     }
     if not outcome["counts"]:
@@ -127,13 +128,17 @@ def main():
     adding.add_argument("folder", type=pathlib.Path)
     adding.add_argument("--check", choices=CHECKS, required=True)
     adding.add_argument("--piece", required=True)
+    adding.add_argument("--commit", required=True)
     adding.add_argument("--status", type=int, required=True)
     adding.add_argument("--seconds", type=float, required=True)
     adding.add_argument("--counts", default="")
+    commands.add_parser("commit")
     commands.add_parser("count").add_argument("report", type=pathlib.Path)
     commands.add_parser("table").add_argument("folder", type=pathlib.Path)
     arguments = parser.parse_args()
-    if arguments.command == "add":
+    if arguments.command == "commit":
+        print(commit())
+    elif arguments.command == "add":
         add(arguments.folder, arguments)
     elif arguments.command == "count":
         print(counted(arguments.report))
