@@ -128,7 +128,7 @@ void recommendation::consider(candidate contender) {
     if (options_.budget) {
       if (contender.step > options_.horizon * (1.0 + 1e-9)) {  // the rounding that steps_within() allows
         return leave_out(
-            fmt::format("--budget must be at least {:g}, for one step within --horizon, got {:g}",
+            fmt::format("--budget must be at least {:g}, for one step within --horizon, got {}",
                         contender.source.evaluations_per_step / options_.horizon + processing_of(contender),
                         *options_.budget));
       }
