@@ -61,7 +61,8 @@ BOOST_AUTO_TEST_CASE(a_bath_is_given_once_and_whole) {
                           {"--friction 1 --sigma 1e999", {"--sigma", "finite", "1e999"}},
                           {"--friction '' --sigma 1", {"--friction"}},
                           {"--friction 1 --sigma 0.05x", {"--sigma", "0.05x"}},
-                          {"--friction 1e308 --temperature 1e308", {"sigma", "finite"}}}));
+                          {"--friction 1e308 --temperature 1e308",
+                           {"--friction", "--temperature", "finite product", "1e+308"}}}));
   }
   all_refused({{"list --friction 1", {"'--friction'", "--help"}}});
 }

@@ -311,7 +311,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
              {"--horizon 1 --error -1", {"--error", "positive"}},
              {"--budget 60 --horizon 0", {"--horizon", "positive"}},
              {"--budget 60", {"--horizon"}},
-             {"--budget 0.1 --horizon 1", {"--horizon", "at least one step"}},
+             {"--budget 0.1 --horizon 1", {"--budget must be at least", "one step", "--horizon", "0.1"}},
              {sound + "--metric acf", {"acf", "path, state, exchange, energy"}},
              {sound + "--metric nosuch", {"nosuch", "path, relative, state, exchange, energy"}},
              {sound + "--observable energy", {"--observable", "path", "got state"}},
