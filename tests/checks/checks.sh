@@ -28,7 +28,11 @@ check() {
       [[ $seeds =~ ^[1-9][0-9]{0,5}$ ]] || refuse "check seeds takes a number of seeds, got '$seeds'"
       recorded seeds "$seeds" check_seeds "$seeds"
       ;;
-    tidy | faults | coverage)
+    coverage)
+      [[ -z $argument || $argument == failed ]] || refuse "check coverage takes nothing or 'failed', got '$argument'"
+      recorded coverage 1/1 check_coverage "$argument"
+      ;;
+    tidy | faults)
       [[ -z $argument ]] || refuse "check $what takes no argument, got '$argument'"
       recorded "$what" 1/1 "check_$what"
       ;;
@@ -140,19 +144,34 @@ check_seeds() {
   tests/checks/seeds.py "build/$preset" "$1" --counts "$counts"
 }
 
+# check_coverage [failed]: with `failed` the tests that failed in the last run, whose counts are kept.
 check_coverage() {
   packages+=(llvm)
   preset=coverage
   configure
   build all
-  local folder=build/check/coverage objects=() program
-  rm -rf "$folder/profiles"
-  ctest --preset coverage -j2
+  local folder=$PWD/build/check/coverage again=() tests=() status=0 objects=() program
+  local report=$folder/tests.xml before=$folder/before.txt
+  if [[ $1 == failed ]]; then
+    [[ -s $before ]] || refuse "check coverage failed needs a whole run before; run ./dev check coverage"
+    again=(--rerun-failed)
+  else
+    rm -rf "$folder/profiles" "$before"
+  fi
+  ctest --preset coverage -j2 "${again[@]}" --output-junit "$report" || status=$?
+  mapfile -t tests < <(cat "$before" 2>/dev/null || true)
+  tests+=("$(tests/checks/outcomes.py count "$report") at $(tests/checks/outcomes.py commit)")
+  printf '%s\n' "${tests[@]}" >"$before"
   for program in "$folder"/tests/*_test "$folder"/tests/*tests_O?_?; do objects+=(-object "$program"); done
   llvm-profdata merge -sparse -o "$folder/all.profdata" "$folder"/profiles/*.profraw
   llvm-cov export -format=lcov -instr-profile="$folder/all.profdata" "$folder/nysalt" "${objects[@]}" \
     "$PWD/include" "$PWD/src" >"$folder/all.lcov"
-  awk -v root="$PWD/" -v target=90 -f tests/coverage.awk "$folder/all.lcov" | tee build/check/coverage.log
-  awk '/whole$|together$/ { printf "%s%s %% of %s lines of %s", comma, $3, $1, $4; comma = ", " }' \
-    build/check/coverage.log >"$counts"
+  awk -v root="$PWD/" -v target=90 -f tests/coverage.awk "$folder/all.lcov" | tee build/check/coverage.log || status=1
+  {
+    awk '/whole$|together$/ { printf "%s%s %% of %s lines of %s", comma, $3, $1, $4; comma = ", " }' \
+      build/check/coverage.log
+    printf '; %s' "${tests[0]}"
+    ((${#tests[@]} == 1)) || printf '; what failed again: %s' "${tests[@]:1}"
+  } >"$counts"
+  return "$status"
 }
