@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "nysalt/scalars/pack.hpp"
 #include "support/draws.hpp"
@@ -143,8 +144,13 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
     BOOST_TEST(refuses<wrong>([&] { bath::of_temperature(bad, 1.0); }, {"bath", "friction", said}));
     BOOST_TEST(refuses<wrong>([&] { bath::of_temperature(1.0, bad); }, {"bath", "temperature", said}));
   }
-  // Finite numbers whose sigma is not.
-  BOOST_TEST(refuses<wrong>([] { bath::of_temperature(1e200, 1e200); }, {"sigma", "got inf"}));
+  // Finite numbers whose sigma is not: 2 friction temperature is above the largest double, 1.8e308.
+  for (const auto& [friction, temperature] : {std::pair(1e200, 1e150), std::pair(1e308, 1.0)}) {
+    BOOST_TEST(refuses<wrong>(
+        [&] { bath::of_temperature(friction, temperature); },
+        {"friction and temperature", "finite product", fmt::format("{} and {}", friction, temperature)}));
+  }
+  BOOST_TEST(std::isfinite(bath::of_temperature(8e307, 1.0).sigma()));
 }
 
 BOOST_AUTO_TEST_CASE(it_says_what_it_is) {

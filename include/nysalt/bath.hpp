@@ -23,14 +23,21 @@ class bath {
   /// A bath from friction and sigma; there is a kT where there is friction. Throws std::invalid_argument
   /// unless both are finite and not negative.
   static bath of_sigma(double friction, double sigma) {
+    require("friction", friction);
     require("sigma", sigma);
     return {friction, sigma, friction > 0.0 ? std::optional(sigma * sigma / (2.0 * friction)) : std::nullopt};
   }
   /// A bath from friction and kT, an energy: sigma = sqrt(2 gamma kT). Throws std::invalid_argument unless
-  /// both are finite and not negative.
+  /// both are finite and not negative, and so is 2 gamma kT.
   static bath of_temperature(double friction, double temperature) {
+    require("friction", friction);
     require("temperature", temperature);
-    return {friction, std::sqrt(2.0 * friction * temperature), temperature};
+    const double variance = 2.0 * friction * temperature;
+    if (!std::isfinite(variance)) {
+      throw std::invalid_argument(sentence(
+          "bath: friction and temperature must have a finite product, got {} and {}", friction, temperature));
+    }
+    return {friction, std::sqrt(variance), temperature};
   }
 
   double friction() const { return friction_; }  ///< gamma, one over time
@@ -71,10 +78,7 @@ class bath {
 
  private:
   bath(double friction, double sigma, std::optional<double> temperature)
-      : friction_(friction), sigma_(sigma), temperature_(temperature) {
-    require("friction", friction);
-    require("sigma", sigma);
-  }
+      : friction_(friction), sigma_(sigma), temperature_(temperature) {}
   /// sqrt(x), whose derivatives at 0 are 0 where those of x are, not 0/0.
   template <Scalar T>
   static T root(const T& x) {
