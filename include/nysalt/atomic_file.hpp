@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,10 +16,12 @@ void put_folder_on_disk(const std::filesystem::path& file);
 
 namespace detail {
 
-/// A new, empty and locked file for writing; what a process that was stopped left there is removed. Returns
-/// the descriptor. Throws std::runtime_error, about `target`, if another process writes the file, if the name
-/// is that of a link, a folder or a device, or if the file cannot be made.
-int make_part(const std::filesystem::path& part, const std::filesystem::path& target);
+/// A new, empty and locked file for writing, whose name is noted for signal handlers in the same moment; what
+/// a process that was stopped left there is removed. Returns the descriptor. Throws std::runtime_error, about
+/// `target`, if another process writes the file, if the name is that of a link, a folder or a device, or if
+/// the file cannot be made.
+int make_part(const std::filesystem::path& part, const std::filesystem::path& target,
+              std::optional<unfinished_name>& name);
 
 /// Whether the name is still that of the open file.
 bool has_name(int file, const std::filesystem::path& name);
@@ -58,8 +61,8 @@ class atomic_file {
 
   std::filesystem::path path_;
   std::filesystem::path part_;
+  std::optional<detail::unfinished_name> name_;
   int file_;
-  detail::unfinished_name name_;
   std::string gathered_;
   bool committed_ = false;
 };

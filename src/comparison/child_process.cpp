@@ -13,29 +13,13 @@
 #include <cerrno>
 #include <csignal>
 
+#include "nysalt/detail/held_signals.hpp"
+
 namespace nysalt::program {
 
 namespace {
 
 std::atomic<pid_t> running = 0;
-
-/// Signals are held back, so that no handler runs between the start of a child and `running`.
-class held_signals {
- public:
-  held_signals() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~held_signals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  held_signals(const held_signals&) = delete;
-  held_signals& operator=(const held_signals&) = delete;
-
-  const sigset_t& before() const { return before_; }
-
- private:
-  sigset_t before_{};
-};
 
 /// A file without a name.
 class anonymous_file {
@@ -112,7 +96,7 @@ child_result run_child(const std::vector<std::string>& command, const std::files
   if (!output.is_open()) return {};
   pid_t child = 0;
   {
-    const held_signals held;
+    const nysalt::detail::held_signals held;  // no handler between the start of a child and `running`
     if (!spawn_settings(folder, output, errors, held.before()).of(command, child)) return {};
     running = child;
   }

@@ -5,8 +5,10 @@
 
 #include <atomic>
 #include <csignal>
+#include <initializer_list>
 
 #include "child_process.hpp"
+#include "nysalt/detail/held_signals.hpp"
 #include "nysalt/detail/unfinished_names.hpp"
 
 namespace nysalt::program {
@@ -19,22 +21,33 @@ std::atomic<bool> is_noting = false;
 extern "C" void end_by_signal(int number) {
   int none = 0;
   if (is_noting && noted.compare_exchange_strong(none, number)) return;
+  nysalt::detail::wait_for_held_signals();
   end_child();
   nysalt::detail::remove_unfinished_files();
   ::_exit(128 + number);
 }
 
+enum class handlers_of_others { replaced, kept };
+
+void handle(int number, handlers_of_others others) {
+  struct sigaction before {};
+  if (sigaction(number, nullptr, &before) != 0 || before.sa_handler == SIG_IGN) return;  // nohup
+  if (others == handlers_of_others::kept && before.sa_handler != SIG_DFL) return;
+  struct sigaction handled {};
+  handled.sa_handler = &end_by_signal;
+  handled.sa_flags = SA_RESTART;
+  sigaction(number, &handled, nullptr);
+}
+
 }  // namespace
 
 void handle_signals() {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU}) {
-    struct sigaction before {};
-    if (sigaction(number, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;  // nohup
-    struct sigaction handled {};
-    handled.sa_handler = &end_by_signal;
-    handled.sa_flags = SA_RESTART;
-    sigaction(number, &handled, nullptr);
-  }
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU})
+    handle(number, handlers_of_others::replaced);
+  // Others that end a process unless they are handled, but those of a fault; a profiler may handle some.
+  for (const int number : {SIGQUIT, SIGALRM, SIGVTALRM, SIGPROF, SIGIO, SIGPWR, SIGSTKFLT})
+    handle(number, handlers_of_others::kept);
+  for (int number = SIGRTMIN; number <= SIGRTMAX; ++number) handle(number, handlers_of_others::kept);
 }
 
 signals_are_noted::signals_are_noted() noexcept { is_noting = true; }

@@ -17,8 +17,6 @@ namespace nysalt::program {
 
 namespace {
 
-constexpr const char* format = "nysalt journal";
-
 /// With a checksum as the last member.
 std::string line_of(json document) {
   document["checksum"] = checksum(document);
@@ -37,7 +35,7 @@ journal::journal(const std::filesystem::path& file, const json& question, bool r
   std::string text;
   on_first(all_ranks(), [&] { text = open_file(); });
   broadcast(all_ranks(), text);
-  const std::string head = line_of({{"format", format}, {"question", question}});
+  const std::string head = line_of({{"format", format_of_journal}, {"question", question}});
   const std::size_t whole = read(text, question, head);
   if (!resume && !found_.empty()) {
     refuse(
@@ -117,8 +115,8 @@ std::size_t journal::read(const std::string& text, const json& question, const s
     const auto of_part = std::string_view(text).substr(at, end - at);
     json line = parsed(of_part);
     if (at == 0) {
-      if (!line.is_object() || line.value("format", json()) != format || !line.contains("question") ||
-          !is_as_written(line)) {
+      if (!line.is_object() || line.value("format", json()) != format_of_journal ||
+          !line.contains("question") || !is_as_written(line)) {
         refuse_foreign(path_);
       }
       require_same_question(line["question"], question, path_);

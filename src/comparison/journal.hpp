@@ -20,6 +20,9 @@ namespace nysalt::program {
 void require_same_question(const json& stored_question, const json& question,
                            const std::filesystem::path& path);
 
+/// In the first line, as `format`.
+constexpr const char* format_of_journal = "nysalt journal";
+
 /// A file of one line a finished part, each with a checksum and written as soon as it is there. Numbers in it
 /// come back to the bit. A last line that was cut off does not count. Without a file nothing is kept. Rank 0
 /// reads and writes the file, and all ranks know what is in it: they make one together, ask for the same

@@ -16,6 +16,7 @@
 #include <system_error>
 #include <utility>
 
+#include "nysalt/detail/held_signals.hpp"
 #include "nysalt/detail/objection_to_replacing.hpp"
 #include "nysalt/detail/write_failure.hpp"
 
@@ -117,7 +118,8 @@ bool is_locked(const std::filesystem::path& file) {
   return is_held;
 }
 
-int make_part(const std::filesystem::path& part, const std::filesystem::path& target) {
+int make_part(const std::filesystem::path& part, const std::filesystem::path& target,
+              std::optional<unfinished_name>& name) {
   if (target.native().find('\0') != std::string::npos) {
     cannot_write(std::string(target.c_str()) + "...",
                  "the name must hold no zero byte, got one; name another file");
@@ -125,9 +127,13 @@ int make_part(const std::filesystem::path& part, const std::filesystem::path& ta
   if (const auto why = objection_to_replacing(target); !why.empty()) cannot_write(target, why);
   constexpr int attempts = 8;  // others may make and remove theirs meanwhile
   for (int i = 0; i < attempts; ++i) {
+    const held_signals held;
     const int file = open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file >= 0) {
-      if (flock(file, LOCK_EX | LOCK_NB) == 0 && has_name(file, part)) return file;
+      if (flock(file, LOCK_EX | LOCK_NB) == 0 && has_name(file, part)) {
+        name.emplace(part);
+        return file;
+      }
       close(file);
       continue;
     }
@@ -154,8 +160,7 @@ atomic_file::atomic_file(std::filesystem::path path) : atomic_file(std::move(pat
 atomic_file::atomic_file(std::filesystem::path path, const std::string& writer)
     : path_(detail::behind_links(path)),
       part_(path_.string() + fmt::format(".{}.part", writer)),
-      file_(detail::make_part(part_, path_)),
-      name_(part_) {}
+      file_(detail::make_part(part_, path_, name_)) {}
 
 atomic_file::~atomic_file() {
   std::error_code ignored;
@@ -194,7 +199,7 @@ void atomic_file::commit(bool durable) {
   std::filesystem::rename(part_, path_, failure);
   if (failure) fail();
   committed_ = true;
-  name_.release();
+  name_.reset();
   if (durable) put_folder_on_disk(path_);
 }
 

@@ -157,6 +157,13 @@ std::string fingerprint_of(const std::string& path) {
   return all.text();
 }
 
+/// What a function that gives a text returns.
+std::string text_of(const char* (*function)(), const char* name, const std::string& shown) {
+  const char* const text = function();
+  if (text == nullptr) refuse("{}: {} must return a text, got null", shown, name);
+  return text;
+}
+
 c_functions functions_of(void* library, const std::string& path, const std::string& shown) {
   c_functions all;
   all.file = shown;
@@ -181,9 +188,10 @@ c_functions functions_of(void* library, const std::string& path, const std::stri
     }
   }
   auto* const described = optional_function<decltype(nysalt_description)>(library, "nysalt_description");
-  all.description = described != nullptr ? described() : std::filesystem::path(path).stem().string();
+  all.description = described != nullptr ? text_of(described, "nysalt_description", shown)
+                                         : std::filesystem::path(path).stem().string();
   auto* const kind = optional_function<decltype(nysalt_kind)>(library, "nysalt_kind");
-  all.kind = kind != nullptr ? kind() : all.description;
+  all.kind = kind != nullptr ? text_of(kind, "nysalt_kind", shown) : all.description;
   return all;
 }
 

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <utility>
 
+#include "nysalt/detail/unfinished_names.hpp"
+
 namespace nysalt::program {
 
 namespace {
@@ -32,6 +34,7 @@ void name_exit() {
   if (is_over) return;
   put("nysalt: exit() was called");
   put({end_of_line.data(), length});
+  nysalt::detail::remove_unfinished_files();
   ::_exit(2);
 }
 
@@ -54,6 +57,7 @@ extern "C" void name_signal(int number) {
     if (known == number) put(name);
   }
   put({end_of_line.data(), length});
+  nysalt::detail::remove_unfinished_files();
   std::signal(number, SIG_DFL);
   std::raise(number);
 }

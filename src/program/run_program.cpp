@@ -5,9 +5,12 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -15,6 +18,7 @@
 #include "commands.hpp"
 #include "comparison/interruption.hpp"
 #include "mpi_session.hpp"
+#include "nysalt/detail/unfinished_names.hpp"
 #include "nysalt/detail/write_failure.hpp"
 #include "output.hpp"
 
@@ -33,6 +37,25 @@ void occupy_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) == -1) open("/", O_RDONLY | O_DIRECTORY);  // at the least number that is free
   }
+}
+
+std::terminate_handler other_ends = nullptr;
+
+/// oneTBB starts a thread from another that it has started, where nothing catches the exception if the system
+/// refuses: as it may where processes of the user took the last threads since they were counted.
+[[noreturn]] void end_for_want_of_threads() {
+  try {
+    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::runtime_error& problem) {
+    if (std::string_view(problem.what()).starts_with("pthread_create")) {  // what oneTBB says
+      complain(fmt::format("cannot start a thread: {}; take fewer --threads", problem.what()));
+      nysalt::detail::remove_unfinished_files();
+      ::_exit(bad_input);
+    }
+  } catch (...) {  // what the handler of before tells
+  }
+  other_ends();
+  std::abort();
 }
 
 }  // namespace
@@ -67,6 +90,7 @@ int run_program(command_line run, int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // print() ends quietly when a reader has seen enough
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is reported like a full disk
   allow_named_signals();
+  other_ends = std::set_terminate(end_for_want_of_threads);
   try {
     const mpi_session ranks(argc, argv);
     handle_signals();  // after MPI, which may have handlers of its own

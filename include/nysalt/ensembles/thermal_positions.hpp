@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/detail/fingerprint.hpp"
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensemble.hpp"
@@ -25,8 +26,7 @@ class thermal_positions {
   /// position, one does not fit the system or is not finite, or kT is not positive and finite.
   template <SeparableSystem S>
     requires(S::dimension == N)
-  thermal_positions(const S& system, std::vector<vector<double, N>> positions, double temperature)
-      : temperature_(temperature) {
+  thermal_positions(const S& system, std::vector<vector<double, N>> positions, double temperature) {
     if (!(temperature > 0.0) || !std::isfinite(temperature)) {
       throw std::invalid_argument(
           sentence("thermal_positions: kT must be positive and finite, got {}", temperature));
@@ -43,6 +43,10 @@ class thermal_positions {
       if constexpr (HasInverseMass<S>) mass = 1.0 / system.inverse_mass(i);
       deviations_.push_back(std::sqrt(mass * temperature));
     }
+    detail::fingerprint sum;
+    for (const auto& q : positions) sum.add_all(q);
+    description_ = sentence("thermal_positions({} positions, temperature={}, fingerprint={})",
+                            positions.size(), in_digits(temperature, 6), sum.text());
     positions_ = std::make_shared<const std::vector<vector<double, N>>>(std::move(positions));
   }
 
@@ -59,15 +63,12 @@ class thermal_positions {
     }
     return x;
   }
-  std::string description() const {
-    return sentence("thermal_positions({} positions, temperature={})", positions_->size(),
-                    in_digits(temperature_, 6));
-  }
+  std::string description() const { return description_; }
 
  private:
   std::shared_ptr<const std::vector<vector<double, N>>> positions_;
   std::vector<double> deviations_;  // of the momenta
-  double temperature_;
+  std::string description_;
 };
 
 }  // namespace nysalt

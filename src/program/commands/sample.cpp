@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -69,6 +70,17 @@ hmc_options hmc_options_of(const sample_command& command, const prepared_problem
   return options;
 }
 
+/// Throws refusal in the place of a checkpoint of others.
+void require_new_checkpoint(const sample_command& command) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(command.checkpoint, ignored)) return;
+  refuse(
+      "cannot write {}: the checkpoint is of chains that were stopped, or are under way; name another file, "
+      "or, once no process writes it, take --resume to go on with the chains, or remove the file to begin "
+      "anew",
+      command.checkpoint);
+}
+
 /// Throws refusal for bad options of files, before any work.
 void require_files(const sample_command& command) {
   require_table(command.output, false);
@@ -81,14 +93,7 @@ void require_files(const sample_command& command) {
     refuse("--checkpoint must come with --every; give the number of trajectories between two checkpoints");
   require_at_least_one("--every", *command.every);
   require_checkpoint(command.checkpoint, command.output, false);
-  std::error_code ignored;
-  if (!command.resume && std::filesystem::exists(command.checkpoint, ignored)) {
-    refuse(
-        "cannot write {}: the checkpoint is of chains that were stopped, or are under way; name another "
-        "file, or, once no process writes it, take --resume to go on with the chains, or remove the file to "
-        "begin anew",
-        command.checkpoint);
-  }
+  if (!command.resume) require_new_checkpoint(command);
 }
 
 /// All that decides the bytes of the output.
@@ -142,7 +147,8 @@ hmc_state state_in(const sample_command& command, const json& question, kept_dra
   return state;
 }
 
-void save(const sample_command& command, const json& question, const hmc_state& state, kept_draws& draws) {
+void save(const sample_command& command, const json& question, const hmc_state& state, kept_draws& draws,
+          const std::function<void()>& look) {
   draws.gather(all_ranks());
   on_first(all_ranks(), [&] {
     std::vector<double> numbers = state.numbers;
@@ -153,7 +159,7 @@ void save(const sample_command& command, const json& question, const hmc_state& 
                            {"question", question},
                            {"trajectories", state.trajectories},
                            {"numbers", state.numbers.size()}},
-                          numbers);
+                          numbers, look);
   });
 }
 
@@ -308,7 +314,13 @@ int sample(const sample_command& command, const common_settings& common) {
   }
   if (!command.checkpoint.empty()) {
     options.keep_every = *command.every;
-    options.keep = [&](const hmc_state& state) { save(command, question, state, draws); };
+    options.keep = [&, is_first = !command.resume](const hmc_state& state) mutable {
+      // Of two commands that begin at once the second to come here is refused.
+      save(command, question, state, draws, [&] {
+        if (is_first) require_new_checkpoint(command);
+      });
+      is_first = false;
+    };
   }
   line.part("sampling");
   options.progress = line.counter(command.chains * (command.burn_in + command.draws));

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ struct checkpoint {
 };
 
 /// As write_checkpoint_file().
-void write_checkpoint(const std::filesystem::path& file, const checkpoint& state);
+void write_checkpoint(const std::filesystem::path& file, const checkpoint& state,
+                      const std::function<void()>& look = {});
 
 /// Checkpoint of a run of a system with `dimension` coordinates. Throws refusal as head_of_checkpoint(),
 /// require_question() and numbers_of_checkpoint() do.

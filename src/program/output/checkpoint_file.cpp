@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "build_info.hpp"
+#include "comparison/journal.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
 #include "program/output.hpp"
@@ -84,7 +85,7 @@ bool is_whole(std::istream& input, const std::string& line, std::uintmax_t bytes
 }  // namespace
 
 void write_checkpoint_file(const std::filesystem::path& file, const json& head,
-                           std::span<const double> numbers) {
+                           std::span<const double> numbers, const std::function<void()>& look) {
   json all{{"format", format_of_checkpoint}, {"version", version_of_checkpoint}, {"nysalt", version}};
   all.update(head);
   std::string text = all.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
@@ -100,6 +101,7 @@ void write_checkpoint_file(const std::filesystem::path& file, const json& head,
   sum.process_bytes(text.data(), text.size());
   text += last_line(sum);
   atomic_file out(file, "next");
+  if (look) look();
   out.write(text);
   out.commit(true);
 }
@@ -109,8 +111,13 @@ void require_no_checkpoint(const std::filesystem::path& output) {
   if (!std::filesystem::is_regular_file(output, ignored)) return;
   std::ifstream input(output, std::ios::binary);
   const json head = parsed(first_line(input));
-  if (!head.is_object() || head.value("format", json()) != format_of_checkpoint) return;
-  if (head.value("finished", json()) == true) return;
+  if (!head.is_object()) return;
+  const json format = head.value("format", json());
+  if (format == format_of_journal) {
+    refuse("cannot write {}: it is the journal of a comparison that has not finished; name another file",
+           output.string());
+  }
+  if (format != format_of_checkpoint || head.value("finished", json()) == true) return;
   refuse("cannot write {}: it is a checkpoint of what has not finished; name another file", output.string());
 }
 

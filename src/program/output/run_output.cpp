@@ -52,14 +52,16 @@ run_output::~run_output() {
   if (is_fresh_) remove_if_there(checkpoint_);
 }
 
+void run_output::require_new_checkpoint() const {
+  if (!is_there(checkpoint_) || !is_of_unfinished_run(checkpoint_)) return;
+  refuse(
+      "cannot write {}: the checkpoint is of a run that was stopped, or is under way; name another file, or, "
+      "once no process writes it, take --resume to go on with the run, or remove the file to begin anew",
+      checkpoint_.string());
+}
+
 void run_output::make_part(const json& question) {
-  if (is_there(checkpoint_) && is_of_unfinished_run(checkpoint_)) {
-    refuse(
-        "cannot write {}: the checkpoint is of a run that was stopped, or is under way; name another file, "
-        "or, once no process writes it, take --resume to go on with the run, or remove the file to begin "
-        "anew",
-        checkpoint_.string());
-  }
+  require_new_checkpoint();
   if (checkpoint_.empty()) {
     part_.emplace(output_, unfinished_file::origin::disposable);
     samples_->lay_out(*part_);
@@ -69,7 +71,7 @@ void run_output::make_part(const json& question) {
   state_.question = question;
   state_.output = std::filesystem::path(output_).filename();
   state_.laid_out = false;  // which may take minutes: a run that is stopped meanwhile begins anew
-  save({});
+  save({}, [this] { require_new_checkpoint(); });  // of two runs that begin at once the second is refused
   is_fresh_ = true;
   fresh_name_.emplace(checkpoint_);
   try {
@@ -121,10 +123,10 @@ void run_output::go_on(const json& question, std::int64_t dimension) {
       part.string());
 }
 
-void run_output::save(const run_progress& at) {
+void run_output::save(const run_progress& at, const std::function<void()>& look) {
   state_.at = at;
   if (!is_of_arrays_) state_.written = part_->written();
-  write_checkpoint(checkpoint_, state_);
+  write_checkpoint(checkpoint_, state_, look);
 }
 
 void run_output::begin(sampled_plan& plan) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -51,11 +52,12 @@ class run_output {
   void describe(json& document) const;
 
  private:
+  void require_new_checkpoint() const;
   void make_part(const json& question);
   void lay_out();
   void go_on(const json& question, std::int64_t dimension);
   void reached(const run_progress& at, bool ends);
-  void save(const run_progress& at);
+  void save(const run_progress& at, const std::function<void()>& look = {});
 
   std::string output_;
   std::filesystem::path checkpoint_;  // empty if there are none

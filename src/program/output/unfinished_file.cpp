@@ -15,6 +15,7 @@
 
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
+#include "nysalt/detail/held_signals.hpp"
 #include "nysalt/detail/objection_to_replacing.hpp"
 #include "nysalt/detail/write_failure.hpp"
 
@@ -59,9 +60,10 @@ unfinished_file::descriptor::~descriptor() {
 
 namespace {
 
-int made_part(const std::filesystem::path& part, const std::filesystem::path& file) {
+int made_part(const std::filesystem::path& part, const std::filesystem::path& file,
+              std::optional<nysalt::detail::unfinished_name>& name) {
   try {
-    return nysalt::detail::make_part(part, file);
+    return nysalt::detail::make_part(part, file, name);
   } catch (const nysalt::detail::write_failure&) {
     throw;
   } catch (const std::runtime_error& problem) {
@@ -78,13 +80,14 @@ unfinished_file::unfinished_file(const std::filesystem::path& file, origin from)
   std::error_code ignored;
   if (from == origin::disposable ||
       (from == origin::begun_anew && !std::filesystem::exists(part_, ignored))) {
-    file_.number = made_part(part_, path_);
-    if (!is_kept_) name_.emplace(part_);
+    file_.number = made_part(part_, path_, name_);
+    if (is_kept_) name_.reset();
     return;
   }
   if (std::filesystem::exists(part_, ignored) && !std::filesystem::is_regular_file(part_, ignored)) {
     refuse("cannot write {}: it is not a regular file; name another --output", part_.string());
   }
+  const nysalt::detail::held_signals held;  // no handler between the making of the file and `name_`
   const int create = from == origin::made ? O_CREAT : 0;
   file_.number = open(part_.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC | create, 0666);
   if (file_.number < 0 && from == origin::left_by_another && errno == ENOENT) {
