@@ -12,6 +12,7 @@
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
 #include "comparison/refusal.hpp"
+#include "nysalt/atomic_file.hpp"
 #include "program/output/checkpoint_file.hpp"
 
 using namespace nysalt;
@@ -25,6 +26,26 @@ BOOST_AUTO_TEST_CASE(what_is_written_is_read_again) {
   BOOST_TEST(head_of_checkpoint(folder / "c", "run").at("question") == 7);
   BOOST_TEST(numbers_of_checkpoint(folder / "c", 3) == numbers, boost::test_tools::per_element());
   BOOST_TEST(refuses<refusal>([&] { numbers_of_checkpoint(folder / "c", 2); }, {"was edited"}));
+}
+
+// Between the look and the writing nobody else writes; what is found there may stop it.
+BOOST_AUTO_TEST_CASE(what_is_there_is_seen_under_the_lock) {
+  const scratch folder("checkpoint_file_look");
+  const std::vector<double> numbers{0.5};
+  bool is_locked = false;
+  const auto look = [&] {
+    is_locked = nysalt::detail::is_locked(folder / "c.next.part");
+    if (std::filesystem::exists(folder / "c")) throw refusal("it is there");
+  };
+  write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 7}}, numbers, look);
+  BOOST_TEST(is_locked);
+  BOOST_TEST(refuses<refusal>(
+      [&] {
+        write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 8}}, numbers, look);
+      },
+      {"it is there"}));
+  BOOST_TEST(head_of_checkpoint(folder / "c", "run").at("question") == 7);
+  BOOST_TEST(folder.files().size() == 1U);
 }
 
 // Memory that may not be read (PROT_NONE): the size is refused before any number is read.

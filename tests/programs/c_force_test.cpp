@@ -145,5 +145,27 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told) {
   must_be_told(whole + "double nysalt_frequency(void) { return -1.0; }\n", "nysalt_frequency must be");
   must_be_told(whole + "void* nysalt_open(void) { return NULL; }\n",
                "nysalt_open must return a pointer, got null");
+  must_be_told(whole + "const char* nysalt_description(void) { return NULL; }\n",
+               "nysalt_description must return a text, got null");
+  must_be_told(whole + "const char* nysalt_kind(void) { return NULL; }\n",
+               "nysalt_kind must return a text, got null");
   must_be_told("int nothing;\n", "c_force.h");
+}
+
+// Whoever ends the process, nothing unfinished stays.
+BOOST_AUTO_TEST_CASE(an_end_by_the_library_leaves_no_unfinished_file) {
+  const scratch folder("c_force_end");
+  for (const std::string end : {"exit(0)", "abort()", "*(volatile int*)0 = 0"}) {
+    const std::string text =
+        replaced(henon_heiles, "(void)n, (void)data;\n  f[0]",
+                 "(void)n, (void)data;\n  static int calls;\n  if (++calls > 5000) " + end + ";\n  f[0]");
+    BOOST_REQUIRE_EQUAL(built(folder, "bad", text), "");
+    const auto done = run(folder,
+                          "run --system ./bad.so --method verlet --step 0.1 --horizon 1e4 --sample-every 10 "
+                          "--threads 1 --output o.csv");
+    BOOST_TEST(done.err.find("was in use: check the plug-in first") != std::string::npos, end << done.err);
+    BOOST_TEST(done.code != 0);
+    BOOST_TEST(!folder.files().contains("o.csv.new.part"), end);
+    BOOST_TEST(!folder.files().contains("o.csv"), end);
+  }
 }

@@ -266,6 +266,22 @@ BOOST_AUTO_TEST_CASE(documents_that_are_too_deep_or_too_long_are_refused) {
   require_refused(run(folder, line), "is no manifest", "names");
 }
 
+// A resume is of the same starts, not of as many.
+BOOST_AUTO_TEST_CASE(edited_starts_are_another_question) {
+  const scratch folder("edited_starts");
+  for (const std::string line :
+       {"run --system pendulum --method verlet --step 0.1 --horizon 100 --output o.csv --checkpoint c "
+        "--every 64 ",
+        "compare --system pendulum --methods verlet --steps 0.1 --horizon 2 --output r "}) {
+    const std::string command = line + "--trajectories 8 --temperature 1 --start s.csv";
+    write(folder / "s.csv", "q1\n0.1\n0.2\n");
+    BOOST_TEST_REQUIRE(run(folder, command).code == 0);
+    BOOST_TEST(run(folder, command + " --resume").code == 0);
+    write(folder / "s.csv", "q1\n0.1\n0.3\n");
+    require_refused(run(folder, command + " --resume"), "starts", line);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(what_is_no_regular_file_is_not_waited_for) {
   const scratch folder("no_regular_files");
   const std::string line = "run --system pendulum --method verlet --step 0.02 --horizon 1 ";

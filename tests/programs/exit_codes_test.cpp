@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 
 #include "../support/program.hpp"
@@ -62,6 +63,73 @@ BOOST_AUTO_TEST_CASE(threads_that_the_system_does_not_start_are_one_line) {
                done.err);
     BOOST_TEST(shell(folder, user + "prlimit --nproc=1 \"$nysalt\" " + line + " --threads 1").code == 0);
   }
+}
+
+// Where some threads start and others do not: oneTBB starts threads from threads, where nothing would catch
+// the exception. Without what tries the threads before, a third of these ended by SIGABRT.
+BOOST_AUTO_TEST_CASE(some_threads_that_do_not_start_abort_nothing) {
+  const scratch folder("few_threads");
+  if (shell(folder, "[ \"$(id -u)\" = 0 ]").code != 0) {
+    BOOST_TEST_MESSAGE("skipped: threads of other processes of the user would count");
+    return;
+  }
+  // A user without other processes, who may write in the folder.
+  const std::string user =
+      "LLVM_PROFILE_FILE=/dev/null setpriv --reuid=70777 --regid=70777 --clear-groups prlimit --nproc=";
+  if (shell(folder, "mkdir mine && chmod 777 mine && " + user + "64 \"$nysalt\" --version").code != 0) {
+    BOOST_TEST_MESSAGE("skipped: another user may not run the program");
+    return;
+  }
+  for (const std::string line :
+       {"run --system pendulum --method verlet --step 0.01 --horizon 10 --output o.csv",
+        "compare --methods verlet,mclachlan2 --steps 0.02 --horizon 1"}) {
+    for (const int limit : {2, 3, 4, 6, 12}) {
+      const auto done =
+          shell(folder, "cd mine; rm -f *; " + user + std::to_string(limit) + " \"$nysalt\" " + line +
+                            " --trajectories 64 --threads 8; code=$?; ls | grep part; exit $code");
+      BOOST_TEST_CONTEXT(limit << " threads: " << line << ": " << done.err) {
+        BOOST_TEST(done.code == (limit < 8 ? 2 : 0));
+        if (limit < 8) BOOST_TEST(lines(done.err) == "1");
+        BOOST_TEST(done.out.find(".part") == std::string::npos);
+      }
+    }
+  }
+}
+
+// A thread that the system refuses though as many were started before, as where other processes took them.
+BOOST_AUTO_TEST_CASE(the_next_thread_that_does_not_start_aborts_nothing) {
+  if (under_thread_sanitizer || under_address_sanitizer) return;  // which have their own pthread_create
+  const scratch folder("next_thread");
+  std::ofstream(folder / "refuse.c") << R"(#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+static atomic_int calls;
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*), void* argument) {
+  if (++calls > atoi(getenv("THREADS"))) return EAGAIN;
+  int (*next)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*) = dlsym(RTLD_NEXT, "pthread_create");
+  return next(thread, attributes, start, argument);
+}
+)";
+  BOOST_TEST_REQUIRE(shell(folder, "gcc -shared -fPIC -o refuse.so refuse.c").code == 0);
+  bool is_met_by_one_of_others = false;
+  for (int threads = 0; threads <= 14; ++threads) {
+    const auto done =
+        shell(folder, "THREADS=" + std::to_string(threads) +
+                          " LD_PRELOAD=$PWD/refuse.so \"$nysalt\" run --system pendulum --method "
+                          "verlet --step 0.01 --horizon 100 --trajectories 64 --threads 8 --output o.csv");
+    BOOST_TEST_CONTEXT(threads << " threads: " << done.err) {
+      // Seven are tried; of seven others oneTBB starts as many as find work.
+      BOOST_TEST((done.code == 2 || (done.code == 0 && threads > 7)));
+      BOOST_TEST((done.code == 0 || threads < 14));
+      BOOST_TEST(lines(done.err) == (done.code == 2 ? "1" : "0"));
+      is_met_by_one_of_others |= done.err.find("cannot start a thread") != std::string::npos;
+      BOOST_TEST(!folder.files().contains("o.csv.new.part"));
+    }
+  }
+  BOOST_TEST(is_met_by_one_of_others);
 }
 
 // What took the time is printed: the values that were learned with all digits, for each of several steps too.

@@ -31,8 +31,22 @@ int code_after(const scratch& folder, const std::string& arguments, const std::s
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_signal_leaves_nothing_without_a_checkpoint) {
-  for (const auto& [signal, number] :
-       {std::pair{"INT", 2}, {"TERM", 15}, {"HUP", 1}, {"USR1", 10}, {"USR2", 12}, {"XCPU", 24}}) {
+  for (const auto& [signal, number] : {std::pair{"INT", 2},
+                                       {"TERM", 15},
+                                       {"HUP", 1},
+                                       {"USR1", 10},
+                                       {"USR2", 12},
+                                       {"XCPU", 24},
+                                       // Those that seldom come end a process too.
+                                       {"QUIT", 3},
+                                       {"ALRM", 14},
+                                       {"VTALRM", 26},
+                                       {"PROF", 27},
+                                       {"IO", 29},
+                                       {"PWR", 30},
+                                       {"STKFLT", 16},
+                                       {"RTMIN", 34},
+                                       {"RTMAX", 64}}) {
     for (const std::string kind : {".csv", ".npy", ".h5"}) {
       const scratch folder("signal");
       BOOST_TEST(code_after(folder, long_run + "--output a" + kind, "a" + kind + ".new.part", signal) ==

@@ -285,3 +285,12 @@ BOOST_AUTO_TEST_CASE(a_fifo_in_place_of_an_earlier_manifest_is_left_alone) {
   BOOST_TEST(done.code == 0, done.err);
   BOOST_TEST(fs::is_fifo(folder / "o.csv.manifest.json"));
 }
+
+// The finished parts of a comparison that was stopped.
+BOOST_AUTO_TEST_CASE(a_journal_is_not_overwritten) {
+  const scratch folder("protected_journal");
+  std::ofstream(folder / "journal.jsonl") << "{\"format\":\"nysalt journal\",\"question\":{}}\n";
+  for (const std::string line :
+       {"run --method verlet --step 0.01 --horizon 0.1", "stability --method verlet"})
+    refused(folder, line + " --output journal.jsonl", "the journal of a comparison that has not finished");
+}

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <future>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -68,10 +69,14 @@ void require_threads(int threads) {
   try {
     const waiting_threads others(static_cast<std::size_t>(threads) - 1);
   } catch (const std::system_error& problem) {
-    throw std::runtime_error(sentence("threads must be as many as the system starts, got {} ({}); take fewer",
-                                      threads, problem.what()));
+    refuse_threads(threads, problem.what());
   }
   known = threads;
+}
+
+void refuse_threads(int threads, std::string_view reason) {
+  throw std::runtime_error(
+      sentence("threads must be as many as the system starts, got {} ({}); take fewer", threads, reason));
 }
 
 }  // namespace nysalt::detail

@@ -4,6 +4,9 @@
 
 #include <oneapi/tbb/task_arena.h>
 
+#include <stdexcept>
+#include <string_view>
+
 namespace nysalt::detail {
 
 /// Throws std::runtime_error unless the system starts as many threads as this one and others make. oneTBB
@@ -12,11 +15,19 @@ namespace nysalt::detail {
 /// asks for so many.
 void require_threads(int threads);
 
+/// Throws std::runtime_error of threads that the system does not start; `reason` is that of the system.
+[[noreturn]] void refuse_threads(int threads, std::string_view reason);
+
 /// Runs work() in an arena of `threads` threads. Throws std::runtime_error if the system starts fewer, and
 /// what work() throws.
 void in_arena(oneapi::tbb::task_arena& arena, int threads, const auto& work) {
   require_threads(threads);
-  arena.execute(work);
+  try {
+    arena.execute(work);
+  } catch (const std::runtime_error& problem) {  // others may have taken threads meanwhile
+    if (!std::string_view(problem.what()).starts_with("pthread_create")) throw;  // what oneTBB says
+    refuse_threads(threads, problem.what());
+  }
 }
 
 }  // namespace nysalt::detail
