@@ -52,7 +52,7 @@ std::terminate_handler other_ends = nullptr;
       nysalt::detail::remove_unfinished_files();
       ::_exit(bad_input);
     }
-  } catch (...) {  // what the handler of before tells
+  } catch (...) {  // left to the handler of before
   }
   other_ends();
   std::abort();

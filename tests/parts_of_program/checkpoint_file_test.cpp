@@ -28,20 +28,20 @@ BOOST_AUTO_TEST_CASE(what_is_written_is_read_again) {
   BOOST_TEST(refuses<refusal>([&] { numbers_of_checkpoint(folder / "c", 2); }, {"was edited"}));
 }
 
-// Between the look and the writing nobody else writes; what is found there may stop it.
+// Between the check and the writing nobody else writes; what is found there may stop it.
 BOOST_AUTO_TEST_CASE(what_is_there_is_seen_under_the_lock) {
   const scratch folder("checkpoint_file_look");
   const std::vector<double> numbers{0.5};
   bool is_locked = false;
-  const auto look = [&] {
+  const auto check = [&] {
     is_locked = nysalt::detail::is_locked(folder / "c.next.part");
     if (std::filesystem::exists(folder / "c")) throw refusal("it is there");
   };
-  write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 7}}, numbers, look);
+  write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 7}}, numbers, check);
   BOOST_TEST(is_locked);
   BOOST_TEST(refuses<refusal>(
       [&] {
-        write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 8}}, numbers, look);
+        write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 8}}, numbers, check);
       },
       {"it is there"}));
   BOOST_TEST(head_of_checkpoint(folder / "c", "run").at("question") == 7);

@@ -9,10 +9,9 @@
 
 namespace nysalt::detail {
 
-/// Throws std::runtime_error unless the system starts as many threads as this one and others make. oneTBB
-/// starts a thread from another that it has started, where nothing catches the exception if the system
-/// refuses, and the process is aborted. Cost: as many threads are started and ended when a process first
-/// asks for so many.
+/// Throws std::runtime_error unless the system starts `threads` - 1 threads beside this one. If it does not,
+/// oneTBB, which starts threads from threads that it has started, throws where nothing catches, and the
+/// process is aborted. Cost: these threads are started and ended, once in a process for each larger number.
 void require_threads(int threads);
 
 /// Throws std::runtime_error of threads that the system does not start; `reason` is that of the system.

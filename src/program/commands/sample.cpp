@@ -148,7 +148,7 @@ hmc_state state_in(const sample_command& command, const json& question, kept_dra
 }
 
 void save(const sample_command& command, const json& question, const hmc_state& state, kept_draws& draws,
-          const std::function<void()>& look) {
+          const std::function<void()>& check) {
   draws.gather(all_ranks());
   on_first(all_ranks(), [&] {
     std::vector<double> numbers = state.numbers;
@@ -159,7 +159,7 @@ void save(const sample_command& command, const json& question, const hmc_state& 
                            {"question", question},
                            {"trajectories", state.trajectories},
                            {"numbers", state.numbers.size()}},
-                          numbers, look);
+                          numbers, check);
   });
 }
 

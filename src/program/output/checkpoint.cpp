@@ -70,8 +70,8 @@ void require_sound(const checkpoint& state) {
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& file, const checkpoint& state,
-                      const std::function<void()>& look) {
-  write_checkpoint_file(file, head_of(state), state.at.batch.numbers, look);
+                      const std::function<void()>& check) {
+  write_checkpoint_file(file, head_of(state), state.at.batch.numbers, check);
 }
 
 checkpoint read_checkpoint(const std::filesystem::path& file, const json& question, std::int64_t dimension) {

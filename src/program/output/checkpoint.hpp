@@ -30,7 +30,7 @@ struct checkpoint {
 
 /// As write_checkpoint_file().
 void write_checkpoint(const std::filesystem::path& file, const checkpoint& state,
-                      const std::function<void()>& look = {});
+                      const std::function<void()>& check = {});
 
 /// Checkpoint of a run of a system with `dimension` coordinates. Throws refusal as head_of_checkpoint(),
 /// require_question() and numbers_of_checkpoint() do.

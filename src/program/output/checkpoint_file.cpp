@@ -85,7 +85,7 @@ bool is_whole(std::istream& input, const std::string& line, std::uintmax_t bytes
 }  // namespace
 
 void write_checkpoint_file(const std::filesystem::path& file, const json& head,
-                           std::span<const double> numbers, const std::function<void()>& look) {
+                           std::span<const double> numbers, const std::function<void()>& check) {
   json all{{"format", format_of_checkpoint}, {"version", version_of_checkpoint}, {"nysalt", version}};
   all.update(head);
   std::string text = all.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
@@ -101,7 +101,7 @@ void write_checkpoint_file(const std::filesystem::path& file, const json& head,
   sum.process_bytes(text.data(), text.size());
   text += last_line(sum);
   atomic_file out(file, "next");
-  if (look) look();
+  if (check) check();
   out.write(text);
   out.commit(true);
 }

@@ -16,10 +16,10 @@ namespace nysalt::program {
 /// Throws std::runtime_error if the checkpoint cannot be written, and refusal if the checkpoint would be too
 /// large to be read; then an older one is as it was. The checkpoint is on the disk when the function returns,
 /// for which some milliseconds go by. The file has one line of JSON, doubles (the least byte first), and a
-/// line with the CRC-32 of all before it. `look` is called when no other process can write the file any more,
-/// and may throw because of what is there.
+/// line with the CRC-32 of all before it. `check` is called when no other process can write the file any
+/// more, and may throw because of what is there.
 void write_checkpoint_file(const std::filesystem::path& file, const json& head,
-                           std::span<const double> numbers, const std::function<void()>& look = {});
+                           std::span<const double> numbers, const std::function<void()>& check = {});
 
 /// Throws refusal for an output in the place of a checkpoint of any run or chains, or a journal of a
 /// comparison, that have not finished.

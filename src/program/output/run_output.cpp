@@ -123,10 +123,10 @@ void run_output::go_on(const json& question, std::int64_t dimension) {
       part.string());
 }
 
-void run_output::save(const run_progress& at, const std::function<void()>& look) {
+void run_output::save(const run_progress& at, const std::function<void()>& check) {
   state_.at = at;
   if (!is_of_arrays_) state_.written = part_->written();
-  write_checkpoint(checkpoint_, state_, look);
+  write_checkpoint(checkpoint_, state_, check);
 }
 
 void run_output::begin(sampled_plan& plan) {

@@ -57,7 +57,7 @@ class run_output {
   void lay_out();
   void go_on(const json& question, std::int64_t dimension);
   void reached(const run_progress& at, bool ends);
-  void save(const run_progress& at, const std::function<void()>& look = {});
+  void save(const run_progress& at, const std::function<void()>& check = {});
 
   std::string output_;
   std::filesystem::path checkpoint_;  // empty if there are none
