@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(a_signal_leaves_nothing_without_a_checkpoint) {
                                        {"PROF", 27},
                                        {"IO", 29},
                                        {"PWR", 30},
-                                       {"STKFLT", 16},
+                                       {"16", 16},
                                        {"RTMIN", 34},
                                        {"RTMAX", 64}}) {
     for (const std::string kind : {".csv", ".npy", ".h5"}) {
