@@ -12,12 +12,9 @@ namespace nysalt::detail {
 class unfinished_name {
  public:
   explicit unfinished_name(const std::filesystem::path& file);
-  ~unfinished_name() { release(); }
+  ~unfinished_name();  ///< the file stays in any case
   unfinished_name(const unfinished_name&) = delete;
   unfinished_name& operator=(const unfinished_name&) = delete;
-
-  /// The file stays in any case.
-  void release() noexcept;
 
  private:
   std::size_t place_;

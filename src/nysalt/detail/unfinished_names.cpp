@@ -37,11 +37,10 @@ unfinished_name::unfinished_name(const std::filesystem::path& file) : place_(slo
   }
 }
 
-void unfinished_name::release() noexcept {
+unfinished_name::~unfinished_name() {
   if (place_ >= slots.size()) return;
   slots[place_].is_set = false;
   slots[place_].is_taken = false;
-  place_ = slots.size();
 }
 
 void remove_unfinished_files() noexcept {
