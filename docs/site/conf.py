@@ -2,6 +2,7 @@
 """Sphinx's settings for the site; docs/site/build.sh runs it over the root of the project."""
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -21,7 +22,10 @@ root = Path(__file__).resolve().parents[2]
 
 project = "nysalt"
 version = release = re.search(r"version = \"(.*)\"", (root / "include/nysalt/version.hpp").read_text()).group(1)
-git = subprocess.run(["git", "-C", root, "describe", "--always", "--dirty", "--exclude=*"], capture_output=True, text=True)
+commit = ""  # of a folder without git, or where git is not installed
+if shutil.which("git"):
+    commit = subprocess.run(["git", "-C", root, "describe", "--always", "--dirty", "--exclude=*"], capture_output=True,
+                            text=True).stdout.strip()
 extensions = ["myst_parser", "breathe", "sphinxcontrib.bibtex", "sphinx_copybutton"]
 
 # Pages.
@@ -56,7 +60,7 @@ templates_path = ["templates"]
 html_sidebars = {"**": ["sidebar/scroll-start.html", "sidebar/brand.html", "version.html", "sidebar/search.html",
                         "sidebar/navigation.html", "sidebar/scroll-end.html"]}
 # NYSALT_SITE_VERSIONS is `NAME=URL ...` of sites of other versions, to which the sidebar links.
-html_context = {"commit": git.stdout.strip(),
+html_context = {"commit": commit,
                 "versions": [other.split("=", 1) for other in os.environ.get("NYSALT_SITE_VERSIONS", "").split()]}
 
 

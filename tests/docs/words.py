@@ -9,6 +9,7 @@ message ends in "cannot be".
 import argparse
 import io
 import re
+import shutil
 import subprocess
 import sys
 import tokenize
@@ -129,10 +130,11 @@ def words_not_used(page):
 
 def files(root):
     """The files of ours that are looked through, in order; those that git ignores are left out where there is git."""
-    listed = subprocess.run(["git", "-C", str(root), "ls-files", "--cached", "--others", "--exclude-standard"],
-                            capture_output=True, text=True, check=False)
-    paths = ([root / name for name in listed.stdout.splitlines()] if listed.returncode == 0 and listed.stdout
-             else root.rglob("*"))
+    listed = ""
+    if shutil.which("git"):
+        listed = subprocess.run(["git", "-C", str(root), "ls-files", "--cached", "--others", "--exclude-standard"],
+                                capture_output=True, text=True, check=False).stdout
+    paths = [root / name for name in listed.splitlines()] or root.rglob("*")
     for path in sorted(paths):
         if path.suffix in languages and path.is_file() and folder_of(root, path):
             yield path

@@ -20,8 +20,8 @@ const std::string short_run =
 /// The exit code of a command that gets a signal once a file is there.
 int code_after(const scratch& folder, const std::string& arguments, const std::string& file,
                const std::string& signal) {
-  // A shell that is not interactive has its background jobs ignore SIGINT; env puts that right.
-  const auto done = shell(folder, "env --default-signal=INT \"$nysalt\" " + arguments +
+  // A shell that is not interactive has its background jobs ignore SIGINT and SIGQUIT; env puts that right.
+  const auto done = shell(folder, "env --default-signal=INT,QUIT \"$nysalt\" " + arguments +
                                       " >/dev/null 2>err & p=$!; for i in $(seq 500); do [ -e " + file +
                                       " ] && break; sleep 0.01; done; sleep 0.1; kill -" + signal +
                                       " $p; wait $p; echo $?");
@@ -292,7 +292,7 @@ BOOST_AUTO_TEST_CASE(links_and_devices) {
     BOOST_TEST(contents(folder / "real") == "kept\n");
   }
   // A memory file system below /dev is for files, where there is one.
-  shell(folder, "d=$(mktemp -d -p /dev/shm) && ln -s \"$d\" memory");
+  shell(folder, "mountpoint -q /dev/shm && d=$(mktemp -d -p /dev/shm) && ln -s \"$d\" memory");
   if (std::filesystem::is_directory(folder / "memory")) {
     const auto done = run(folder, short_run + "--output memory/a.csv");
     BOOST_TEST(done.code == 0, done.err);
