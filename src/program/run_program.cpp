@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -44,6 +45,8 @@ std::terminate_handler other_ends = nullptr;
 /// oneTBB starts a thread from another that it has started, where nothing catches the exception if the system
 /// refuses: as it may where processes of the user took the last threads since they were counted.
 [[noreturn]] void end_for_want_of_threads() {
+  static std::atomic_flag is_ending;
+  while (is_ending.test_and_set()) ::pause();  // another thread ends the process
   try {
     if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::runtime_error& problem) {

@@ -476,13 +476,15 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written) {
   const std::string few = "learn --trajectories 3 --fine-step 0.001" + fast;
   const std::string rows = "run --method verlet" + fast;
   const std::string errors = "compare --methods verlet --trajectories 3 --horizon 0.2 --steps 0.02 ";
+  // Nobody, not the superuser, makes a file there; without it, as in a chroot, /sys may be a folder.
+  if (std::filesystem::exists("/sys/kernel"))
+    all_refused(folder, {{few + "--output /sys/scheme.json", {"/sys"}}});
   all_refused(folder, {
                           {few + "--output there", {"there", "folder"}},
                           {few + "--output nowhere/scheme.json", {"nowhere", "make it"}},
                           {few + "--output file/scheme.json", {"file"}},
                           {few + "--output ''", {"--output", "empty"}},
                           {few + "--output there/", {"there"}},
-                          {few + "--output /sys/scheme.json", {"/sys"}},  // of the superuser too
                           {rows + "--output there", {"there", "folder"}},
                           {rows + "--output there/out.csv", {"there/manifest.json", "folder"}},
                           {rows + "--output manifest.json", {"manifest.json", "take another"}},
