@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(a_handler_runs_behind_the_scope) {
 }
 
 BOOST_AUTO_TEST_CASE(a_handler_on_another_thread_waits) {
-  wait_for_held_signals();  // for nobody
+  wait_for_held_signals();  // returns at once, as no thread holds signals back
   std::promise<void> holds;
   std::atomic<bool> is_done = false;
   std::thread other([&] {

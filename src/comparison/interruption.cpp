@@ -44,7 +44,8 @@ void handle(int number, handlers_of_others others) {
 void handle_signals() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU})
     handle(number, handlers_of_others::replaced);
-  // Others that end a process unless they are handled, but those of a fault; a profiler may handle some.
+  // Other signals whose default action ends the process, except those of faults; the handler of a profiler
+  // stays.
   for (const int number : {SIGQUIT, SIGALRM, SIGVTALRM, SIGPROF, SIGIO, SIGPWR, SIGSTKFLT})
     handle(number, handlers_of_others::kept);
   for (int number = SIGRTMIN; number <= SIGRTMAX; ++number) handle(number, handlers_of_others::kept);

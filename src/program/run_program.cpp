@@ -40,10 +40,10 @@ void occupy_closed_streams() {
   }
 }
 
-std::terminate_handler other_ends = nullptr;
+std::terminate_handler previous_handler = nullptr;
 
-/// oneTBB starts a thread from another that it has started, where nothing catches the exception if the system
-/// refuses: as it may where processes of the user took the last threads since they were counted.
+/// Terminate handler for a thread of oneTBB that cannot start another one: nothing catches the exception
+/// there. The library has tried the threads before, but other processes may have started theirs since.
 [[noreturn]] void end_for_want_of_threads() {
   static std::atomic_flag is_ending;
   while (is_ending.test_and_set()) ::pause();  // another thread ends the process
@@ -51,13 +51,16 @@ std::terminate_handler other_ends = nullptr;
     if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::runtime_error& problem) {
     if (std::string_view(problem.what()).starts_with("pthread_create")) {  // what oneTBB says
-      complain(fmt::format("cannot start a thread: {}; take fewer --threads", problem.what()));
+      try {
+        complain(fmt::format("cannot start a thread: {}; take fewer --threads", problem.what()));
+      } catch (...) {  // without memory; an exception from here would call this handler again, which waits
+      }
       nysalt::detail::remove_unfinished_files();
       ::_exit(bad_input);
     }
-  } catch (...) {  // left to the handler of before
+  } catch (...) {  // left to the previous handler
   }
-  other_ends();
+  previous_handler();
   std::abort();
 }
 
@@ -93,7 +96,7 @@ int run_program(command_line run, int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // print() ends quietly when a reader has seen enough
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is reported like a full disk
   allow_named_signals();
-  other_ends = std::set_terminate(end_for_want_of_threads);
+  previous_handler = std::set_terminate(end_for_want_of_threads);
   try {
     const mpi_session ranks(argc, argv);
     handle_signals();  // after MPI, which may have handlers of its own

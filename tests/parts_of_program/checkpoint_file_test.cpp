@@ -28,7 +28,7 @@ BOOST_AUTO_TEST_CASE(what_is_written_is_read_again) {
   BOOST_TEST(refuses<refusal>([&] { numbers_of_checkpoint(folder / "c", 2); }, {"was edited"}));
 }
 
-// Between the check and the writing nobody else writes; what is found there may stop it.
+// The check runs while the file is locked against other processes; if it throws, the older checkpoint stays.
 BOOST_AUTO_TEST_CASE(what_is_there_is_seen_under_the_lock) {
   const scratch folder("checkpoint_file_look");
   const std::vector<double> numbers{0.5};

@@ -476,7 +476,7 @@ BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written) {
   const std::string few = "learn --trajectories 3 --fine-step 0.001" + fast;
   const std::string rows = "run --method verlet" + fast;
   const std::string errors = "compare --methods verlet --trajectories 3 --horizon 0.2 --steps 0.02 ";
-  // Nobody, not the superuser, makes a file there; without it, as in a chroot, /sys may be a folder.
+  // sysfs refuses new files, of the superuser too; in a chroot without sysfs, /sys is a folder like others.
   if (std::filesystem::exists("/sys/kernel"))
     all_refused(folder, {{few + "--output /sys/scheme.json", {"/sys"}}});
   all_refused(folder, {

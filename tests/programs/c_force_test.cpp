@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told) {
   must_be_told("int nothing;\n", "c_force.h");
 }
 
-// Whoever ends the process, nothing unfinished stays.
+// A library that ends the process by exit(), abort() or a fault leaves no unfinished file.
 BOOST_AUTO_TEST_CASE(an_end_by_the_library_leaves_no_unfinished_file) {
   const scratch folder("c_force_end");
   for (const std::string end : {"exit(0)", "abort()", "*(volatile int*)0 = 0"}) {

@@ -119,7 +119,7 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
     const auto done =
         shell(folder, "THREADS=" + std::to_string(threads) +
                           " LD_PRELOAD=$PWD/refuse.so \"$nysalt\" run --system pendulum --method "
-                          "verlet --step 0.01 --horizon 100 --trajectories 64 --threads 8 --output o.csv");
+                          "verlet --step 0.01 --horizon 1000 --trajectories 64 --threads 8 --output o.csv");
     BOOST_TEST_CONTEXT(threads << " threads: " << done.err) {
       // Seven are tried; of others oneTBB starts, for each loop, as many as find work.
       BOOST_TEST((done.code == 2 || (done.code == 0 && threads > 7)));
