@@ -2,6 +2,7 @@
 #include "run_program.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -27,7 +28,18 @@ namespace nysalt::program {
 
 namespace {
 
+std::atomic<bool> is_reported = false;  // an error, by the main thread or by the terminate handler
+std::atomic<bool> is_terminating = false;
+
+/// Where one thread has reported the error, another only waits for the end of the process.
+[[noreturn]] void wait_for_end() {
+  constexpr int most_milliseconds = 10'000;
+  ::poll(nullptr, 0, most_milliseconds);
+  ::_exit(bad_input);
+}
+
 int reported(const std::string& text, int code) {
+  if (is_reported.exchange(true) && is_terminating) wait_for_end();
   complain(text);
   return code;
 }
@@ -45,8 +57,8 @@ std::terminate_handler previous_handler = nullptr;
 /// Terminate handler for a thread of oneTBB that cannot start another one: nothing catches the exception
 /// there. The library has tried the threads before, but other processes may have started theirs since.
 [[noreturn]] void end_for_want_of_threads() {
-  static std::atomic_flag is_ending;
-  while (is_ending.test_and_set()) ::pause();  // another thread ends the process
+  is_terminating = true;
+  if (is_reported.exchange(true)) wait_for_end();
   try {
     if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::runtime_error& problem) {

@@ -13,7 +13,7 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "in_arena.hpp"
+#include "with_threads.hpp"
 
 namespace nysalt {
 
@@ -62,11 +62,13 @@ void for_each_block(std::int64_t count, int width, int threads,
       thrown = std::current_exception();
     }
   };
-  using oneapi::tbb::global_control;
-  // As many as were asked for, also beyond the number of cores.
-  const global_control allowed(global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  oneapi::tbb::task_arena arena(threads);
-  detail::in_arena(arena, threads, [&] { oneapi::tbb::parallel_for(std::int64_t{0}, blocks, guarded); });
+  detail::with_threads(threads, [&] {
+    using oneapi::tbb::global_control;
+    // As many as were asked for, also beyond the number of cores.
+    const global_control allowed(global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    oneapi::tbb::task_arena arena(threads);
+    arena.execute([&] { oneapi::tbb::parallel_for(std::int64_t{0}, blocks, guarded); });
+  });
   if (thrown) std::rethrow_exception(thrown);
 }
 

@@ -12,8 +12,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "in_arena.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "with_threads.hpp"
 
 namespace nysalt::detail {
 
@@ -98,9 +98,12 @@ struct site_window::workers {
       : stride(sites), buffers(static_cast<std::size_t>(threads)) {
     for (auto& buffer : buffers) buffer.resize(static_cast<std::size_t>(3 * components * sites));
     if (threads == 1) return;
-    // As many as were asked for, also beyond the number of cores.
-    allowed.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-    arena.emplace(threads);
+    with_threads(threads, [&] {
+      // As many as were asked for, also beyond the number of cores.
+      allowed.emplace(oneapi::tbb::global_control::max_allowed_parallelism,
+                      static_cast<std::size_t>(threads));
+      arena.emplace(threads);
+    });
   }
 
   /// work(item, buffer) for each item.
@@ -109,14 +112,15 @@ struct site_window::workers {
       for (std::int64_t item = 0; item < items; ++item) work(item, buffers.front());
       return;
     }
-    in_arena(*arena, static_cast<int>(buffers.size()), [&] {
+    const auto all_items = [&] {
       using oneapi::tbb::this_task_arena::current_thread_index;
       const auto in_buffer = [&](std::int64_t item) {
         work(item, buffers[static_cast<std::size_t>(current_thread_index())]);
       };
       // Each thread gets the same tiles in every sweep, whose values are in the cache of that thread's core.
       oneapi::tbb::parallel_for(std::int64_t{0}, items, in_buffer, oneapi::tbb::static_partitioner());
-    });
+    };
+    with_threads(static_cast<int>(buffers.size()), [&] { arena->execute(all_items); });
   }
 
   Eigen::Index stride;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "in_arena.hpp"
+#include "with_threads.hpp"
 
 #include <signal.h>
 #include <unistd.h>

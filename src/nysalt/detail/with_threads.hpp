@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Work on the threads of an arena of oneTBB.
+// Work on threads of oneTBB, and threads that the system refuses.
 #pragma once
-
-#include <oneapi/tbb/task_arena.h>
 
 #include <stdexcept>
 #include <string_view>
@@ -17,12 +15,12 @@ void require_threads(int threads);
 /// Throws std::runtime_error of threads that the system does not start; `reason` is that of the system.
 [[noreturn]] void refuse_threads(int threads, std::string_view reason);
 
-/// Runs work() in an arena of `threads` threads. Throws std::runtime_error if the system starts fewer, and
-/// what work() throws.
-void in_arena(oneapi::tbb::task_arena& arena, int threads, const auto& work) {
+/// Calls work(), which makes and uses `threads` threads of oneTBB. Throws std::runtime_error if the system
+/// starts fewer, and what work() throws.
+void with_threads(int threads, const auto& work) {
   require_threads(threads);
   try {
-    arena.execute(work);
+    work();
   } catch (const std::runtime_error& problem) {  // others may have taken threads meanwhile
     if (!std::string_view(problem.what()).starts_with("pthread_create")) throw;  // what oneTBB says
     refuse_threads(threads, problem.what());
