@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "../../src/program/bundled_systems.hpp"
+#include "../../../src/program/bundled_systems.hpp"
 #include "chapters.hpp"
 #include "nysalt/analysis/statistics.hpp"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "../../src/report/figure.hpp"
+#include "../../../src/report/figure.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/tabulated.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "hard_case.hpp"
+#include "../../../bench/studies/hard/hard_case.hpp"
 
 using namespace nysalt::hard;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // What the sampling page counts: draws until the error stays low, and modes of a lattice.
-#include "low_error.hpp"
+#include "../../../bench/studies/sampling/low_error.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "power_spectrum.hpp"
+#include "../../../bench/studies/sampling/power_spectrum.hpp"
 
 using namespace nysalt::sampling_benchmark;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "coverage.hpp"
-#include "../../src/program/systems.hpp"
+#include "../../../src/program/systems.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,12 @@
 #include <cmath>
 #include <memory>
 
-#include "../../src/comparison/catalogue.hpp"
-#include "../../src/comparison/checks.hpp"
-#include "../../src/comparison/seeds.hpp"
-#include "../../src/program/bundled_systems.hpp"
-#include "../../src/report/page.hpp"
-#include "../../src/report/table.hpp"
+#include "../../../src/comparison/catalogue.hpp"
+#include "../../../src/comparison/checks.hpp"
+#include "../../../src/comparison/seeds.hpp"
+#include "../../../src/program/bundled_systems.hpp"
+#include "../../../src/report/page.hpp"
+#include "../../../src/report/table.hpp"
 
 namespace nysalt::coverage {
 

@@ -87,7 +87,7 @@ def with_error(row, name):
 def write_page(path, rows):
     lines = ["# Learning at size", "",
              "What a fit costs as the system grows, and what a fit of a small one is worth at the larger one. Made by",
-             "`tests/soundness/size.py`; how to use it: [learn small, run large](../how-to/learn_small_run_large.md).", "",
+             "`bench/studies/soundness/size.py`; how to use it: [learn small, run large](../how-to/learn_small_run_large.md).", "",
              f"Each fit is of `{FAMILY}` to {TRAJECTORIES} trajectories with `--effort {EFFORT}` on one thread; what was "
              "learned small",
              "is the default fit of `--pairs 3` or `--masses 16`, run at each size after the trial there. Errors are of the "

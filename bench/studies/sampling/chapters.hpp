@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "../../src/report/page.hpp"
+#include "../../../src/report/page.hpp"
 #include "contest.hpp"
 #include "nysalt/system_declaration.hpp"
 

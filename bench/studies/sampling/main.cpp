@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "../../src/report/machine.hpp"
-#include "../../src/report/plot.hpp"
-#include "../../src/report/write_file.hpp"
+#include "../../../src/report/machine.hpp"
+#include "../../../src/report/plot.hpp"
+#include "../../../src/report/write_file.hpp"
 #include "chapters.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Error bars cover, or are marked: a small form of the table of ./dev error-bars.
-#include "coverage.hpp"
+#include "../../../bench/studies/error_bars/coverage.hpp"
 
 #include <boost/test/unit_test.hpp>
 

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "../../src/report/write_file.hpp"
+#include "../../../src/report/write_file.hpp"
 #include "coverage.hpp"
 
 int main(int count, char** arguments) {

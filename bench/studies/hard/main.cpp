@@ -11,7 +11,7 @@
 #include <exception>
 #include <filesystem>
 
-#include "../../src/report/page.hpp"
+#include "../../../src/report/page.hpp"
 #include "hard_case.hpp"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "../../src/report/figure.hpp"
+#include "../../../src/report/figure.hpp"
 
 namespace nysalt::hard {
 
