@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: BSL-1.0
 """docs/messages.md shows what compilers say: every sentence of the headers, and nothing that none of them prints."""
 import re
+import sys
 import unittest
 from pathlib import Path
 
 root = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(root / "tests" / "must_not_compile"))
+import check
+
 page = (root / "docs" / "messages.md").read_text()
 
 
@@ -13,10 +17,9 @@ def sentences(code):
     return {"".join(re.findall(r'"([^"]*)"', found)) for found in re.findall(r'"nysalt: [^"]*"(?:\s+"[^"]*")*', code)}
 
 
-def expected(case):
-    """What the first lines of a case expect to read, of one compiler or of all."""
-    head = re.sub(r"\n//   +", " ", case[:case.index("// SPDX")])
-    return set(re.findall(r"^// expect(?: [A-Za-z]+)?: (.+)$", head, re.MULTILINE))
+def expected(cases):
+    """What the cases of a file expect to read, of one compiler or of all."""
+    return {sentence for case in check.cases_of(cases) for _, sentence in case.expected}
 
 
 def shown(document):
@@ -49,7 +52,8 @@ class Messages(unittest.TestCase):
     def test_are_read_whole(self):
         self.assertEqual(sentences('static_assert(a, "nysalt: one "\n      "two");  g("nysalt: three", "four")'),
                          {"nysalt: one two", "nysalt: three"})
-        self.assertEqual(expected("// expect: a\n//   b\n// expect GNU: c\n// SPDX\n// expect: d\n"), {"a b", "c"})
+        cases = "// About.\n// expect: a\n//   b\n// expect GNU: c\nnamespace d {\ne;\n}  // namespace d\n// expect: f\n"
+        self.assertEqual(expected(cases), {"a b", "c"})
         self.assertEqual(shown("> nysalt: a\n\n```text\nb\nc\n```\n\n> d\n\n```cpp\ne\n```\n"), {"nysalt: a", "b", "c"})
 
 

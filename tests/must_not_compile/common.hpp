@@ -1,29 +1,29 @@
-// expect: nysalt: the order of this method needs a quadratic kinetic energy, but the system has a kinetic
-//   energy of its own
 // SPDX-License-Identifier: BSL-1.0
+// Systems of several cases.
+#pragma once
+
 #include <cmath>
 
-#include "nysalt/method.hpp"
-#include "nysalt/methods/classical.hpp"
+#include "nysalt/system.hpp"
 
-struct relativistic {
+/// V = q^2.
+struct well {
   static constexpr int dimension = 1;
   template <class T>
   T potential(const nysalt::vector<T, 1>& q) const {
     return q[0] * q[0];
   }
+};
+
+/// K = sqrt(p^2 + 1); in the control p^2/2.
+struct relativistic : well {
 #ifndef NYSALT_CONTROL
-  // [mistake]
+  // [relativistic]
   template <class T>
   T kinetic_energy(const nysalt::vector<T, 1>& p) const {
     using std::sqrt;
     return sqrt(p[0] * p[0] + 1.0);
   }
-  // [/mistake]
+  // [/relativistic]
 #endif
 };
-
-int main() {
-  const relativistic system;
-  nysalt::make_stepper(system, nysalt::srkn11b(), 0.1);
-}
