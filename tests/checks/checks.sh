@@ -29,8 +29,14 @@ check() {
       recorded seeds "$seeds" check_seeds "$seeds"
       ;;
     coverage)
-      [[ -z $argument || $argument == failed ]] || refuse "check coverage takes nothing or 'failed', got '$argument'"
-      recorded coverage 1/1 check_coverage "$argument"
+      [[ -z $argument || $argument =~ ^(failed|tier1)$ ]] ||
+        refuse "check coverage takes nothing, 'tier1' or 'failed', got '$argument'"
+      local tiers=all
+      [[ $argument != tier1 ]] || tiers=tier1
+      recorded coverage "$tiers" check_coverage "$argument"
+      ;;
+    mutants)
+      recorded mutants "${argument:-all}" check_mutants "$argument"
       ;;
     tidy | faults)
       [[ -z $argument ]] || refuse "check $what takes no argument, got '$argument'"
@@ -39,10 +45,10 @@ check() {
     all)
       [[ -z $argument ]] || refuse "check all takes no argument, got '$argument'"
       local one
-      for one in gcc clang tidy threads address fuzz faults coverage seeds; do check "$one"; done
+      for one in gcc clang tidy threads address fuzz faults coverage seeds mutants; do check "$one"; done
       ;;
     table) tests/checks/outcomes.py table build/check ;;
-    *) refuse "unknown check '$what': it is gcc, clang, address, threads, tidy, fuzz, faults, coverage, seeds, table or all" ;;
+    *) refuse "unknown check '$what': it is gcc, clang, address, threads, tidy, fuzz, faults, coverage, seeds, mutants, table or all" ;;
   esac
 }
 
@@ -144,25 +150,30 @@ check_seeds() {
   tests/checks/seeds.py "build/$preset" "$1" --counts "$counts"
 }
 
-# check_coverage [failed]: with `failed` the tests that failed in the last run, whose counts are kept.
+# check_coverage [tier1 | failed]: of tier 1 alone, or the tests that failed in the last run, whose counts are kept.
 check_coverage() {
   packages+=(llvm)
   preset=coverage
   configure
-  build all
-  local folder=$PWD/build/check/coverage again=() tests=() status=0 objects=() program
+  local folder=$PWD/build/check/coverage chosen=() tests=() status=0 objects=() program
   local report=$folder/tests.xml before=$folder/before.txt
+  if [[ $1 == tier1 ]]; then
+    build tier1
+    chosen=(-LE '^long$')
+  else
+    build all
+  fi
   if [[ $1 == failed ]]; then
     [[ -s $before ]] || refuse "check coverage failed needs a whole run before; run ./dev check coverage"
-    again=(--rerun-failed)
+    chosen=(--rerun-failed)
   else
     rm -rf "$folder/profiles" "$before"
   fi
-  ctest --preset coverage -j2 "${again[@]}" --output-junit "$report" || status=$?
+  ctest --preset coverage -j2 "${chosen[@]}" --output-junit "$report" || status=$?
   mapfile -t tests < <(cat "$before" 2>/dev/null || true)
   tests+=("$(tests/checks/outcomes.py count "$report") at $(tests/checks/outcomes.py commit)")
   printf '%s\n' "${tests[@]}" >"$before"
-  for program in "$folder"/tests/*_test "$folder"/tests/*tests_O?_?; do objects+=(-object "$program"); done
+  for program in "$folder"/tests/*_tests; do objects+=(-object "$program"); done
   llvm-profdata merge -sparse -o "$folder/all.profdata" "$folder"/profiles/*.profraw
   llvm-cov export -format=lcov -instr-profile="$folder/all.profdata" "$folder/nysalt" "${objects[@]}" \
     "$PWD/include" "$PWD/src" >"$folder/all.lcov"
