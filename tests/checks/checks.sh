@@ -134,8 +134,8 @@ check_fuzz_target() {
 check_faults() {
   preset=release
   configure
-  build nysalt_program
-  tests/faults/faults.py build/release/nysalt build/check/faults | tee build/check/faults.log
+  build nysalt_program nysalt_faults
+  tests/faults/faults.py build/release/nysalt build/release/tests/libnysalt_faults.so build/check/faults | tee build/check/faults.log
   tail -n 1 build/check/faults.log >"$counts"
 }
 
