@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: BSL-1.0
+// Compiled with -O1: 9 s at -O0, 0.5 s at -O1.
+// Trajectories have the same bits on any number of threads, in any lanes, on any ranks, and cut.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "law.hpp"
+#include "nysalt/distributed_run.hpp"
+#include "nysalt/ensemble_run.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/gibbs.hpp"
+#include "nysalt/ensembles/lennard_jones_liquid_law.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/flow_map_data.hpp"
+#include "nysalt/integrate.hpp"
+#include "nysalt/integrate_ensemble.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/noises/finer_noise.hpp"
+#include "nysalt/noises/recorded_path.hpp"
+#include "nysalt/references/fine_paths.hpp"
+#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/in_bath.hpp"
+#include "nysalt/systems/lennard_jones_liquid.hpp"
+#include "nysalt/systems/phi4_chain.hpp"
+#include "nysalt/trial_run.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+using state = phase_point<double, Eigen::Dynamic>;
+
+const fpu_chain<3> chain(50.0);
+const initial_states law = fpu_law<3>(chain);
+const normal_around<1> around_0({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 1.0, 1.0);
+constexpr std::int64_t trajectories =
+    37;  // fill no number of lanes; three leaves, of which three ranks have one
+constexpr std::int64_t steps = 200;
+constexpr std::int64_t every = 7;
+constexpr double unstable = 0.05;  // z = 2.5: some trajectories diverge, at steps of their own
+
+model in_noise(const division& how) {
+  const auto heat = bath::of_sigma(0.5, 0.3);
+  return how.in_lanes ? model(in_bath(chain, heat)) : model(in_bath(in_lanes<fpu_chain<3>, 1>(chain), heat));
+}
+auto obabo_of(const model& system, double step, std::uint64_t seed) {
+  return make_stepper(system, tabulated(obabo()), step, counter_noise(seed));
+}
+template <class T>
+const auto read_first = [](const auto& x, std::span<T> first) { first[0] = x.q[0]; };
+
+/// What is seen of trajectories; kept from several threads.
+struct sightings {
+  explicit sightings(std::int64_t count) : of_each(static_cast<std::size_t>(count)) {}
+  auto take() {
+    return [this](std::int64_t m, std::int64_t n, std::span<const double> seen) {
+      of_each[static_cast<std::size_t>(m)] << n << seen;
+    };
+  }
+  result with(const auto& diverged_at) const {
+    result all;
+    all.of_all << diverged_at;
+    for (std::size_t m = 0; m < of_each.size(); ++m) {
+      if (!of_each[m].empty()) all.of_each[static_cast<std::int64_t>(m)] = of_each[m];
+    }
+    return all;
+  }
+  std::vector<numbers> of_each;
+};
+
+result observed_run(const division& how, std::uint64_t seed) {
+  const model system = in_noise(how);
+  result all;
+  const auto observe = [&](std::int64_t n, const auto& x) { all.of_all << n << x; };
+  const auto before = obabo_of(system, 0.01, seed);
+  auto run = before.open(law(seed, 0), 3);
+  before.advance(run, how.is_cut ? 41 : steps, every, observe);
+  const auto after = obabo_of(system, 0.01, seed);
+  after.advance(run, steps - run.step, every, observe);
+  all.of_all << after.synchronous(run);
+  return all;
+}
+
+state rough_ring(std::uint64_t seed, Eigen::Index sites) {
+  state x{Eigen::VectorXd(sites), Eigen::VectorXd(sites)};
+  counter_noise(seed).normals(noise_place{0, 0, 0}, x.q);
+  counter_noise(seed).normals(noise_place{1, 0, 0}, x.p);
+  return x;
+}
+
+result run_in_tiles(const division& how, std::uint64_t seed) {
+  const model system = model(phi4_chain<>(20'000)).on_threads(how.threads);  // enough sites for two threads
+  const auto fixed = make_stepper(system, tabulated(verlet()), 0.05);
+  auto run = fixed.open(rough_ring(seed, 20'000));
+  if (how.is_cut) fixed.advance(run, 41);
+  fixed.advance(run, 70 - run.step);
+  result all;
+  all.of_all << fixed.synchronous(run);
+  return all;
+}
+
+result run_that_ranks_share(const division& how, std::uint64_t seed) {
+  const state x = rough_ring(seed, 10'000);
+  const model system = model(phi4_chain<>(10'000)).on_threads(how.threads);
+  const auto from = [](const auto& all) {
+    return [&all](Eigen::Index first, std::span<double> q, std::span<double> p) {
+      std::copy_n(all.q.data() + first, q.size(), q.begin());
+      std::copy_n(all.p.data() + first, p.size(), p.begin());
+    };
+  };
+  const tabulated method{verlet()};
+  distributed_run run(system, method, 0.05, from(x), *how.ranks);
+  if (how.is_cut) {  // what one rank has kept others go on with
+    distributed_run first(system, method, 0.05, from(x));
+    first.advance(41);
+    run.resume(first.step(), from(first.open().state));
+  }
+  run.advance(70 - run.step());
+  result all;
+  all.of_all << run.energy() << run.is_finite();
+  const state end = run.synchronous();
+  for (Eigen::Index i = 0; i < run.sites(); ++i) all.of_each[run.first_site() + i] << end.q[i] << end.p[i];
+  return all;
+}
+
+result resumed_ensemble(const division& how, std::uint64_t seed) {
+  sightings seen(trajectories);
+  saved_runs saved;
+  const auto go_on = [&](const division& part, std::int64_t end) {
+    const model system = in_noise(part);
+    const auto stepper = obabo_of(system, unstable, seed);
+    detail::with_scalar_of(system, [&]<class T>(T) {
+      using run_type = ensemble_run<T, std::remove_const_t<decltype(stepper)>>;
+      auto run = saved.step == 0 ? run_type(stepper, law, seed, 0, trajectories, part.threads)
+                                 : run_type(stepper, law, seed, 0, trajectories, saved, part.threads);
+      run.go_on(end, every, 1, read_first<T>, seen.take(), part.threads);
+      saved = run.save();
+    });
+  };
+  if (how.is_cut) go_on({.threads = 2, .in_lanes = !how.in_lanes}, steps_between_checks);
+  go_on(how, steps);
+  result all = seen.with(saved.diverged_at);
+  all.of_all << saved.numbers;
+  return all;
+}
+
+/// Cut between trajectories.
+result followed_ensemble(const division& how, std::uint64_t seed, const model& system,
+                         const initial_states& starts) {
+  const auto stepper = obabo_of(system, unstable, seed);
+  sightings seen(trajectories);
+  std::vector<std::optional<std::int64_t>> diverged_at;
+  const auto follow = [&](std::int64_t first, std::int64_t count) {
+    ensemble_options options{
+        .trajectories = count, .steps = steps, .every = every, .seed = seed, .threads = how.threads};
+    options.first = first;
+    options.ranks = how.ranks;
+    detail::with_scalar_of(system, [&]<class T>(T) {
+      const auto part = integrate_ensemble<T>(stepper, starts, options, 1, read_first<T>, seen.take());
+      diverged_at.insert(diverged_at.end(), part.begin(), part.end());
+    });
+  };
+  if (how.is_cut) follow(0, 10);
+  follow(how.is_cut ? 10 : 0, trajectories - (how.is_cut ? 10 : 0));
+  return seen.with(diverged_at);
+}
+
+/// Cut where further trajectories are added to the data of fewer.
+result pairs(const division& how, std::uint64_t seed, const model& system, const auto& reference, int parts) {
+  data_options options{.step = 0.02,
+                       .horizon = 0.1,
+                       .trajectories = trajectories,
+                       .seed = seed,
+                       .noise_parts = parts,
+                       .threads = how.threads,
+                       .ranks = how.ranks};
+  flow_map_data data;
+  if (how.is_cut) {
+    options.trajectories = 20;
+    extend_data(system, law, reference, options, data);
+    options.trajectories = trajectories;
+    extend_data(system, law, reference, options, data);
+  } else {
+    data = make_flow_map_data(system, law, reference, options);
+  }
+  result all;
+  all.of_all << data.energies->low << data.energies->high << data.all_pairs();
+  for (const auto& x : data.further_starts) all.of_all << x;
+  const std::int64_t first = data.share().first();
+  for (std::size_t m = 0; m < data.trajectories(); ++m) {
+    numbers& of_one = all.of_each[first + static_cast<std::int64_t>(m)];
+    for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
+      of_one << data.start[n] << data.finish[n];
+      for (int k = 0; k < parts; ++k) {
+        of_one << data.noise[n * static_cast<std::size_t>(parts) + static_cast<std::size_t>(k)];
+      }
+    }
+  }
+  return all;
+}
+
+/// Of data that were made at once: those that grew have more checks.
+result checks_of_pairs(const division& how, std::uint64_t seed) {
+  const auto data = make_flow_map_data(in_noise(how), law, fine_paths(1e-3),
+                                       {.step = 0.02,
+                                        .horizon = 0.1,
+                                        .trajectories = trajectories,
+                                        .seed = seed,
+                                        .threads = how.threads,
+                                        .ranks = how.ranks});
+  result all;
+  all.of_all << data.evaluations;
+  for (const auto& [pair, finish] : data.finer) {
+    all.of_each[static_cast<std::int64_t>(data.first_pair() + pair)] << finish;
+  }
+  return all;
+}
+
+result starts_after_a_burn_in(const division& how, std::uint64_t seed) {
+  const in_bath warm(harmonic_oscillator(3.0), bath::of_temperature(0.01, 0.7));
+  const gibbs ensemble(warm, around_0, {.friction = 6.0, .pilots = 50, .seed = seed, .threads = how.threads});
+  const burn_in_report& report = ensemble.report();
+  result all;
+  all.of_all << report.tau << report.length;
+  for (const auto* means : {&report.bias, &report.excess, &report.to_forget}) {
+    for (const auto& one : *means) all.of_all << one.mean << one.standard_error;
+  }
+  constexpr int count = 5;
+  const auto block = ensemble.block<detail::lanes>(seed, 3, std::min(count, default_lanes));
+  for (int k = 0; k < count; ++k) {
+    const bool from_block = how.in_lanes && k < default_lanes;
+    all.of_all << (from_block ? lane(block, k) : ensemble(seed, static_cast<std::uint64_t>(3 + k)));
+  }
+  return all;
+}
+
+result trial(const division& how, std::uint64_t seed, const model& system, const tabulated& method) {
+  phase_points starts;
+  for (std::uint64_t m = 0; m < 100; ++m) starts.push_back(law(seed, m));  // more than a block
+  const trial_result found = trial_run(
+      system, method, 0.04, starts,
+      {.steps = 128, .seed = seed, .threads = how.threads, .watches_growth = !system.bath().acts()});
+  result all;
+  all.of_all << found.trajectories << found.diverged << found.lost << found.deviation << found.first_deviation
+             << found.early_deviation << found.kinetic_energy << found.relative_deviation << found.farthest
+             << found.unconfined;
+  return all;
+}
+
+/// Numbers of trajectories 40 to 47 from sources that make those of the lanes of a pack together.
+result noise_of_sources(const division& how, std::uint64_t seed) {
+  std::array<numbers, 8> of_each;
+  const auto draw = [&]<class T>(T, std::uint64_t first) {
+    const auto keep = [&](const vector<T, 3>& xi) {
+      for (int k = 0; k < lanes_in<T>; ++k) of_each[first + static_cast<std::size_t>(k)] << lane(xi, k);
+    };
+    vector<T, 3> xi;
+    const counter_noise plain(seed);
+    const finer_noise finer(seed, 0.7, 3);
+    recorded_path<T, 3> path(0.1, 3.0, 40 + first);
+    for (std::int64_t n = 0; n < 5; ++n) {
+      const noise_place at{40 + first, n, 0};
+      plain.normals(at, xi);
+      keep(xi);
+      path.add(xi);
+      plain.halving(at, xi);
+      keep(xi);
+      finer.normals(at, xi);
+      keep(xi);
+    }
+    path.over(1, 5, xi);
+    keep(xi);
+  };
+  if (how.in_lanes) draw(pack<double, 8>(), 0);
+  for (std::uint64_t m = 0; !how.in_lanes && m < 8; ++m) draw(0.0, m);
+  result all;
+  for (std::size_t m = 0; m < of_each.size(); ++m) all.of_each[static_cast<std::int64_t>(m)] = of_each[m];
+  return all;
+}
+
+/// Cut by an object that has not seen the first part, and has no list of neighbours yet.
+result run_of_a_liquid(const division& how, std::uint64_t seed) {
+  const lennard_jones_liquid first(256, 0.8442, {.smoothness = 2, .threads = how.threads});
+  const lennard_jones_liquid second(256, 0.8442, {.smoothness = 2, .skin = 0.4, .threads = how.threads});
+  auto run = make_stepper(first, verlet{}, 0.004).open(lennard_jones_liquid_law(first, 1.44)(seed, 0));
+  if (how.is_cut) make_stepper(first, verlet{}, 0.004).advance(run, 15);
+  const auto rest = make_stepper(second, verlet{}, 0.004);
+  rest.advance(run, 30 - run.step);
+  const auto x = rest.synchronous(run);
+  result all;
+  all.of_all << x << second.potential(x.q) << second.virial(x.q);
+  return all;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(no_trajectory_depends_on_how_it_was_divided) {
+  const auto quiet = [](const division& how) { return divided(chain, how); };
+  require_invariance({
+      {"an observed run", by_cuts, observed_run},
+      {"a run in tiles", by_threads + by_cuts, run_in_tiles},
+      {"a run that ranks share", by_threads + by_ranks + by_cuts, run_that_ranks_share},
+      {"an ensemble that is resumed", by_threads + by_lanes + by_cuts, resumed_ensemble},
+      {"an ensemble", by_threads + by_lanes + by_ranks + by_cuts,
+       [](const division& how, std::uint64_t seed) {
+         return followed_ensemble(how, seed, in_noise(how), law);
+       }},
+      {"an ensemble of a black box", by_threads + by_ranks + by_cuts,
+       [](const division& how, std::uint64_t seed) {
+         return followed_ensemble(how, seed, in_bath(black_box(), bath::of_sigma(0.5, 0.3)), around_0);
+       }},
+      {"pairs", by_threads + by_lanes + by_ranks + by_cuts,
+       [&](const division& how, std::uint64_t seed) {
+         return pairs(how, seed, quiet(how), fine_steps<>(1e-3), 0);
+       }},
+      {"pairs in a bath", by_threads + by_lanes + by_ranks + by_cuts,
+       [](const division& how, std::uint64_t seed) {
+         return pairs(how, seed, in_noise(how), fine_paths(1e-3), 2);
+       }},
+      {"checks of pairs", by_threads + by_lanes + by_ranks, checks_of_pairs},
+      {"starts after a burn-in", by_threads + by_lanes, starts_after_a_burn_in},
+      {"a trial run", by_threads + by_lanes,
+       [&](const division& how, std::uint64_t seed) {
+         return trial(how, seed, quiet(how), tabulated(verlet()));
+       }},
+      {"a trial run in a bath", by_threads + by_lanes,
+       [](const division& how, std::uint64_t seed) {
+         return trial(how, seed, in_noise(how), tabulated(obabo()));
+       }},
+      {"noise", by_lanes, noise_of_sources},
+      {"a liquid", by_threads + by_cuts, run_of_a_liquid},
+  });
+}
+
+// A sum in the order of threads or ranks, a result that says how many lanes there were, and a run that is
+// closed and opened where it is cut.
+BOOST_AUTO_TEST_CASE(a_computation_that_depends_on_its_division_is_found) {
+  const auto shows = [](const std::string& name, unsigned divides, const auto& of) {
+    const computation planted{name, divides, of};
+    BOOST_TEST(!divisions_that_show(planted).empty(), name);
+  };
+  const auto sum_in_parts = [](int parts) {
+    double whole = 0.0;
+    for (int part = 0; part < parts; ++part) {
+      double sum = 0.0;
+      for (int n = 1 + part * 1000 / parts; n <= (part + 1) * 1000 / parts; ++n) sum += 1.0 / n;
+      whole += sum;
+    }
+    result all;
+    all.of_all << whole;
+    return all;
+  };
+  shows("threads", by_threads, [&](const division& how, std::uint64_t) { return sum_in_parts(how.threads); });
+  shows("lanes", by_lanes,
+        [&](const division& how, std::uint64_t) { return sum_in_parts(how.in_lanes ? 8 : 1); });
+  shows("ranks", by_ranks,
+        [&](const division& how, std::uint64_t) { return sum_in_parts(how.ranks->size()); });
+  shows("a rank's own", by_ranks, [](const division& how, std::uint64_t) {
+    result all;
+    all.of_all << how.ranks->rank();
+    return all;
+  });
+  shows("two ranks with one trajectory", by_ranks, [](const division&, std::uint64_t) {
+    result all;
+    all.of_each[3] << 1.0;
+    return all;
+  });
+  shows("a cut", by_cuts, [](const division& how, std::uint64_t seed) {
+    const model system = divided(chain, how);
+    const auto fixed = make_stepper(system, tabulated(verlet()), 0.01);
+    auto run = fixed.open(law(seed, 0));
+    for (int n = 0; n < 41; ++n) {
+      fixed.advance(run, 1);
+      if (how.is_cut) run = fixed.open(fixed.synchronous(run));
+    }
+    result all;
+    all.of_all << fixed.synchronous(run);
+    return all;
+  });
+}
+
+namespace {
+
+/// Fowler, Noll and Vo's hash FNV-1a of the bits of the ends of 37 trajectories, whose starts no generator
+/// and no library function has a part in.
+std::uint64_t hash_of_ends(const model& system, const tabulated& method, double step) {
+  const auto fixed = make_stepper(system, method, step, counter_noise(1));
+  const auto part = [](std::int64_t k) { return static_cast<double>(k % 101) / 202.0 - 0.25; };
+  std::uint64_t hash = 0xcbf29ce484222325U;  // offset basis and prime for 64 bits
+  for (std::int64_t m = 0; m < 37; ++m) {
+    state x{Eigen::VectorXd(size(system)), Eigen::VectorXd(size(system))};
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      x.q[i] = part(37 * m + 11 * i + 5);
+      x.p[i] = part(53 * m + 29 * i + 17);
+    }
+    const auto end = integrate(
+                         fixed, x, 1000, [](auto&&...) {}, 1000, static_cast<std::uint64_t>(m))
+                         .finish;
+    for (const auto* numbers : {&end.q, &end.p}) {
+      for (const double u : *numbers) hash = (hash ^ std::bit_cast<std::uint64_t>(u)) * 0x100000001b3U;
+    }
+  }
+  return hash;
+}
+
+}  // namespace
+
+// Systems made of + - * / and sqrt; the exponentials of the bath are of one library.
+BOOST_AUTO_TEST_CASE(every_compiler_makes_the_same_bits) {
+  BOOST_TEST(hash_of_ends(chain, tabulated(member<nystrom>({0.51, 0.4})), 0.03) == 0x72d20a23d494d637U);
+  BOOST_TEST(hash_of_ends(henon_heiles(), tabulated(srkn11b()), 0.1) == 0xbbe778e91101a5f4U);
+  const in_bath warm(chain, bath::of_sigma(0.01, 0.05));
+  BOOST_TEST(hash_of_ends(warm, tabulated(obabo()), 0.01) == 0x825a4393124ca5b3U);
+  // One bit of one number is enough to be seen.
+  const fpu_chain<3> other(std::nextafter(50.0, 51.0));
+  BOOST_TEST(hash_of_ends(other, tabulated(member<nystrom>({0.51, 0.4})), 0.03) != 0x72d20a23d494d637U);
+}
