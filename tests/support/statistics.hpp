@@ -4,8 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -19,9 +17,8 @@ constexpr double false_alarms = 5e-6;
 
 /// The number of standard errors by which a right mean is off, to either side, with that probability; of
 /// Student's distribution where the standard error was estimated, with that many degrees of freedom.
-inline double standard_errors(double probability, double degrees = std::numeric_limits<double>::infinity()) {
-  return quantile(complement(boost::math::students_t(degrees), 0.5 * probability));
-}
+/// Compiled once, as is most_of(): the quantiles take seconds to compile.
+double standard_errors(double probability, double degrees = std::numeric_limits<double>::infinity());
 
 /// What kolmogorov_smirnov() exceeds with that probability, 2 exp(-2 x^2), or less.
 inline double kolmogorov_smirnov_limit(double probability) {
@@ -29,9 +26,7 @@ inline double kolmogorov_smirnov_limit(double probability) {
 }
 
 /// The number of n independent events of probability p that is exceeded with that probability, or less.
-inline int most_of(int n, double p, double probability) {
-  return static_cast<int>(quantile(complement(boost::math::binomial(n, p), probability)));
-}
+int most_of(int n, double p, double probability);
 
 inline double mean(const std::vector<double>& x) {
   double sum = 0.0;
