@@ -132,6 +132,8 @@ class Suite:
         self.options = options
         self.folder = folder
         self.labels = {}
+        self.sound = set()    # tests that pass without a mutant, as far as that is known
+        self.unsound = set()  # and those that do not
         listed = subprocess.run(["ctest", "--test-dir", str(folder), "--show-only=json-v1"], capture_output=True,
                                 text=True, check=True).stdout
         left_out = 0
@@ -191,18 +193,28 @@ class Suite:
                 if names:
                     yield names
 
+    def is_sound(self, name):
+        if name not in self.sound | self.unsound:
+            (self.unsound if self.run([name], 0, stop=False) else self.sound).add(name)
+        return name in self.sound
+
     def examine(self, mutant, killer):
         """What a table says of a mutant."""
         began = time.monotonic()
         tried = 0
-        for names in self.in_order(mutant, killer):
-            failed = self.run(names, mutant.number, stop=True)
-            tried += len(names)
-            # Again, as a test may have failed by chance or for want of time.
-            failed = [name for name in failed[:3] if self.run([name], mutant.number, stop=False)]
-            if failed:
-                return {"killed_by": failed[0], "tier": self.tier(failed[0]),
-                        "seconds": round(time.monotonic() - began, 1)}
+        for group in self.in_order(mutant, killer):
+            tried += len(group)
+            while names := [name for name in group if name not in self.unsound]:
+                failed = self.run(names, mutant.number, stop=True)
+                if not failed:
+                    break
+                # Again, as a test may have failed by chance or for want of time; and not without the mutant.
+                group = [name for name in group if name not in failed]
+                failed = [name for name in failed
+                          if self.is_sound(name) and self.run([name], mutant.number, stop=False)]
+                if failed:
+                    return {"killed_by": failed[0], "tier": self.tier(failed[0]),
+                            "seconds": round(time.monotonic() - began, 1)}
         return {"killed_by": None, "tried": tried, "all": self.options.all, "near": self.options.near,
                 "seconds": round(time.monotonic() - began, 1)}
 
@@ -254,7 +266,8 @@ def main():
     parser.add_argument("--targets", nargs="+", help="what is built [tier1; with --all all]")
     parser.add_argument("--timeout", type=int, default=300, help="seconds of a test")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="tests at a time")
-    parser.add_argument("--trust", action="store_true", help="do not run the tests without a mutant first")
+    parser.add_argument("--trust", action="store_true", 
+                        help="run without a mutant only the tests that fail with one")
     options = parser.parse_args()
 
     check_list()
@@ -280,6 +293,7 @@ def main():
             failed = [name for name in failed if suite.run([name], 0, stop=False)]
             if failed:
                 fail("without a mutant these fail: " + ", ".join(failed))
+            suite.sound.update(suite.labels)
     for mutant in to_do:
         killer = known.get(mutant.number, {}).get("killed_by")
         known[mutant.number] = {"what": mutant.what, "key": key_of(mutant), **suite.examine(mutant, killer)}
