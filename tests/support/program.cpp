@@ -205,7 +205,7 @@ class table {
       const auto at = rest.find(" = ");
       write(rest.substr(0, at), unescaped(rest.substr(at + 3)));
     } else if (takes(rest, "copy ")) {
-      fs::copy_file(source + "inputs/" + rest, *folder_ / rest);
+      fs::copy_file(source + "inputs/" + rest, *folder_ / rest, fs::copy_options::overwrite_existing);
     } else if (takes(rest, "sh ")) {
       const auto done = shell(*folder_, rest);
       if (done.code != 0) tell("sh " + rest, {"ended with " + std::to_string(done.code)}, done.err);
