@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
-// recommend --for sampling: its steps against chains and against theory, its winner, and what it refuses.
+// recommend --for sampling: its steps against chains and against theory, and its winner.
 #include <boost/test/unit_test.hpp>
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <string>
 
-#include "../support/bad_input.hpp"
-#include "../support/document.hpp"
 #include "../support/program.hpp"
+#include "../support/table.hpp"
 
 using namespace nysalt::test;
 using json = nlohmann::ordered_json;
@@ -90,56 +88,6 @@ BOOST_AUTO_TEST_CASE(on_a_larger_system_what_is_learned_wins) {
   const json at_hand = json_of(run(folder, line + chain + "--families bab3 --json"));
   BOOST_TEST(row_of(at_hand, "verlet")["step_size"].get<double>() >
              2.0 * row_of(all, "verlet")["step_size"].get<double>());
-  // All but the time that it took is the same of equal seeds, for any number of threads.
-  json again = json_of(run(folder, larger + " --threads 3"));
-  BOOST_TEST(again["rows"] == all["rows"]);
 }
 
-BOOST_AUTO_TEST_CASE(states_may_be_given_in_a_file) {
-  const scratch folder("recommend_states");
-  const auto drawn =
-      run(folder, "sample " + chain + "--length 2 --method bcss3 --draws 100 --output draws.csv");
-  BOOST_TEST_REQUIRE(drawn.code == 0, drawn.err);
-  const json all =
-      json_of(run(folder, line + chain + "--start draws.csv --families bab3 --json --trajectories 64"));
-  BOOST_TEST(all["states"].get<std::string>().find("400 positions") != std::string::npos, all["states"]);
-  const auto text = run(folder, line + chain + "--start draws.csv --families bab3 --trajectories 64");
-  BOOST_TEST(text.code == 0, text.err);
-  BOOST_TEST(text.out.find(all["advice"].get<std::string>()) != std::string::npos, text.out);
-  const auto larger =
-      run(folder, line + chain + "--start draws.csv --families bab3 --trajectories 64 --times-larger 1000");
-  BOOST_TEST(larger.out.find("the choice of the word matters here") != std::string::npos, larger.out);
-}
-
-// Trajectories of a tenth of a radian in one dimension.
-BOOST_AUTO_TEST_CASE(where_nothing_is_rejected_it_says_so) {
-  const json all = document(
-      "recommend --for sampling --system oscillator --omega 1 --length 0.1 --families bab3 "
-      "--trajectories 16 --learn-trajectories 4");
-  BOOST_TEST(row_of(all, "verlet")["is_longest"] == true);
-  BOOST_TEST(all["advice"].get<std::string>().find("accepted more often than asked") != std::string::npos,
-             all["advice"]);
-}
-
-BOOST_AUTO_TEST_CASE(what_no_sampler_can_be_recommended_for_is_one_line) {
-  const scratch folder("recommend_sampling_bad");
-  const std::string sampling = "--for sampling " + chain;
-  all_refused(
-      folder,
-      after("recommend",
-            {
-                {"--for fun " + chain, {"unknown purpose 'fun'", "runs, sampling"}},
-                {sampling, {"--length must be given"}},
-                {sampling + "--length 0", {"--length must be"}},
-                {sampling + "--length 1 --acceptance 1", {"--acceptance must be between 0 and 1"}},
-                {sampling + "--length 1 --times-larger 0", {"--times-larger must be"}},
-                {sampling + "--length 1 --trajectories 3", {"--trajectories must be at least 16"}},
-                {sampling + "--length 1 --budget 3", {"--budget must come with --for runs"}},
-                {sampling + "--length 1 --horizon 3", {"--horizon must come with --for runs"}},
-                {sampling + "--length 1 --friction 1 --temperature 1", {"must have no bath"}},
-                {sampling + "--length 1 --families aba3_free", {"not reversible"}},
-                {sampling + "--length 1 --families bab33", {"unknown family"}},
-                {chain + "--length 1 --horizon 1 --budget 3", {"--length must come with --for sampling"}},
-                {chain + "--budget 3", {"--horizon must be given"}},
-            }));
-}
+BOOST_AUTO_TEST_CASE(recommend_sampling) { run_table("recommend_sampling"); }
