@@ -1,11 +1,64 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <string>
+
+#include "laws.hpp"
 #include "models.hpp"
+#include "nysalt/families/thermostatted.hpp"
+#include "nysalt/methods/classical_methods.hpp"
 
 namespace nysalt::test {
 
+namespace {
+
+bool has(const std::string& letters, char letter) { return letters.find(letter) != std::string::npos; }
+
+/// A member well inside the ranges and near the start, where coefficients are of moderate size.
+tabulated random_member(const run_time_family& family, draws& random) {
+  Eigen::VectorXd theta = family.starts.front().theta;
+  for (Eigen::Index k = 0; k < theta.size(); ++k) {
+    const auto [low, high, open] = family.ranges[static_cast<std::size_t>(k)];
+    theta[k] = random.uniform(std::max(low + 0.2 * (high - low), theta[k] - 0.3),
+                              std::min(high - 0.2 * (high - low), theta[k] + 0.3));
+  }
+  return {family.name,
+          family.letters,
+          family.coefficients(theta),
+          {family.order, family.symmetric, family.requires_quadratic_kinetic}};
+}
+
+/// Any word, with a whole step shared equally by the letters of each kind.
+tabulated shared_equally(const std::string& letters) {
+  std::vector<double> c;
+  for (const char letter : letters) {
+    c.push_back(1.0 / static_cast<double>(std::count(letters.begin(), letters.end(), letter)));
+  }
+  return {"the word " + letters, run_time_word(letters), c, {2, true, false}};
+}
+
+}  // namespace
+
 std::vector<tabulated> methods_as_data(draws& random) {
   std::vector<tabulated> all;
-  for_each<methods>([&]<class M>() { all.emplace_back(any_method<M>(random)); });
+  for_each<fitted_methods>([&]<class M>() { all.emplace_back(M(random.uniform(0.1, 4.0))); });
+  for (const auto& row : classical_table) {
+    if (!has(std::string(row.letters), 'O') || row.name == "baoab") all.push_back(as_data(row));
+  }
+  all.emplace_back(s_aia2(random.uniform(0.1, 2.8)));  // where it is not yet Verlet
+  all.emplace_back(s_aia3(random.uniform(0.1, 5.1)));
+  for_each<all_families>([&]<class F>() { all.push_back(random_member(run_time_family(F()), random)); });
+  return all;
+}
+
+std::vector<tabulated> methods_for_baths(draws& random) {
+  std::vector<tabulated> all;
+  for (const auto& row : classical_table) {
+    if (has(std::string(row.letters), 'O')) all.push_back(as_data(row));
+  }
+  const run_time_family family{nystrom()};
+  all.push_back(random_member(thermostatted(family, placement::symmetric), random));
+  all.push_back(random_member(thermostatted(family, placement::middle), random));
+  for (const char* letters : {"BABO", "OBA", "OBOOAO"}) all.push_back(shared_equally(letters));
   return all;
 }
 

@@ -3,12 +3,13 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "../laws/laws.hpp"
 #include "../laws/run_laws.hpp"
-#include "../laws/trials.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/analysis/evaluations.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
@@ -19,8 +20,9 @@
 #include "nysalt/methods/classical_methods.hpp"
 #include "nysalt/methods/repeated.hpp"
 #include "nysalt/methods/thermostatted.hpp"
-#include "nysalt/model.hpp"
 #include "nysalt/run_time_family.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
+#include "nysalt/systems/pendulum.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -47,12 +49,10 @@ std::vector<tabulated> processed_methods(draws& random) {
   return all;
 }
 
-/// f(system, method, step, x) for processed methods on systems of all kinds.
-void try_processed(auto&& f) {
+/// f(system, method, step, x) for processed methods on all systems whose derivatives are exact.
+void try_processed(const std::function<void(const model&, const tabulated&, double, const any_state&)>& f) {
   draws random;
-  for (int n = 0; n < 3; ++n) {
-    for (const auto& method : processed_methods(random)) try_on_method<various_systems>(method, f);
-  }
+  try_all(specimens_with(has_exact_derivatives), processed_methods(random), f);
 }
 
 }  // namespace
@@ -92,114 +92,97 @@ BOOST_AUTO_TEST_CASE(words_that_are_none) {
 }
 
 BOOST_AUTO_TEST_CASE(steps_are_symplectic) {
-  draws random;
-  for (const auto& method : processed_methods(random)) {
-    try_on_method<various_systems>(method, [](const auto& system, const auto& each, double, const auto& x) {
-      BOOST_TEST(symplecticity_broken(system, each, x) <= 1.0);
-    });
-  }
+  try_processed([](const model& system, const tabulated& method, double step, const any_state& x) {
+    BOOST_TEST(symplecticity_broken(system, method, step, x) <= 1.0);
+  });
 }
 
 // n steps forth, momenta turned, n steps forth, and momenta turned: the start. Rounding is that of 200 steps
 // of some 20 letters at a quarter of a radian, magnified by less than 100: 1e-12 of the state.
 BOOST_AUTO_TEST_CASE(there_and_back_returns_to_rounding) {
-  try_processed([](const auto& system, const auto& method, double step, const auto& x) {
-    const auto turned = [&](auto y) {
+  try_processed([](const model& system, const tabulated& method, double step, const any_state& x) {
+    const auto turned = [](any_state y) {
       y.p = -y.p;
       return y;
     };
-    if constexpr (NystromSystem<std::remove_cvref_t<decltype(system)>>) {
-      const auto fixed = make_stepper(system, method, step);
-      const auto there = run_finish(fixed, x, 20);
-      const auto back = turned(run_finish(fixed, turned(there), 20));
-      BOOST_TEST(distance(back, x) <= 1e-12 * size_of(x));
-      const auto backwards = make_stepper(system, method, -step);
-      BOOST_TEST(distance(run_finish(backwards, there, 20), x) <= 1e-12 * size_of(x));
-    }
+    const auto there = run_of{system, method, step}.finish(x, 20);
+    const auto back = turned(run_of{system, method, step}.finish(turned(there), 20));
+    BOOST_TEST(distance(back, x) <= 1e-12 * size_of(x));
+    BOOST_TEST(distance(run_of{system, method, -step}.finish(there, 20), x) <= 1e-12 * size_of(x));
   });
 }
+
+namespace {
+/// Steps of a part of a word.
+any_state after_part(const run_of& whole, const run_time_word& letters, const std::vector<double>& all,
+                     const any_state& x, std::int64_t steps = 1) {
+  const tabulated part("part", letters, all, whole.method);
+  const run_of run{whole.system, part, whole.step};
+  return steps == 1 ? run.plain(x, 1) : run.finish(x, steps);
+}
+any_state after_kernel(const run_of& whole, const any_state& x, std::int64_t steps = 1) {
+  const run_time_word& word = whole.method.letters();
+  const auto c = whole.method.coefficients();
+  return after_part(whole, run_time_word(word.letters().substr(0, word.length)),
+                    {c.begin(), c.begin() + static_cast<std::ptrdiff_t>(word.kernel_slots)}, x, steps);
+}
+}  // namespace
 
 // P K^n P^-1, which the literature has, is reversible only as far as P is even in h.
 BOOST_AUTO_TEST_CASE(the_same_processor_before_and_after_is_not_reversible) {
   draws random;
   const auto method = processed_methods(random).front();
-  const pendulum system;
-  const auto x = random.state(system, 1.0);
+  const auto& one = specimen_of("pendulum");
+  const run_of run{one.system, method, 0.25};
+  const auto x = one.at_random(random);
   const run_time_word& word = method.letters();
   const auto c = method.coefficients();
   auto same = detail::post_processor_coefficients(word, c);
-  for (double& one : same) one = -one;
-  const stepper<pendulum, run_time_word> before(system, detail::pre_processor(word),
-                                                detail::pre_processor_coefficients(word, c), 0.25);
-  const stepper<pendulum, run_time_word> after(system, detail::post_processor(word), same, 0.25);
-  const stepper<pendulum, run_time_word> kernel(
-      system, run_time_word(word.letters().substr(0, word.length)),
-      {c.begin(), c.begin() + static_cast<std::ptrdiff_t>(word.kernel_slots)}, 0.25);
+  for (double& each : same) each = -each;
   auto y = x;
   for (int turn = 0; turn < 2; ++turn) {
-    before.step(y);
-    kernel.step(y);
-    after.step(y);
+    y = after_part(run, detail::pre_processor(word), detail::pre_processor_coefficients(word, c), y);
+    y = after_part(run, detail::post_processor(word), same, after_kernel(run, y));
     y.p = -y.p;
   }
   BOOST_TEST(distance(y, x) > 1e-6);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_is_its_parts) {
-  try_processed([](const auto& system, const auto& method, double step, const auto& x) {
-    using system_type = std::remove_cvref_t<decltype(system)>;
+  try_processed([](const model& system, const tabulated& method, double step, const any_state& x) {
     const run_time_word& word = method.letters();
     const auto c = method.coefficients();
-    const auto part = [&](const run_time_word& letters, const std::vector<double>& all, auto& y) {
-      stepper<system_type, run_time_word>(system, letters, all, step).step(y);
-    };
-    auto y = x;
-    part(detail::pre_processor(word), detail::pre_processor_coefficients(word, c), y);
-    const stepper<system_type, run_time_word> kernel(
-        system, run_time_word(word.letters().substr(0, word.length)),
-        {c.begin(), c.begin() + static_cast<std::ptrdiff_t>(word.kernel_slots)}, step);
-    y = run_finish(kernel, y, 7);
-    part(detail::post_processor(word), detail::post_processor_coefficients(word, c), y);
-    BOOST_TEST(same_bits(run_finish(make_stepper(system, method, step), x, 7), y));
+    const run_of run{system, method, step};
+    auto y = after_part(run, detail::pre_processor(word), detail::pre_processor_coefficients(word, c), x);
+    y = after_kernel(run, y, 7);
+    y = after_part(run, detail::post_processor(word), detail::post_processor_coefficients(word, c), y);
+    BOOST_TEST(same_bits(run.finish(x, 7), y));
   });
 }
 
 BOOST_AUTO_TEST_CASE(cut_and_observed_runs_have_the_bits_of_one_go) {
-  try_processed([](const auto& system, const auto& method, double step, const auto& x) {
-    const auto fixed = make_stepper(system, method, step);
-    const auto whole = run_finish(fixed, x, 20);
-    BOOST_TEST(same_bits(watched_finish(fixed, x, 20, 3), whole));
-    BOOST_TEST(same_bits(observed_finish(system, method, step, x, 20, 1), whole));
-    for (const int first : {0, 1, 13, 20}) {
-      BOOST_TEST(same_bits(cut_finish(system, method, step, x, 20, first), whole));
-    }
+  try_processed([](const model& system, const tabulated& method, double step, const any_state& x) {
+    const run_of run{system, method, step};
+    const auto whole = run.finish(x, 20);
+    BOOST_TEST(same_bits(run.finish(x, 0), x));  // the sample at the start is the start
+    BOOST_TEST(same_bits(run.watched(x, 20, 3), whole));
+    BOOST_TEST(same_bits(run.observed(x, 20, 1), whole));
+    for (const int first : {0, 1, 13, 20}) BOOST_TEST(same_bits(run.cut(x, 20, first), whole));
     // Processing anew at every step is another trajectory.
-    BOOST_TEST(!same_bits(reopened_finish(system, method, step, x, 20), whole));
+    BOOST_TEST(!same_bits(run.reopened(x, 20), whole));
   });
 }
 
-BOOST_AUTO_TEST_CASE(the_sample_at_the_start_is_the_start) {
-  try_processed([](const auto& system, const auto& method, double step, const auto& x) {
-    const auto fixed = make_stepper(system, method, step);
-    BOOST_TEST(same_bits(fixed.synchronous(fixed.open(x)), x));
-  });
-}
-
-BOOST_AUTO_TEST_CASE(models_and_lanes_have_the_same_bits) {
+BOOST_AUTO_TEST_CASE(typed_systems_and_lanes_have_the_same_bits) {
   draws random;
-  const fpu_chain<3> system(50.0);
+  const fpu_chain<3> chain(10.0);
+  const auto& one = specimen_of(describe(chain));
   for (const auto& method : processed_methods(random)) {
-    const auto fixed = make_stepper(system, method, 0.01);
-    BOOST_TEST(lanes_are_alone<4>(fixed, random, 0.1), method.name());
-    const auto x = random.state(system, 0.1);
-    const model erased(system);
-    const auto other = make_stepper(erased, method, 0.01);
-    const phase_point<double, Eigen::Dynamic> start{x.q, x.p};
-    const auto expected = run_finish(fixed, x, 20);
-    BOOST_TEST(
-        same_bits(run_finish(other, start, 20), phase_point<double, Eigen::Dynamic>{expected.q, expected.p}),
-        method.name());
-    BOOST_TEST(same_bits(watched_finish(other, start, 20, 3), run_finish(other, start, 20)));
+    const run_of run{one.system, method, 0.01};
+    BOOST_TEST(run.lanes_are_alone(one, random), method.name());
+    const auto x = random.state(chain, 0.1);
+    const auto typed = run_finish(make_stepper(chain, method, 0.01), x, 20);
+    BOOST_TEST(same_bits(run.finish({x.q, x.p}, 20), any_state{typed.q, typed.p}), method.name());
   }
 }
 

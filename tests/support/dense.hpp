@@ -22,6 +22,8 @@ struct symmetric_eigen {
 /// The largest singular value.
 double spectral_norm(const Eigen::MatrixXd& a);
 
+double determinant(Eigen::MatrixXd a);
+
 /// x with a x = b.
 Eigen::VectorXd solution_of(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
