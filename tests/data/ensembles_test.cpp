@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSL-1.0
+// Compiled with -O1: 1.1 s at -O0, 0.1 s at -O1.
+// What an observer of many trajectories is given is what an observer of each would see, in a bath too, in
+// whatever lanes; and trajectories that are saved and resumed go on as if nothing had happened.
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+#include "../support/in_lanes.hpp"
+#include "../support/refusal.hpp"
+#include "nysalt/ensemble_run.hpp"
+#include "nysalt/ensembles/listed.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/initial_states.hpp"
+#include "nysalt/integrate.hpp"
+#include "nysalt/integrate_ensemble.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/model.hpp"
+#include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/in_bath.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+using wrong = std::invalid_argument;
+constexpr std::int64_t trajectories = 37;  // fill no number of lanes
+constexpr std::int64_t steps = 300;
+constexpr std::int64_t every = 7;
+
+/// Some of these leave the well, at times of their own.
+const henon_heiles galaxy;
+const normal_around<2> law_of_type({vector<double, 2>::Zero(), vector<double, 2>::Zero()}, 0.45, 0.45);
+const initial_states law = law_of_type;
+
+/// What is seen of each trajectory, from several threads.
+struct seen {
+  std::vector<std::vector<double>> values{static_cast<std::size_t>(trajectories)};
+  std::vector<std::optional<std::int64_t>> diverged_at;
+  friend bool operator==(const seen&, const seen&) = default;
+
+  auto take() {
+    return [this](std::int64_t m, std::int64_t n, std::span<const double> number) {
+      auto& samples = values[static_cast<std::size_t>(m)];
+      if (n != every * std::ssize(samples)) throw std::logic_error("out of the order of time");
+      samples.push_back(number[0]);
+    };
+  }
+};
+
+template <class T>
+const auto read_first = [](const auto& x, std::span<T> number) { number[0] = x.q[0]; };
+
+/// By integrate, one after the other, with the noise of trajectory m + shift.
+seen alone(const auto& stepper, std::uint64_t shift = 0) {
+  seen all;
+  for (std::uint64_t m = 0; m < trajectories; ++m) {
+    const auto observe = [&](std::int64_t, double, const auto& x) { all.values[m].push_back(x.q[0]); };
+    all.diverged_at.push_back(integrate(stepper, law(1, m), steps, observe, every, m + shift).diverged_at);
+  }
+  return all;
+}
+
+template <class T>
+seen together(const auto& stepper) {
+  seen all;
+  const ensemble_options options{.trajectories = trajectories, .steps = steps, .every = every, .threads = 2};
+  all.diverged_at = integrate_ensemble<T>(stepper, law, options, 1, read_first<T>, all.take());
+  return all;
+}
+
+/// Saved at some steps, and resumed in lanes of T and of double in turn.
+template <class T, class Stepper>
+seen cut(const Stepper& stepper, const std::vector<std::int64_t>& cuts) {
+  seen all;
+  saved_runs saved;
+  const auto go_on = [&]<class P>(P, std::int64_t end) {
+    using run_type = ensemble_run<P, Stepper>;
+    auto run = saved.step == 0 ? run_type(stepper, law, 1, 0, trajectories)
+                               : run_type(stepper, law, 1, 0, trajectories, saved);
+    run.go_on(end, every, 1, read_first<P>, all.take(), 2);
+    saved = run.save();
+  };
+  bool odd = false;
+  for (const std::int64_t end : cuts) {
+    odd = !odd;
+    odd ? go_on(T(), end) : go_on(0.0, end);
+  }
+  all.diverged_at = saved.diverged_at;
+  return all;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(each_trajectory_is_as_if_alone_and_goes_on_where_it_was_saved) {
+  const model quiet = galaxy;
+  const model warm = in_bath(galaxy, bath::of_sigma(0.05, 0.05));
+  for (const auto& [system, method] :
+       {std::pair(&quiet, tabulated(verlet())), {&warm, tabulated(baoab())}, {&warm, tabulated(obabo())}}) {
+    BOOST_TEST_CONTEXT(describe(*system) << ", " << method.name()) {
+      const auto stepper = make_stepper(*system, method, 0.1, counter_noise(5));
+      const auto expected = alone(stepper);
+      std::int64_t diverged = 0;
+      for (const auto& at : expected.diverged_at) diverged += at ? 1 : 0;
+      BOOST_TEST(diverged > 2);
+      BOOST_TEST(diverged < trajectories - 2);
+      BOOST_TEST((together<double>(stepper) == expected));
+      BOOST_TEST((together<detail::lanes>(stepper) == expected));
+      BOOST_TEST((cut<detail::lanes>(stepper, {128, steps}) == expected));
+      BOOST_TEST((cut<detail::lanes>(stepper, {64, 64, 192, 256, steps}) == expected));
+      BOOST_TEST((alone(stepper, 1) == expected) == (system == &quiet));  // each has its own noise
+    }
+  }
+}
+
+// Lanes of any number, by the types of system and method.
+BOOST_AUTO_TEST_CASE(an_observable_is_read_in_any_number_of_lanes) {
+  const auto first_coordinate = [](const auto& x) { return x.q[0]; };
+  const auto by = [&](const auto& system) {
+    seen all;
+    const auto take = [&](std::int64_t m, std::int64_t n, double value) {
+      all.take()(m, n, std::span(&value, 1));
+    };
+    all.diverged_at = integrate_ensemble(system, verlet(), 0.1, law_of_type,
+                                         {.trajectories = trajectories, .steps = steps, .every = every},
+                                         first_coordinate, take);
+    return all;
+  };
+  const model system = galaxy;
+  const auto expected = alone(make_stepper(system, tabulated(verlet()), 0.1));
+  BOOST_TEST((by(galaxy) == expected));
+  BOOST_TEST((by(in_lanes<henon_heiles, 3>(galaxy)) == expected));
+}
+
+BOOST_AUTO_TEST_CASE(a_part_of_an_ensemble_is_that_part_of_the_whole) {
+  const model warm = in_bath(galaxy, bath::of_sigma(0.05, 0.05));
+  const auto stepper = make_stepper(warm, tabulated(obabo()), 0.1, counter_noise(5));
+  const auto whole = alone(stepper);
+  ensemble_options options{.trajectories = 11, .steps = steps, .every = every};
+  options.first = 20;
+  seen part;
+  part.diverged_at =
+      integrate_ensemble<detail::lanes>(stepper, law, options, 1, read_first<detail::lanes>, part.take());
+  for (std::size_t i = 0; i < 11; ++i) {
+    BOOST_TEST((part.values[20 + i] == whole.values[20 + i]));
+    BOOST_TEST((part.diverged_at[i] == whole.diverged_at[20 + i]));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(no_steps_show_the_starts) {
+  int looks = 0;
+  const auto take = [&](std::int64_t m, std::int64_t n, double value) {
+    BOOST_TEST(n == 0);
+    BOOST_TEST(value == law(1, static_cast<std::uint64_t>(m)).q[0]);
+    ++looks;
+  };
+  integrate_ensemble(
+      model(galaxy), tabulated(verlet()), 0.1, law, {.trajectories = 5, .steps = 0},
+      [](const auto& x) { return x.q[0]; }, take);
+  BOOST_TEST(looks == 5);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
+  const auto refused = [](const model& system, const tabulated& method, const initial_states& starts,
+                          const ensemble_options& options, auto... said) {
+    const auto follow = [&] {
+      integrate_ensemble(
+          system, method, 0.1, starts, options, [](const auto& x) { return x.q[0]; },
+          [](std::int64_t, std::int64_t, double) {});
+    };
+    BOOST_TEST(refuses<wrong>(follow, {said...}));
+  };
+  const tabulated by_verlet{verlet()};
+  ensemble_options before_the_first;
+  before_the_first.first = -3;
+  refused(galaxy, by_verlet, law, {.trajectories = 0}, "trajectories 0");
+  refused(galaxy, by_verlet, law, {.trajectories = std::int64_t{1} << 60}, "trajectories");
+  refused(galaxy, by_verlet, law, before_the_first, "first -3");
+  refused(galaxy, by_verlet, law, {.steps = -1}, "steps -1");
+  refused(galaxy, by_verlet, law, {.every = 0}, "every 0");
+  refused(galaxy, by_verlet, law, {.threads = 0}, "thread");
+  const listed<2> states({{{0.0, 0.0}, {0.0, 0.0}}, {{NAN, 0.0}, {0.0, 0.0}}});
+  refused(galaxy, by_verlet, states, {.trajectories = 2}, "start 1 ", "must be finite");
+  // By its method an ensemble has no source of noise.
+  const in_bath warm(galaxy, bath::of_sigma(0.05, 0.05));
+  refused(warm, tabulated(baoab()), law, {.trajectories = 2}, "source of noise", "counter_noise");
+  const model system = galaxy;
+  const auto stepper = make_stepper(system, by_verlet, 0.1);
+  using run = ensemble_run<double, std::remove_const_t<decltype(stepper)>>;
+  const saved_runs saved = run(stepper, law, 1, 0, 5).save();
+  BOOST_TEST(saved.numbers.size() == 5U * 3U * 2U);
+  BOOST_TEST(refuses<wrong>([&] { run(stepper, law, 1, 0, 6, saved); },
+                            {"must hold 36 numbers of 6 trajectories", "got 30 numbers of 5"}));
+  BOOST_TEST(
+      refuses<wrong>([&] { run(stepper, law, 1, 0, 0); }, {"trajectories must be >= 1", "trajectories 0"}));
+}

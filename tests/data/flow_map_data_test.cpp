@@ -1,0 +1,466 @@
+// SPDX-License-Identifier: BSL-1.0
+// The pairs that are learned from: made as told, in a bath with the noise that leads from one to the other,
+// and refused when they are not whole.
+#include "nysalt/flow_map_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "../support/seeds.hpp"
+#include "../support/statistics.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/listed.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/learning/require_valid.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/references/exact_linear.hpp"
+#include "nysalt/references/fine_paths.hpp"
+#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/in_bath.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+using wrong = std::invalid_argument;
+using words = std::initializer_list<std::string_view>;
+using state = phase_point<double, Eigen::Dynamic>;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double fine = 1e-3;
+const model quiet = fpu_chain<3>(50.0);
+const bath heat_bath = bath::of_sigma(2.0, 0.3);
+const model warm = in_bath(fpu_chain<3>(50.0), heat_bath);
+const initial_states law = fpu_law<3>(fpu_chain<3>(50.0));
+
+flow_map_data made(const data_options& options) {
+  return make_flow_map_data(quiet, law, fine_steps<>(fine), options);
+}
+flow_map_data made_in_bath(const data_options& options) {
+  return make_flow_map_data(warm, law, fine_paths(fine), options);
+}
+
+bool same_pairs(const flow_map_data& a, const flow_map_data& b) {
+  return a.start == b.start && a.finish == b.finish && a.first_of == b.first_of && a.noise == b.noise &&
+         a.energies->low == b.energies->low && a.energies->high == b.energies->high;
+}
+bool same_checks(const flow_map_data& a, const flow_map_data& b) {
+  return a.evaluations == b.evaluations &&
+         std::ranges::equal(a.finer, b.finer, [](const auto& x, const auto& y) {
+           return x.first == y.first && same_bits(x.second, y.second);
+         });
+}
+
+/// No force, and then one without bounds.
+struct cliff {
+  static constexpr int dimension = 1;
+  static void force(const vector<double, 1>& q, vector<double, 1>& f) { f[0] = q[0] > 1.1 ? infinite : 0.0; }
+};
+
+/// Starts of which 3 and every eighth after it are not finite. The third waits for a later one to be asked
+/// for, so that with several threads it is not the first to fail.
+struct third_fails_late {
+  std::atomic<bool>* later_failed;
+  bool waits;
+  state operator()(std::uint64_t seed, std::uint64_t n) const {
+    auto x = law(seed, n);
+    if (n % 8 != 3) return x;
+    if (n > 3) *later_failed = true;
+    for (int ms = 0; waits && n == 3 && !*later_failed && ms < 5000; ++ms) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    x.q[0] = not_a_number;
+    return x;
+  }
+  static std::string description() { return "starts"; }
+};
+
+/// The noise of a path from one fine step to another, drawn again.
+Eigen::VectorXd noise_between(std::uint64_t seed, std::uint64_t trajectory, std::int64_t from,
+                              std::int64_t to) {
+  std::vector<vector<double, 6>> each(static_cast<std::size_t>(to - from));
+  for (auto& xi : each) counter_noise(seed).normals(noise_place{trajectory, from++, 0}, xi);
+  vector<double, 6> whole;
+  coarse_graining(heat_bath.friction() * fine).over(std::span<const vector<double, 6>>(each), whole);
+  return whole;
+}
+
+/// One number of each pair.
+std::vector<double> column(const flow_map_data& data, std::size_t part, Eigen::Index i) {
+  std::vector<double> all;
+  const auto parts = static_cast<std::size_t>(data.noise_parts);
+  for (std::size_t n = 0; n < data.pairs(); ++n) all.push_back(data.noise[n * parts + part][i]);
+  return all;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(pairs_follow_the_reference_trajectory_by_trajectory) {
+  const auto data = made({.step = 0.02, .horizon = 0.1, .trajectories = 3, .seed = 7});
+  BOOST_TEST(data.pairs() == 15U);
+  BOOST_TEST(data.trajectories() == 3U);
+  for (std::size_t m = 0; m < 3; ++m) {
+    BOOST_TEST((data.start[data.first_of[m]].q == law(7, m).q));
+    for (std::size_t n = data.first_of[m]; n + 1 < data.first_of[m + 1]; ++n) {
+      BOOST_TEST((data.finish[n].q == data.start[n + 1].q));
+    }
+  }
+  state x = data.start[4];
+  fine_steps<>(fine).advance(quiet, x, 0.02);
+  BOOST_TEST((x.p == data.finish[4].p));
+  BOOST_TEST((data.start[5].q != data.finish[4].q));  // a new trajectory begins there
+  BOOST_TEST(data.finer.size() <= 16U);
+  // 15 pairs of 20 steps of 11 and one more to open; the checks take twice the steps.
+  BOOST_TEST(data.evaluations == 15 * 221 + static_cast<std::int64_t>(data.finer.size()) * 441);
+  require_valid(data, quiet);
+}
+
+BOOST_AUTO_TEST_CASE(trajectories_may_begin_with_any_number) {
+  data_options options{.step = 0.02, .horizon = 0.1, .trajectories = 21};
+  const auto all = made(options);
+  options.first = 5;
+  options.trajectories = 16;
+  const auto rest = made(options);
+  BOOST_REQUIRE(rest.pairs() == 80U);
+  for (std::size_t n = 0; n < rest.pairs(); ++n) {
+    BOOST_TEST(same_bits(rest.start[n], all.start[n + 25]));
+    BOOST_TEST(same_bits(rest.finish[n], all.finish[n + 25]));
+  }
+  BOOST_TEST(!same_bits(rest.start[0], all.start[0]));
+}
+
+BOOST_AUTO_TEST_CASE(a_pair_knows_its_trajectory) {
+  flow_map_data data;
+  data.first_of = {0, 2, 2, 5};  // the second holds no pair
+  const std::vector<std::size_t> expected{0, 0, 2, 2, 2};
+  for (std::size_t n = 0; n < 5; ++n) BOOST_TEST(data.trajectory_of(n) == expected[n]);
+}
+
+BOOST_AUTO_TEST_CASE(more_trajectories_of_the_same_are_those_made_at_once) {
+  data_options options{.step = 0.012, .horizon = 0.06, .trajectories = 21, .seed = 7, .noise_parts = 3};
+  const auto at_once = made_in_bath(options);
+  flow_map_data grown;
+  for (const std::int64_t trajectories : {5, 13, 21}) {
+    options.trajectories = trajectories;
+    extend_data(warm, law, fine_paths(fine), options, grown);
+    BOOST_TEST(grown.trajectories() == static_cast<std::size_t>(trajectories));
+    require_valid(grown, warm);
+  }
+  BOOST_TEST(same_pairs(grown, at_once));
+  BOOST_TEST(grown.finer.size() > at_once.finer.size());  // some of each part
+  // Each is of its own path: that of another would be farther off than the reference errs.
+  for (const auto& [pair, finish] : grown.finer) {
+    BOOST_TEST((finish.p - grown.finish[pair].p).norm() < 0.01 * (finish.p - grown.start[pair].p).norm());
+  }
+  flow_map_data again;
+  extend_data(warm, law, fine_paths(fine), options, again);
+  BOOST_TEST((same_pairs(again, at_once) && same_checks(again, at_once)));
+  options.trajectories = 4;
+  extend_data(warm, law, fine_paths(fine), options, again);
+  BOOST_TEST(again.trajectories() == 21U);  // there are enough
+}
+
+BOOST_AUTO_TEST_CASE(every_trajectory_has_its_own_checks) {
+  // 16 of the 205 pairs: one in each sixteenth.
+  const auto data = made({.step = 0.02, .horizon = 0.1, .trajectories = 41, .threads = 3});
+  std::set<std::size_t> checked;
+  std::set<std::size_t> sixteenths;
+  for (const auto& [pair, finish] : data.finer) {
+    BOOST_TEST(checked.insert(pair).second);
+    BOOST_TEST(sixteenths.insert((16 * pair + 15) / 205).second);
+    state x = data.start[pair];
+    fine_steps<>(0.5 * fine).advance(quiet, x, 0.02);
+    BOOST_TEST((x.q == finish.q));
+    BOOST_TEST((x.q != data.finish[pair].q));  // that is another step
+  }
+  BOOST_TEST(checked.size() == 16U);
+}
+
+BOOST_AUTO_TEST_CASE(checks_see_the_same_path_at_half_the_step) {
+  const auto data =
+      made_in_bath({.step = 0.012, .horizon = 0.06, .trajectories = 21, .seed = 7, .noise_parts = 1});
+  BOOST_TEST(data.finer.size() == 16U);  // one somewhere in each sixteenth of 105
+  for (const auto& [pair, finish] : data.finer) {
+    const auto finer = [&, first = pair](const path_place& at) {
+      state x = data.start[first];
+      fine_paths(fine).finer().advance(warm, x, 0.012, at, std::span<vector<double, Eigen::Dynamic>>());
+      return x;
+    };
+    const std::uint64_t m = pair / 5;
+    const auto n = static_cast<std::int64_t>(pair % 5);
+    BOOST_TEST(same_bits(finish, finer({7, m, n})));
+    BOOST_TEST(!same_bits(finish, finer({7, m, n + 1})));
+    // The same noise: sigma h in momenta as kicks feel it, not sigma sqrt(step).
+    BOOST_TEST(distance(finish, state(data.finish[pair])) < 0.3 * 0.1 * std::sqrt(0.012));
+  }
+  // Twelve evaluations a step and one to open, for 105 pairs; twice the steps for the checks.
+  BOOST_TEST(data.evaluations == 105 * 13 + 16 * 25);
+}
+
+// Of M trajectories of S steps: a stride of M S/16 would see starts alone where M = 16 k - 1 and S = 16.
+BOOST_AUTO_TEST_CASE(checks_are_spread_over_trajectories_and_along_them) {
+  for (std::size_t trajectories = 1; trajectories <= 400; trajectories += trajectories < 70 ? 1 : 11) {
+    for (const std::size_t steps : {1U, 2U, 3U, 5U, 8U, 16U, 17U, 32U, 50U, 1000U}) {
+      const std::size_t all = trajectories * steps;
+      const auto pairs = detail::spread_pairs(all, 16);
+      std::set<std::size_t> whose;
+      std::set<std::size_t> when;  // in eighths of a trajectory
+      std::size_t starts = 0;
+      for (std::size_t k = 0; k < pairs.size(); ++k) {
+        if (pairs[k] >= all || (k > 0 && pairs[k - 1] >= pairs[k])) BOOST_ERROR("pairs do not rise");
+        whose.insert(pairs[k] / steps);
+        when.insert(pairs[k] % steps * 8 / steps);
+        starts += pairs[k] % steps == 0 ? 1U : 0U;
+      }
+      BOOST_TEST_CONTEXT(trajectories << " trajectories of " << steps << " steps") {
+        BOOST_TEST(pairs.size() == std::min<std::size_t>(16, all));
+        BOOST_TEST(whose.size() + 1 >= std::min<std::size_t>(8, trajectories));
+        if (steps < 8 || all < 128) continue;
+        // Sixteen places at random miss more than half of eight eighths once in 10^6; starts are at most
+        // half.
+        BOOST_TEST(when.size() >= 4U);
+        BOOST_TEST(starts <= 8U);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(of_several_failures_the_lowest_trajectory_is_named) {
+  for (const int threads : {1, 5}) {
+    std::atomic<bool> later_failed = false;
+    const auto make = [&] {
+      make_flow_map_data(quiet, third_fails_late{&later_failed, threads > 1}, fine_steps<>(fine),
+                         {.step = 0.02, .horizon = 0.1, .trajectories = 400, .threads = threads});
+    };
+    BOOST_TEST(refuses<wrong>(make, {"start 3 of starts", "must be finite", "q1 is "}));
+    BOOST_TEST(later_failed == (threads > 1));  // so the first thread that throws would have named another
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_reference_that_diverges_is_told_with_the_lowest_trajectory_and_the_step) {
+  // Trajectory n starts at n/4 - 10 with velocity 1: in ten steps of 1/2 it passes the cliff if n >= 25.
+  std::vector<phase_point<double, 1>> starts;
+  for (int n = 0; n < 40; ++n) starts.push_back({vector<double, 1>(0.25 * n - 10.0), vector<double, 1>(1.0)});
+  const auto make = [&](std::size_t known, std::int64_t trajectories, int threads) {
+    starts.resize(known);
+    return make_flow_map_data(
+        cliff(), listed<1>(starts), fine_steps<>(0.05),
+        {.step = 0.5, .horizon = 5.0, .trajectories = trajectories, .threads = threads});
+  };
+  for (const int threads : {1, 5}) {
+    BOOST_TEST(refuses<std::runtime_error>([&] { make(40, 40, threads); },
+                                           {"trajectory 25 ", "srkn11b", "diverged at step 10: q1 is "}));
+    const auto sound = make(40, 25, threads);
+    BOOST_TEST(sound.pairs() == 250U);
+    BOOST_TEST(!sound.energies.has_value());  // a force alone has no energy
+  }
+  // Whatever is thrown: of the starts that the list does not hold, the first.
+  BOOST_TEST(refuses<std::out_of_range>([&] { make(2, 40, 5); }, {"number 3 of"}));
+}
+
+BOOST_AUTO_TEST_CASE(the_range_of_energies_is_that_of_all_starts_and_finishes) {
+  const auto data = made({.step = 0.02, .horizon = 0.1, .trajectories = 20, .threads = 2});
+  energy_range all;
+  for (std::size_t n = 0; n < data.pairs(); ++n) {
+    all.include(energy<double>(quiet, state(data.start[n])));
+    all.include(energy<double>(quiet, state(data.finish[n])));
+  }
+  BOOST_REQUIRE(data.energies.has_value());
+  BOOST_TEST(data.energies->low == all.low);
+  BOOST_TEST(data.energies->high == all.high);
+  BOOST_TEST(all.low < all.high);
+}
+
+BOOST_AUTO_TEST_CASE(progress_counts_to_the_number_of_trajectories) {
+  for (const int threads : {1, 3}) {
+    std::mutex guard;
+    std::vector<std::int64_t> told;
+    const auto tell = [&](std::int64_t done) {
+      const std::lock_guard lock(guard);
+      told.push_back(done);
+    };
+    made({.step = 0.02, .horizon = 0.02, .trajectories = 30, .threads = threads, .progress = tell});
+    std::ranges::sort(told);  // several threads tell in any order
+    BOOST_REQUIRE(!told.empty());
+    BOOST_TEST(told.back() == 30);
+    BOOST_TEST((std::ranges::adjacent_find(told) == told.end()));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_noise_is_that_of_the_path_in_parts) {
+  const auto data =
+      made_in_bath({.step = 0.012, .horizon = 0.06, .trajectories = 21, .seed = 7, .noise_parts = 3});
+  BOOST_TEST(data.noise.size() == 315U);
+  require_valid(data, warm);
+  double worst = 0.0;
+  double worst_of_next = infinite;
+  for (std::size_t m = 0; m < 21; ++m) {
+    for (std::int64_t part = 0; part < 15; ++part) {  // five steps of three
+      const auto off = [&](std::int64_t begin) {
+        const Eigen::VectorXd xi = data.noise[3 * data.first_of[m] + static_cast<std::size_t>(part)];
+        return (xi - noise_between(7, m, begin, begin + 4)).cwiseAbs().maxCoeff();
+      };
+      worst = std::max(worst, off(4 * part));
+      worst_of_next = std::min(worst_of_next, off(4 * part + 4));
+    }
+  }
+  BOOST_TEST(worst <= 4 * 4 * eps);  // four additions of numbers below 4
+  BOOST_TEST(worst_of_next > 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE(a_coarse_step_with_the_noise_of_the_data_is_near_and_without_it_far) {
+  const auto data =
+      made_in_bath({.step = 0.012, .horizon = 0.06, .trajectories = 20, .seed = 7, .noise_parts = 1});
+  const auto c = baoab::coefficients();
+  const auto distances = [&](std::size_t shift) {
+    double sum = 0.0;
+    for (std::size_t n = 0; n + shift < data.pairs(); ++n) {
+      state x = data.start[n];
+      Eigen::VectorXd f(6);
+      warm.force(x.q, f);
+      x.p += f * (c[0] * data.step);
+      x.q += x.p * (c[1] * data.step);
+      x.p = x.p * heat_bath.decay(data.step) + data.noise[n + shift] * heat_bath.deviation(data.step);
+      x.q += x.p * (c[3] * data.step);
+      warm.force(x.q, f);
+      x.p += f * (c[4] * data.step);
+      sum += (x.p - data.finish[n].p).squaredNorm();
+    }
+    return std::sqrt(sum / static_cast<double>(data.pairs()));
+  };
+  // The noise of a step is .3 sqrt(.012) = .033 in each of six momenta; a foreign one errs by sqrt 2 of that.
+  const double noise = 0.3 * std::sqrt(0.012 * 6.0);
+  BOOST_TEST(distances(1) == noise * std::sqrt(2.0), boost::test_tools::tolerance(0.15));
+  // Verlet errs by z^3/12 = .018 of momenta of 1.7, and some z/2 of the noise with z = .6.
+  BOOST_TEST(distances(0) < 0.4 * noise * std::sqrt(2.0));
+}
+
+BOOST_AUTO_TEST_CASE(parts_change_no_state_and_are_of_one_path) {
+  const auto with = [](int parts) {
+    return made_in_bath({.step = 0.012, .horizon = 0.06, .trajectories = 5, .seed = 7, .noise_parts = parts});
+  };
+  const auto none = with(0);
+  BOOST_TEST(none.noise.size() == 0U);
+  const auto one = with(1);
+  for (const int parts : {1, 2, 3, 4, 6, 12}) {
+    const auto data = with(parts);
+    const auto count = static_cast<std::size_t>(parts);
+    BOOST_TEST((data.finish == none.finish));
+    double worst = 0.0;
+    for (std::size_t n = 0; n < data.pairs(); ++n) {
+      Eigen::VectorXd whole(6);
+      coarse_graining(2.0 * 0.012 / parts).over(data.noise, n * count, count, whole);
+      worst = std::max(worst, (whole - one.noise[n]).cwiseAbs().maxCoeff());
+    }
+    BOOST_TEST(worst <= 12 * 4 * eps);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(seeds_have_independent_noise) {
+  const auto of_seed = [](std::uint64_t number) {
+    return made_in_bath(
+        {.step = 0.004, .horizon = 0.2, .trajectories = 40, .seed = seed(number), .noise_parts = 2});
+  };
+  const auto data = of_seed(1);
+  const auto held_out = of_seed(2);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const auto x = column(data, 0, i);
+    const auto off = [&](const std::vector<double>& y) {
+      return std::abs(correlation(x, y)) * std::sqrt(static_cast<double>(x.size()));
+    };
+    const double allowed = standard_errors(false_alarms / 24);  // six momenta, four comparisons
+    BOOST_TEST(mean_off(x, 0.0, 1.0) <= allowed);
+    BOOST_TEST(deviation_off(x, 1.0) <= allowed);
+    BOOST_TEST(off(column(data, 1, i)) <= allowed);
+    BOOST_TEST(off(column(held_out, 0, i)) <= allowed);
+    BOOST_TEST(off(column(of_seed(1), 0, i)) > allowed);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_made_is_refused) {
+  const auto refused = [](const data_options& options, words said) {
+    BOOST_TEST(refuses<wrong>([&] { made(options); }, said));
+  };
+  refused({.step = 0.02, .horizon = 0.01}, {"at least a step", "over 0.01 with the step 0.02"});
+  refused({.step = 0.02, .trajectories = 0}, {"trajectories must be at least 1", "got 0"});
+  refused({.step = -0.02}, {"positive", "-0.02"});
+  refused({.step = not_a_number}, {"positive"});
+  refused({.step = 0.02, .horizon = not_a_number}, {"finite"});
+  refused({.step = 0.02, .horizon = 1e300}, {"memory"});
+  refused({.step = 0.0205}, {"a multiple"});
+  refused({.step = 0.02, .first = -1}, {"number -1"});
+  refused({.step = 0.02, .threads = 0}, {"threads must be at least one", "0"});
+  const model four = linear_chain::between_walls(4, 1.0);
+  const initial_states of_two =
+      normal_around<Eigen::Dynamic>({Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)}, 0.1, 0.1);
+  BOOST_TEST(refuses<wrong>([&] { make_flow_map_data(four, of_two, fine_steps<>(0.1), {.step = 0.1}); },
+                            {"start 0", "dimension"}));
+  const auto noise_refused = [](const model& system, const auto& reference, int parts, words said) {
+    const data_options options{.step = 0.012, .trajectories = 1, .noise_parts = parts};
+    return refuses<wrong>([&] { make_flow_map_data(system, law, reference, options); }, said);
+  };
+  BOOST_TEST(noise_refused(quiet, fine_steps<>(fine), 1, {"srkn11b", "must have noise", "take fine_paths"}));
+  BOOST_TEST(!noise_refused(quiet, fine_steps<>(fine), 0, {}));
+  BOOST_TEST(
+      noise_refused(warm, fine_steps<>(fine), 0, {"bath(friction=2, sigma=0.3)", "must have a letter O"}));
+  BOOST_TEST(noise_refused(warm, fine_steps<>(fine), 1, {"must have noise", "take fine_paths"}));
+  BOOST_TEST(noise_refused(warm, fine_paths(fine), 5, {"0.012 in the 5 equal parts", "fine step 0.001"}));
+  BOOST_TEST(noise_refused(warm, fine_paths(fine), -1, {"noise_parts must be >= 0, got -1"}));
+  BOOST_TEST(noise_refused(warm, fine_paths(0.005), 1, {"0.012 in the 1 equal parts", "fine step 0.005"}));
+  // An exact flow is of no bath.
+  const in_bath oscillator(harmonic_oscillator(1.0), bath::of_sigma(0.1, 0.0));
+  BOOST_TEST(refuses<wrong>([&] { exact_linear{oscillator}; }, {"exact_linear", "in no bath"}));
+  const exact_linear of_the_alone(oscillator.base());
+  phase_point<double, 1> x{vector<double, 1>(1.0), vector<double, 1>(0.0)};
+  BOOST_TEST(refuses<wrong>([&] { of_the_alone.advance(oscillator, x, 0.1); },
+                            {"that of the constructor, harmonic_oscillator", "in bath(friction=0.1"}));
+}
+
+BOOST_AUTO_TEST_CASE(data_that_are_not_whole_are_refused_with_the_pair) {
+  const auto whole = made({.step = 0.02, .horizon = 0.1, .trajectories = 2});
+  const auto noisy = made_in_bath({.step = 0.012, .horizon = 0.06, .trajectories = 2, .noise_parts = 2});
+  const auto refused = [](flow_map_data data, const model& system, const auto& spoil, words said) {
+    spoil(data);
+    return refuses<wrong>([&] { require_valid(data, system); }, said);
+  };
+  const auto spoilt = [&](const auto& spoil, words said) { BOOST_TEST(refused(whole, quiet, spoil, said)); };
+  spoilt([](auto& d) { d.finish[3].q[1] = not_a_number; },
+         {"must be finite: q2 is nan", "finish of pair 3", "trajectory 0"});
+  spoilt([](auto& d) { d.start[7].p[0] = -infinite; },
+         {"must be finite: p1 is -inf", "start of pair 7", "trajectory 1"});
+  spoilt([](auto& d) { d.finer[1].second.p[5] = not_a_number; },
+         {"p6 is nan", fmt::format("finer finish of pair {}", whole.finer[1].first)});
+  spoilt([](auto& d) { d.finer[0].first = 10; }, {"must be whole", "pair 10 of 10"});
+  spoilt([](auto& d) { d.step = not_a_number; }, {"step of the data", "nan"});
+  spoilt([](auto& d) { d.step = 0.0; }, {"step of the data", "got 0"});
+  spoilt([](auto& d) { d.finish.resize(9); }, {"must be whole", "9 finishes"});
+  spoilt([](auto& d) { d.first_of.clear(); }, {"must be whole", "0 trajectories"});
+  spoilt([](auto& d) { d = {}; }, {"the data must be of"});
+  spoilt([](auto& d) { d.first_of.back() = 3; }, {"must be whole"});
+  BOOST_TEST(refused(whole, fpu_chain<3>(49.0), [](auto&) {}, {"omega=50", "omega=49"}));
+  const auto spoilt_noise = [&](const auto& spoil, words said) {
+    BOOST_TEST(refused(noisy, warm, spoil, said));
+  };
+  spoilt_noise([](auto& d) { d.noise.resize(19, 6); }, {"10 pairs with noise in 2 parts that hold 19"});
+  spoilt_noise([](auto& d) { d.noise_parts = 1; }, {"in 1 parts that hold 20"});
+  spoilt_noise([](auto& d) { d.noise_parts = -2; }, {"in -2 parts"});
+  spoilt_noise([](auto& d) { d.noise[13][2] = not_a_number; },
+               {"must be finite", "coordinate 3 of noise 13 = nan", "in pair 6 of trajectory 1"});
+  BOOST_TEST(!refused(noisy, warm, [](auto&) {}, {}));
+  BOOST_TEST(refused(noisy, quiet, [](auto&) {}, {"in bath(friction=2"}));
+}
