@@ -11,6 +11,7 @@
 #include "nysalt/integrate.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/references/odeint.hpp"
+#include "nysalt/systems/counted.hpp"
 
 namespace nysalt::test {
 
@@ -364,7 +365,7 @@ double run_of::merging_broken(const any_state& x, std::int64_t steps) const {
 
 solved::solved(const model& of, std::vector<any_state> starts, double after)
     : system(of), start(std::move(starts)), finish(start), time(after) {
-  for (auto& x : finish) odeint_reference(1e-15).advance(system, x, time);
+  for (auto& x : finish) x = by_odeint(system, x, time, 1e-15).first;
 }
 
 /// Until rounding spoils it: the run's rounding errors add up like a random walk, sqrt(n letters) eps, and
@@ -464,6 +465,13 @@ double band_defect(const model& system, const std::vector<frequency_band>& bands
     worst = std::max(worst, outside);
   }
   return worst / (8.0 * static_cast<double>(q.size()) * eps * std::max(1.0, norm(weighted)));
+}
+
+std::pair<any_state, std::int64_t> by_odeint(const model& system, any_state x, double time,
+                                             double tolerance) {
+  const counted watched(system);
+  odeint_reference(tolerance).advance(watched, x, time);
+  return {std::move(x), watched.evaluations};
 }
 
 /// The slope of H is taken at both ends, twice as large: it changes on the way.

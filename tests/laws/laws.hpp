@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -138,6 +139,8 @@ double modes_defect(const model& system, const normal_modes& modes);
 double soft_force_defect(const model& system, const Eigen::VectorXd& q, double factor = 1.0);
 /// How far the frequencies of the linearised motion at q are outside the bands, relative to the highest.
 double band_defect(const model& system, const std::vector<frequency_band>& bands, const Eigen::VectorXd& q);
+/// Where Boost.Odeint leads in that time, and the evaluations of the force that this takes.
+std::pair<any_state, std::int64_t> by_odeint(const model& system, any_state x, double time, double tolerance);
 /// Change of the energy from x to y by a reference that made that many evaluations, each with at most `error`
 /// in a coordinate.
 double energy_defect(const model& system, const any_state& x, const any_state& y, std::int64_t evaluations,

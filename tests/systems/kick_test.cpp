@@ -2,13 +2,17 @@
 // A system's own kick is that of its force, and is used where the force is not needed again.
 #include <boost/test/unit_test.hpp>
 
-#include "../laws/models.hpp"
-#include "../laws/run_laws.hpp"
-#include "../laws/system_laws.hpp"
+#include <cstring>
+
+#include "../laws/laws.hpp"
+#include "../support/systems.hpp"
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/scalars/pack.hpp"
+#include "nysalt/systems/counted.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
+#include "nysalt/systems/gaussian.hpp"
+#include "nysalt/systems/phi4_lattice.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -89,41 +93,54 @@ phase_point<T, N> dressed(const phase_point<double, N>& x) {
   return y;
 }
 
+/// kick is p += c force(q), to the bit: then a run does not depend on where the word may use it.
+template <Scalar T, Scalar C, System S>
+bool kick_is_force(const S& system, const phase_point<T, S::dimension>& x, const C& c) {
+  auto f = make_vector<T>(system);
+  force<T>(system, x.q, f);
+  auto expected = x.p;
+  for (Eigen::Index i = 0; i < f.size(); ++i) expected[i] += f[i] * c;
+  auto kicked = x.p;
+  system.kick(x.q, kicked, c);
+  for (Eigen::Index i = 0; i < f.size(); ++i) {
+    if (std::memcmp(&kicked[i], &expected[i], sizeof(T)) != 0) return false;
+  }
+  return true;
+}
+
 template <System S>
-bool kick_is_force_over_all(const S& system, const phase_point<double, S::dimension>& x) {
+void check_kick(const S& system) {
+  static_assert(HasKick<S, double>);
   using D = dual<double, 1>;
-  return kick_is_force(system, x, 0.3) && kick_is_force(system, dressed<D>(x), 0.3) &&
-         kick_is_force(system, dressed<D>(x), D::variable(0.3, 0)) &&
-         kick_is_force(system, dressed<pack<double, 8>>(x), 0.3);
+  draws random;
+  for (int n = 0; n < 20; ++n) {
+    const auto x = random.state(system, 1.0);
+    BOOST_TEST_CONTEXT(describe(system) << ", draw " << n) {
+      BOOST_TEST(kick_is_force(system, x, 0.3));
+      BOOST_TEST(kick_is_force(system, dressed<D>(x), 0.3));
+      BOOST_TEST(kick_is_force(system, dressed<D>(x), D::variable(0.3, 0)));
+      BOOST_TEST(kick_is_force(system, dressed<pack<double, 8>>(x), 0.3));
+    }
+  }
 }
 
-/// What a kick of its own could change: a run, stopped and gone on with, and a plain step.
-template <Method M, SeparableSystem S>
-bool runs_alike(const S& system, const M& method, double step, const phase_point<double, S::dimension>& x) {
-  const without_kick<S> other(system);
-  auto y = x;
-  auto z = x;
-  make_stepper(system, method, step).step(y);
-  make_stepper(other, method, step).step(z);
-  return same_bits(y, z) &&
-         same_bits(cut_finish(system, method, step, x, 50, 20), integrate(other, method, step, x, 50).finish);
+/// What a kick of its own could change: a run, stopped and continued, and a plain step.
+bool runs_alike(const model& system, const model& other, const tabulated& method, double step,
+                const any_state& x) {
+  const run_of one{system, method, step};
+  const run_of another{other, method, step};
+  return same_bits(one.plain(x, 1), another.plain(x, 1)) &&
+         same_bits(one.cut(x, 50, 20), another.finish(x, 50));
 }
-
-using with_kick = std::tuple<an_fpu_chain, a_dynamic_fpu>;
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(a_kick_is_that_of_the_force, Model, systems) {
-  const auto system = Model::make();
-  using S = system_of<Model>;
-  if constexpr (HasKick<S, double>) {
-    draws random;
-    for (int n = 0; n < 20; ++n) {
-      BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << describe(system) << ", draw " << n) {
-        BOOST_TEST(kick_is_force_over_all(system, random.state(system, 1.0)));
-      }
-    }
-  }
+// All systems of the library that have a kick.
+BOOST_AUTO_TEST_CASE(a_kick_is_that_of_the_force) {
+  check_kick(fpu_chain<3>(10.0));
+  check_kick(fpu_chain<>(2, 7.0));
+  check_kick(gaussian(Eigen::Vector3d(0.3, 1.0, 2.5)));
+  check_kick(phi4_lattice(3, -1.0, 2.0));
 }
 
 BOOST_AUTO_TEST_CASE(a_wrong_kick_is_found) {
@@ -131,38 +148,28 @@ BOOST_AUTO_TEST_CASE(a_wrong_kick_is_found) {
   const wrong_kick system;
   const auto x = random.state(system, 1.0);
   BOOST_TEST(!kick_is_force(system, x, 0.3));
-  BOOST_TEST(!runs_alike(system, verlet(), 0.1, x));
+  BOOST_TEST(!runs_alike(system, without_kick(system), tabulated(verlet()), 0.1, {x.q, x.p}));
 }
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(runs_do_not_depend_on_it, Model, with_kick) {
+BOOST_AUTO_TEST_CASE(runs_do_not_depend_on_it) {
+  const fpu_chain<3> chain(10.0);
+  const model other{without_kick(chain)};
   draws random;
-  const auto system = Model::make();
-  const auto x = random.state(system, Model::reach);
-  for (const auto& method : methods_as_data(random)) {
-    if (!suits(system, method)) continue;
-    BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name() << " on " << describe(system)) {
-      BOOST_TEST(runs_alike(system, method, 0.01, x));
-    }
-  }
-  BOOST_TEST(runs_alike(system, verlet(), 0.01, x));  // by their types
-  BOOST_TEST(runs_alike(system, srkn6b(), 0.01, x));
-}
-
-BOOST_AUTO_TEST_CASE_TEMPLATE(it_counts_as_an_evaluation, Model, with_kick) {
-  draws random;
-  const auto system = Model::make();
-  const auto x = random.state(system, Model::reach);
-  const auto counts = [&](const auto& method, int to_open, int per_step, int plain) {
-    using word = typename std::decay_t<decltype(method)>::word;
-    static_assert(HasKick<counted<system_of<Model>>, double>);
-    BOOST_TEST(evaluations_of_run(system, method, 0.01, x, 10) == to_open + 10 * per_step);
-    BOOST_TEST(evaluations_of_run(system, tabulated(method), 0.01, x, 10) == to_open + 10 * per_step);
-    BOOST_TEST(evaluations_of_step(system, method, 0.01, x) == plain);
-    BOOST_TEST(word::evaluations_per_step == per_step);
+  try_all({specimen_of(describe(chain))}, methods_as_data(random),
+          [&](const model& system, const tabulated& method, double, const any_state& x) {
+            BOOST_TEST(runs_alike(system, other, method, 0.01, x));
+          });
+  // By their types.
+  const auto start = random.state(chain, 0.5);
+  const without_kick plain(chain);
+  const auto finish = [&](const auto& system) {
+    const auto fixed = make_stepper(system, verlet(), 0.01);
+    auto run = fixed.open(start);
+    fixed.advance(run, 20);
+    fixed.advance(run, 30);
+    return fixed.synchronous(run);
   };
-  counts(verlet(), 1, 1, 2);
-  counts(verlet_aba(), 0, 1, 1);
-  counts(srkn6b(), 1, 6, 7);
+  BOOST_TEST(same_bits(finish(chain), finish(plain)));
 }
 
 // It steps by its own force.

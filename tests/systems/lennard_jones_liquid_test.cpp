@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+// Compiled with -O1: 4.5 s at -O0, 0.6 s at -O1.
 // The liquid's forces are those of all pairs, with bits that neither lists nor threads change.
 #include "nysalt/systems/lennard_jones_liquid.hpp"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+// Compiled with -O1: 0.9 s at -O0, 0.1 s at -O1.
 // Sums that know no order, and lists that hold for as long as they say.
 #include "../../src/nysalt/systems/neighbour_list.hpp"
 
