@@ -1,45 +1,23 @@
 // SPDX-License-Identifier: BSL-1.0
-// The Hessian of the loss, and what follows from a Hessian.
+// What follows from a Hessian: flat directions, conditions and standard errors. A few residuals instead of
+// very many are to Ceres the same function.
+#include "nysalt/learning/curvature.hpp"
+
 #include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 
+#include <array>
 #include <limits>
 
-#include "../laws/models.hpp"
-#include "../support/one_step.hpp"
+#include "../support/draws.hpp"
 #include "../support/rounding.hpp"
-#include "../support/sample_blocks.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/learning/curvature.hpp"
-#include "nysalt/losses/after_steps.hpp"
-#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/learning/compressed_cost.hpp"
+#include "nysalt/scalars/dual.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
 
 namespace {
-
-/// Second derivatives without differences: dual numbers of dual numbers.
-Eigen::Matrix2d exact_hessian(const auto& pairs, const parameters_of<nystrom>& theta) {
-  using inner = dual<double, 2>;
-  using outer = dual<inner, 2>;
-  std::array<outer, 2> lifted;
-  for (int k = 0; k < 2; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    lifted[i] = outer::variable(inner::variable(theta[i], k), k);
-  }
-  outer sum(0.0);
-  const double share = 1.0 / static_cast<double>(pairs.windows());
-  for (std::size_t pair = 0; pair < pairs.windows(); ++pair) {
-    for (const outer& r : pairs.at(pair, lifted)) sum += r * r * share;
-  }
-  Eigen::Matrix2d result;
-  for (int i = 0; i < 2; ++i) {
-    for (int j = 0; j < 2; ++j)
-      result(i, j) = sum.derivative[static_cast<std::size_t>(i)].derivative[static_cast<std::size_t>(j)];
-  }
-  return result;
-}
 
 /// Curvatures 1 and `small`, the latter along (2, 1)/sqrt 5.
 Eigen::MatrixXd valley(double small) {
@@ -48,54 +26,7 @@ Eigen::MatrixXd valley(double small) {
   return across * across.transpose() + small * along * along.transpose();
 }
 
-double sum_of_sizes(const std::vector<Eigen::VectorXd>& vectors) {
-  double sum = 0.0;
-  for (const auto& v : vectors) sum += v.cwiseAbs().sum();
-  return sum;
-}
-
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(the_hessian_is_that_of_nested_dual_numbers) {
-  const henon_heiles system;
-  const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
-  const auto data = make_flow_map_data(system, starts, fine_steps<>(0.02),
-                                       {.step = 0.4, .horizon = 2.0, .trajectories = 7});
-  const metric measure(system, data, coordinates::qp);
-  const one_step<nystrom> loss(system, data, measure);
-  const sample_blocks<nystrom, henon_heiles> pairs(system, data, measure);
-  draws random;
-  for (int n = 0; n < 5; ++n) {
-    const auto theta = random_theta<nystrom>(random);
-    const auto exact = exact_hessian(pairs, theta);
-    // The differences of step s are off by s^2/6 times the fourth derivatives, whose size we take from the
-    // exact Hessian nearby, and by the rounding of gradients over s.
-    constexpr double s = 1e-5;
-    constexpr double t = 1e-2;
-    double fourth = 0.0;
-    for (std::size_t k = 0; k < 2; ++k) {
-      auto ahead = theta;
-      auto behind = theta;
-      ahead[k] += t;
-      behind[k] -= t;
-      fourth = std::max(
-          fourth, norm(exact_hessian(pairs, ahead) - 2.0 * exact + exact_hessian(pairs, behind)) / (t * t));
-    }
-    const double rounding = 100.0 * eps * sum_of_sizes(trajectory_gradients(loss, theta)) / s;
-    BOOST_TEST_CONTEXT("seed " << draws::seed << ", b1 = " << theta[0] << ", beta1 = " << theta[1]) {
-      const double error = norm(hessian(loss, theta) - exact);
-      BOOST_TEST(error <= 2.0 * s * s / 6.0 * fourth + rounding);
-      BOOST_TEST(error <= 1e-5 * norm(exact));  // which says something
-      auto beside = theta;
-      beside[0] += t;
-      BOOST_TEST(norm(hessian(loss, beside) - exact) > 1e-5 * norm(exact));
-    }
-  }
-}
-
-namespace {
 
 /// Residuals of parameters in other units, x = scale theta.
 template <class T>
@@ -245,4 +176,114 @@ BOOST_AUTO_TEST_CASE(where_one_trajectory_outweighs_the_rest_it_alone_decides) {
   // (1/3 + 1/3)^2/(1/5 + 1/5 + 2/9) = 5/7 of them; moments of 4000 numbers are known to one in 60 or better.
   BOOST_TEST(curvature(Eigen::Matrix2d::Identity(), {0, 1}).deciding_blocks(scores) == 4000.0 * 5.0 / 7.0,
              boost::test_tools::tolerance(0.07));
+}
+
+namespace {
+
+/// Residuals r + J (theta - 0) of a linear problem.
+squares of(const Eigen::MatrixXd& j, const Eigen::VectorXd& r) {
+  return {r.squaredNorm(), j.transpose() * r, j.transpose() * j};
+}
+
+struct small_block {
+  bool accepted;
+  Eigen::VectorXd r;
+  Eigen::MatrixXd j;
+};
+small_block compress(const squares& all, bool with_jacobian = true) {
+  using rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Index count = all.half_gradient.size();
+  const compressed_cost cost([&](const Eigen::VectorXd&) { return all; },
+                             [](const Eigen::VectorXd&) { return true; }, static_cast<int>(count));
+  const Eigen::VectorXd theta = Eigen::VectorXd::Zero(count);
+  const double* at = theta.data();
+  Eigen::VectorXd r(count + 1);
+  rows j = rows::Zero(count + 1, count);
+  double* slopes = j.data();
+  const bool accepted = cost.Evaluate(&at, r.data(), with_jacobian ? &slopes : nullptr);
+  return {accepted, r, j};
+}
+
+Eigen::MatrixXd random_matrix(draws& random, Eigen::Index rows, Eigen::Index columns) {
+  Eigen::MatrixXd result(rows, columns);
+  for (auto& x : result.reshaped()) x = random.uniform(-1.0, 1.0);
+  return result;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_small_block_has_loss_gradient_and_normal_matrix_of_the_large_one) {
+  draws random;
+  for (Eigen::Index count = 1; count <= 4; ++count) {
+    const Eigen::MatrixXd j = random_matrix(random, 50, count);
+    const Eigen::VectorXd r = random_matrix(random, 50, 1);
+    const auto all = of(j, r);
+    const auto block = compress(all);
+    BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << count << " parameters") {
+      BOOST_TEST(block.accepted);
+      BOOST_TEST(block.r.size() == count + 1);
+      // 50 terms, and a dozen operations on each eigenvector.
+      const double rounding = 100.0 * eps;
+      BOOST_TEST(std::abs(block.r.squaredNorm() - all.value) <= rounding * all.value);
+      BOOST_TEST(norm(block.j.transpose() * block.r - all.half_gradient) <= rounding * norm(j.transpose()));
+      BOOST_TEST(norm(block.j.transpose() * block.j - all.normal_matrix) <=
+                 rounding * norm(all.normal_matrix));
+      const auto value_only = compress(all, false);
+      BOOST_TEST(std::abs(value_only.r.squaredNorm() - all.value) <= rounding * all.value);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(directions_in_which_nothing_changes_are_left_out) {
+  draws random;
+  Eigen::MatrixXd j = random_matrix(random, 50, 3);
+  j.col(2) = 2.0 * j.col(0);  // along (2, 0, -1) nothing changes
+  const Eigen::VectorXd r = random_matrix(random, 50, 1);
+  const auto all = of(j, r);
+  const auto block = compress(all);
+  BOOST_TEST(block.j.allFinite());
+  BOOST_TEST((block.j * Eigen::Vector3d(2.0, 0.0, -1.0)).norm() <= 100.0 * eps * norm(j));
+  BOOST_TEST((block.j.rowwise().squaredNorm().array() == 0.0).count() == 2);  // that, and the rest of r
+  BOOST_TEST(std::abs(block.r.squaredNorm() - all.value) <= 100.0 * eps * all.value);
+  j(0, 2) += 1e-4;  // a shallow direction is none: 1e-8 of the largest eigenvalue
+  BOOST_TEST((compress(of(j, r)).j.rowwise().squaredNorm().array() == 0.0).count() == 1);
+}
+
+BOOST_AUTO_TEST_CASE(where_the_jacobian_explains_all_the_rest_is_zero_and_no_nan) {
+  draws random;
+  const Eigen::MatrixXd j = random_matrix(random, 50, 2);
+  for (int n = 0; n < 100; ++n) {
+    const auto all = of(j, j * random_matrix(random, 2, 1));
+    const auto block = compress(all);
+    BOOST_TEST(block.r.allFinite());
+    BOOST_TEST(block.r[2] * block.r[2] <= 100.0 * eps * all.value);
+  }
+  const auto nothing = compress({0.0, Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()});
+  BOOST_TEST(nothing.accepted);
+  BOOST_TEST(nothing.r.norm() == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_not_finite_or_not_defined_is_rejected) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST(!compress({nan, Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()}).accepted);
+  BOOST_TEST(!compress({1.0, Eigen::Vector2d(nan, 0.0), Eigen::Matrix2d::Zero()}).accepted);
+  BOOST_TEST(!compress({1.0, Eigen::Vector2d::Zero(), Eigen::Matrix2d::Constant(nan)}).accepted);
+  int calls = 0;
+  const auto counting = [&](const Eigen::VectorXd&) {
+    ++calls;
+    return squares{1.0, Eigen::Vector2d::Zero(), Eigen::Matrix2d::Identity()};
+  };
+  const compressed_cost cost(
+      counting, [](const Eigen::VectorXd& theta) { return theta[0] > 0.0; }, 2);
+  std::array<double, 2> theta{-1.0, 0.0};
+  std::array<double, 3> r{};
+  const double* at = theta.data();
+  BOOST_TEST(!cost.Evaluate(&at, r.data(), nullptr));
+  BOOST_TEST(calls == 0);
+  theta[0] = 1.0;
+  std::array<double, 6> j{};
+  double* slopes = j.data();
+  BOOST_TEST(cost.Evaluate(&at, r.data(), nullptr));
+  BOOST_TEST(cost.Evaluate(&at, r.data(), &slopes));  // the same place costs no second pass
+  BOOST_TEST(calls == 1);
 }

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSL-1.0
-// However a person writes the force, the same is learned, and the summary says where derivatives came from.
+// However a person writes the force, and in whatever units, the same is learned; and the summary says where
+// derivatives came from.
 #include <boost/test/unit_test.hpp>
 
 #include <Eigen/Core>
 
+#include "../support/black_box_in_units.hpp"
 #include "../support/dense.hpp"
 #include "../support/one_step.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/fg4.hpp"
+#include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/families/r_aba.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/learning/sound_force.hpp"
 #include "nysalt/references/fine_steps.hpp"
@@ -51,11 +55,13 @@ struct by_black_box_with_derivative : by_black_box {
 };
 
 const by_force exact;
+const run_time_family two_stages{nystrom()};
+const fit_options quick{.random_starts = 2, .planned_steps = 300};
 
 flow_map_data data_of(std::uint64_t seed) {
   const normal_around<1> starts({vector<double, 1>(0.5), vector<double, 1>(0.0)}, 0.5, 0.5);
   return make_flow_map_data(exact, starts, fine_steps<>(0.02),
-                            {.step = 0.6, .horizon = 3.0, .trajectories = 40, .seed = seed});
+                            {.step = 0.6, .horizon = 3.0, .trajectories = 20, .seed = seed});
 }
 
 /// How far theta moves where every derivative of a residual is off by `relative` of the largest: the gradient
@@ -68,22 +74,19 @@ double allowed(const flow_map_data& data, const parameters_of<nystrom>& theta, d
   return 2.0 * std::sqrt(loss_value(loss, theta)) * 2.0 * jacobian * relative / of_loss.values[0];
 }
 
-double distance_of(const learned<nystrom>& a, const learned<nystrom>& b) {
-  return std::max(std::abs(a.method.parameters()[0] - b.method.parameters()[0]),
-                  std::abs(a.method.parameters()[1] - b.method.parameters()[1]));
-}
+double distance_of(const fit& a, const fit& b) { return (a.theta - b.theta).cwiseAbs().maxCoeff(); }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_same_is_learned_however_the_force_is_written) {
   const auto data = data_of(1);
   const auto held_out = data_of(2);
-  const auto fit = [&](const auto& system) { return learn(nystrom{}, system, data, held_out); };
-  const auto expected = fit(exact);
-  const auto potential = fit(by_potential());
-  const auto boxed = fit(by_black_box());
-  const auto derived = fit(by_black_box_with_derivative());
-  const auto theta = expected.method.parameters();
+  const auto fitted = [&](const model& system) { return learn(two_stages, system, data, held_out, quick); };
+  const auto expected = fitted(exact);
+  const auto potential = fitted(by_potential());
+  const auto boxed = fitted(by_black_box());
+  const auto derived = fitted(by_black_box_with_derivative());
+  const auto theta = array_of<2>(expected.theta);
   const double rounding = allowed(data, theta, 100.0 * eps);  // operations of a step
   // A central difference along a displacement below 1, of a sine, is off by s^2/6, and eps/s by rounding.
   constexpr double s = detail::part_of_displacement;
@@ -98,7 +101,7 @@ BOOST_AUTO_TEST_CASE(the_same_is_learned_however_the_force_is_written) {
     BOOST_TEST(distance_of(boxed, expected) <= differences);
     by_force wrong;  // by a thousandth of a per cent
     wrong.strength = 1.0 + 1e-5;
-    BOOST_TEST(distance_of(fit(wrong), expected) > 1e3 * differences);
+    BOOST_TEST(distance_of(fitted(wrong), expected) > 1e3 * differences);
   }
   BOOST_TEST(expected.summary.derivatives == "automatic differentiation");
   BOOST_TEST(potential.summary.derivatives == "automatic differentiation");
@@ -112,15 +115,15 @@ BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused_unless_asked_otherwise) 
   const auto data = data_of(1);
   by_black_box_with_derivative wrong;
   wrong.strength = 0.99;
-  const auto fit = [&](const learn_options<nystrom>& options) {
-    return learn(nystrom{}, wrong, data, data_of(2), options);
+  const auto fitted = [&](const fit_options& options) {
+    return learn(two_stages, wrong, data, data_of(2), options);
   };
   BOOST_TEST(refuses<std::invalid_argument>(
-      [&] { fit({}); },
+      [&] { fitted({}); },
       {"cannot learn on", "force_derivative is not f'(q) v", "1.0", "a pendulum", "check_force = false"}));
-  BOOST_TEST(fit({.check_force = false}).summary.usable);
+  BOOST_TEST(fitted({.planned_steps = 300, .check_force = false}).summary.usable);
   wrong.strength = 1.0;
-  BOOST_TEST(fit({}).summary.usable);
+  BOOST_TEST(fitted(quick).summary.usable);
 }
 
 /// With a force of its own, off by one in a hundred.
@@ -158,5 +161,44 @@ BOOST_AUTO_TEST_CASE(a_family_whose_letters_the_system_does_not_serve_is_refused
   BOOST_TEST(refused(r_fg4(), exact));
   BOOST_TEST(refused(r_fg4(), by_black_box()));
   // Gradient kicks ask for f'(q) v alone, which a black box has by differences.
-  BOOST_TEST(learn(run_time_family(fg4()), by_black_box(), data, data_of(2)).summary.usable);
+  BOOST_TEST(learn(run_time_family(fg4()), by_black_box(), data, data_of(2), quick).summary.usable);
+}
+
+namespace {
+
+/// Learned of data in some units, with a mistake in the first coordinate's force if the factor is not 1.
+template <class S>
+Eigen::VectorXd learned_for(const run_time_family& family, const units& scales, double factor = 1.0) {
+  S system;
+  system.scales = scales;
+  S wrong = system;
+  wrong.first_factor = factor;
+  const double h = 0.6 * scales.time;
+  const starts_in_units<2> starts(system);
+  const auto data = [&](std::uint64_t seed) {
+    const data_options options{.step = h, .horizon = 4.0 * h, .trajectories = 10, .seed = seed};
+    return make_flow_map_data(system, starts, fine_steps<>(h / 32.0), options);
+  };
+  return learn(family, wrong, data(1), data(2),  // the optimum itself
+               {.random_starts = 2, .guarded = false, .planned_steps = 300})
+      .theta;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(of_a_black_box_theta_is_the_same_in_all_units) {
+  const run_time_family family{fg_chin()};
+  const auto expected = learned_for<open_wells<2>>(family, units());
+  for (const units& scales : {units{.length = 1e-10}, units{.length = 1e10},
+                              units{.length = 1e-10, .time = 1e-15, .mass = 1e-26, .offset = 20.0},
+                              units{.length = 1e-6, .mixed = 1e12}}) {
+    BOOST_TEST_CONTEXT("length " << scales.length << ", mixed " << scales.mixed << ", time " << scales.time) {
+      const auto found = learned_for<boxed_wells<2>>(family, scales);
+      // Derivatives are off by 1e-8 of themselves, and theta by that times the root of the Hessian's
+      // condition, which is below 100.
+      BOOST_TEST((found - expected).cwiseAbs().maxCoeff() < 1e-6);
+    }
+    BOOST_TEST(refuses<std::invalid_argument>([&] { learned_for<boxed_wells<2>>(family, scales, 1.001); },
+                                              {"not -grad V"}));
+  }
 }

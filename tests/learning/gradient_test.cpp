@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
-// The gradient of the loss is the one that the paper derives by hand, and the slope of the loss.
+// The gradient of the loss is the one that the paper derives by hand, and the slope of the loss; its Hessian
+// is that of nested dual numbers.
 #include <boost/test/unit_test.hpp>
 
 #include "../laws/models.hpp"
 #include "../support/central_difference.hpp"
 #include "../support/one_step.hpp"
 #include "../support/rounding.hpp"
+#include "../support/sample_blocks.hpp"
 #include "../support/tableau.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/learning/curvature.hpp"
@@ -85,6 +87,34 @@ by_hand gradient_by_hand(const flow_map_data& data, double b1, double beta1) {
   return result;
 }
 
+/// Second derivatives without differences: dual numbers of dual numbers.
+Eigen::Matrix2d exact_hessian(const auto& pairs, const parameters_of<nystrom>& theta) {
+  using inner = dual<double, 2>;
+  using outer = dual<inner, 2>;
+  std::array<outer, 2> lifted;
+  for (int k = 0; k < 2; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    lifted[i] = outer::variable(inner::variable(theta[i], k), k);
+  }
+  outer sum(0.0);
+  const double share = 1.0 / static_cast<double>(pairs.windows());
+  for (std::size_t pair = 0; pair < pairs.windows(); ++pair) {
+    for (const outer& r : pairs.at(pair, lifted)) sum += r * r * share;
+  }
+  Eigen::Matrix2d result;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j)
+      result(i, j) = sum.derivative[static_cast<std::size_t>(i)].derivative[static_cast<std::size_t>(j)];
+  }
+  return result;
+}
+
+double sum_of_sizes(const std::vector<Eigen::VectorXd>& vectors) {
+  double sum = 0.0;
+  for (const auto& v : vectors) sum += v.cwiseAbs().sum();
+  return sum;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_gradient_is_the_papers_trajectory_by_trajectory) {
@@ -150,6 +180,41 @@ BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
         BOOST_TEST(std::abs(ours[index] - difference(s)) <= 2.0 * error + rounding);
         BOOST_TEST(std::abs(ours[index] - difference(s)) <= 1e-5 * ours.norm());  // which says something
       }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_hessian_is_that_of_nested_dual_numbers) {
+  const auto data = some_data();
+  const S system;
+  const metric measure(system, data, coordinates::qp);
+  const one_step<nystrom> loss(system, data, measure);
+  const sample_blocks<nystrom, S> pairs(system, data, measure);
+  draws random;
+  for (int n = 0; n < 3; ++n) {
+    const auto theta = random_theta<nystrom>(random);
+    const auto exact = exact_hessian(pairs, theta);
+    // The differences of step s are off by s^2/6 times the fourth derivatives, whose size we take from the
+    // exact Hessian nearby, and by the rounding of gradients over s.
+    constexpr double s = 1e-5;
+    constexpr double t = 1e-2;
+    double fourth = 0.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      auto ahead = theta;
+      auto behind = theta;
+      ahead[k] += t;
+      behind[k] -= t;
+      fourth = std::max(
+          fourth, norm(exact_hessian(pairs, ahead) - 2.0 * exact + exact_hessian(pairs, behind)) / (t * t));
+    }
+    const double rounding = 100.0 * eps * sum_of_sizes(trajectory_gradients(loss, theta)) / s;
+    BOOST_TEST_CONTEXT("seed " << draws::seed << ", b1 = " << theta[0] << ", beta1 = " << theta[1]) {
+      const double error = norm(hessian(loss, theta) - exact);
+      BOOST_TEST(error <= 2.0 * s * s / 6.0 * fourth + rounding);
+      BOOST_TEST(error <= 1e-5 * norm(exact));  // which says something
+      auto beside = theta;
+      beside[0] += t;
+      BOOST_TEST(norm(hessian(loss, beside) - exact) > 1e-5 * norm(exact));
     }
   }
 }

@@ -56,7 +56,7 @@ double tolerance(const objective& loss, const minimum& found, double z) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(around_two_stages_the_law_is_exact_at_the_closed_form) {
-  for (const double z : {0.5, 0.95, 1.65, 2.25, 2.75, 3.5}) {
+  for (const double z : {0.5, 1.65, 3.5}) {
     for (const double gamma : {0.01, 1.0}) {
       for (const placement where : {placement::end, placement::symmetric}) {
         const auto loss = law_of(where, gamma, z);

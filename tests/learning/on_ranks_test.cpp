@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Ranks that share the data learn what one learns, to the last bit.
+// Ranks that share the data learn what one learns, to the last bit, as sums over trajectories are added in
+// the order of tree_sum.
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
@@ -11,10 +12,17 @@
 #include <vector>
 
 #include "../support/ranks_as_threads.hpp"
+#include "nysalt/detail/tree_sum.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
+#include "nysalt/losses/after_steps.hpp"
+#include "nysalt/losses/metric.hpp"
+#include "nysalt/losses/squares.hpp"
+#include "nysalt/losses/state_error.hpp"
 #include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/pendulum.hpp"
 
 using namespace nysalt;
@@ -24,8 +32,7 @@ namespace {
 
 constexpr double step = 0.6;
 const pendulum swing;
-
-using data_type = flow_map_data;
+const run_time_family two_stages{nystrom()};
 
 const normal_around<1> starts({vector<double, 1>(0.5), vector<double, 1>(0.0)}, 0.5, 0.5);
 
@@ -33,13 +40,14 @@ data_options options_for(std::int64_t trajectories, std::uint64_t seed, const co
   return {.step = step, .horizon = 3.0, .trajectories = trajectories, .seed = seed, .ranks = &ranks};
 }
 
-data_type make(std::int64_t trajectories, std::uint64_t seed, const communicator& ranks) {
+flow_map_data make(std::int64_t trajectories, std::uint64_t seed, const communicator& ranks) {
   return make_flow_map_data(swing, starts, fine_steps(step / 64), options_for(trajectories, seed, ranks));
 }
 
 /// All numbers of a fit.
-std::vector<double> numbers_of(const learned<nystrom>& fitted) {
-  const fit_summary& fit = fitted.summary;
+std::vector<double> numbers_of(const flow_map_data& data, const flow_map_data& held_out) {
+  const fit_summary fit =
+      learn(two_stages, swing, data, held_out, {.random_starts = 2, .planned_steps = 300}).summary;
   std::vector<double> all{fit.loss,
                           fit.held_out_loss,
                           fit.held_out_start_loss,
@@ -56,8 +64,7 @@ std::vector<double> numbers_of(const learned<nystrom>& fitted) {
                           static_cast<double>(fit.learning_evaluations),
                           static_cast<double>(fit.iterations)};
   for (const auto& one : fit.parameters) all.insert(all.end(), {one.value, one.standard_error});
-  const auto energies = fitted.method.energies();
-  if (energies) all.insert(all.end(), {energies->low, energies->high});
+  if (data.energies) all.insert(all.end(), {data.energies->low, data.energies->high});
   return all;
 }
 
@@ -69,45 +76,39 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 std::vector<double> learned_from(std::int64_t trajectories, const communicator& ranks) {
-  const auto data = make(trajectories, 1, ranks);
-  const auto held_out = make(trajectories, 2, ranks);
-  return numbers_of(learn(nystrom{}, swing, data, held_out));
+  return numbers_of(make(trajectories, 1, ranks), make(trajectories, 2, ranks));
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(what_is_learned_does_not_depend_on_the_ranks) {
-  for (const std::int64_t trajectories : {20, 150}) {
+  for (const auto& [trajectories, size] : {std::pair(9, 11), std::pair(90, 3)}) {  // of 11 some have nothing
     const auto expected = learned_from(trajectories, one_rank);
     BOOST_TEST(!same_bits(learned_from(trajectories + 1, one_rank), expected));  // so the test can tell
-    for (const int size : {2, 3, 11}) {                                          // some have nothing
-      std::mutex guard;
-      run_ranks(size, [&](const thread_communicator& ours) {
-        const auto found = learned_from(trajectories, ours);
-        const std::lock_guard lock(guard);
-        BOOST_TEST(same_bits(found, expected));
-      });
-    }
+    std::mutex guard;
+    run_ranks(size, [&, count = trajectories](const thread_communicator& ours) {
+      const auto found = learned_from(count, ours);
+      const std::lock_guard lock(guard);
+      BOOST_TEST(same_bits(found, expected));
+    });
   }
 }
 
 BOOST_AUTO_TEST_CASE(data_that_grow_change_hands) {
   const auto grown = [](const communicator& ranks) {
-    data_type data;
-    for (const std::int64_t trajectories : {30, 70, 200}) {
+    flow_map_data data;
+    for (const std::int64_t trajectories : {30, 70, 110}) {
       extend_data(swing, starts, fine_steps(step / 64), options_for(trajectories, 1, ranks), data);
     }
-    return numbers_of(learn(nystrom{}, swing, data, make(100, 2, ranks)));
+    return numbers_of(data, make(40, 2, ranks));
   };
   const auto expected = grown(one_rank);
-  for (const int size : {2, 5}) {
-    std::mutex guard;
-    run_ranks(size, [&](const thread_communicator& ours) {
-      const auto found = grown(ours);
-      const std::lock_guard lock(guard);
-      BOOST_TEST(same_bits(found, expected));
-    });
-  }
+  std::mutex guard;
+  run_ranks(3, [&](const thread_communicator& ours) {
+    const auto found = grown(ours);
+    const std::lock_guard lock(guard);
+    BOOST_TEST(same_bits(found, expected));
+  });
 }
 
 BOOST_AUTO_TEST_CASE(each_rank_keeps_its_own_pairs_alone) {
@@ -130,7 +131,7 @@ BOOST_AUTO_TEST_CASE(a_pass_over_the_data_is_one_sum_whatever_the_data) {
     std::mutex guard;
     run_ranks(size, [&](const thread_communicator& ours) {
       const auto data = make(trajectories, 1, ours);
-      const auto problem = make_learning_problem(run_time_family(nystrom{}), swing, data, data, {});
+      const auto problem = make_learning_problem(two_stages, swing, data, data, {});
       const traffic before = ours.seen();
       problem.loss(problem.family.starts.front().theta);
       const std::lock_guard lock(guard);
@@ -144,7 +145,7 @@ BOOST_AUTO_TEST_CASE(a_pass_over_the_data_is_one_sum_whatever_the_data) {
   constexpr std::int64_t of_column = 8 * (1 + 2 + 3);  // r^T r, J^T r and half of J^T J for two parameters
   for (const int size : {2, 4, 8}) {
     const int log2 = static_cast<int>(std::bit_width(static_cast<unsigned>(size))) - 1;
-    for (const std::int64_t trajectories : {16 * 8, 16 * 64}) {
+    for (const std::int64_t trajectories : {16 * 8, 16 * 16}) {
       const auto seen = traffic_of_pass(size, trajectories);
       BOOST_TEST(seen.received == log2);
       BOOST_TEST(seen.sent == 1);
@@ -170,7 +171,7 @@ BOOST_AUTO_TEST_CASE(an_own_loss_that_throws_on_one_rank_throws_on_all) {
       return finish.q[0] - wanted.q[0];
     };
     const own_loss of_place{"place", 1, error};
-    const auto problem = make_learning_problem(run_time_family(nystrom{}), swing, data, data, {}, of_place);
+    const auto problem = make_learning_problem(two_stages, swing, data, data, {}, of_place);
     try {
       problem.loss(problem.family.starts.front().theta);
     } catch (const std::invalid_argument& thrown) {
@@ -194,7 +195,7 @@ BOOST_AUTO_TEST_CASE(bad_data_on_one_rank_are_refused_on_all) {
       data.finish[bad - data.first_pair()].p[0] = std::nan("");
     }
     try {
-      learn(nystrom{}, swing, data, data);
+      learn(two_stages, swing, data, data);
     } catch (const std::invalid_argument& thrown) {
       const std::lock_guard lock(guard);
       BOOST_TEST(thrown.what() == words);
@@ -202,4 +203,109 @@ BOOST_AUTO_TEST_CASE(bad_data_on_one_rank_are_refused_on_all) {
     }
   });
   BOOST_TEST(refused == 3);
+}
+
+namespace {
+
+const fpu_chain<3> chain(50.0);
+const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
+
+flow_map_data data_of_chain(std::uint64_t seed) {
+  return make_flow_map_data(chain, fpu_law<3>(chain), fine_steps<>(1e-3),
+                            {.step = 0.02, .horizon = 0.1, .trajectories = 203, .seed = seed});
+}
+
+/// Term after term: the order that is not ours.
+template <class T>
+T sum_in_order(const std::vector<T>& terms) {
+  T sum = terms.front();
+  for (std::size_t m = 1; m < terms.size(); ++m) sum += terms[m];
+  return sum;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(loss_and_gradient_are_summed_over_trajectories_in_a_tree) {
+  const auto data = data_of_chain(1);
+  const metric measure(chain, data, coordinates::qp);
+  const after_steps<> loss(two_stages, chain, data, state_error(measure));
+  int losses_differ = 0;
+  int gradients_differ = 0;
+  for (const double beta1 : {0.36, 0.37, 0.38, 0.39, 0.40}) {
+    const Eigen::VectorXd at = Eigen::Vector2d(0.45, beta1);
+    const auto losses = trajectory_losses(loss, at);
+    const auto gradients = trajectory_gradients(loss, at);
+    const Eigen::VectorXd gradient = squares_at(loss, at).gradient();
+    BOOST_TEST(loss_value(loss, at) == tree_sum(losses));
+    BOOST_TEST((gradient == tree_sum(gradients)));
+    losses_differ += loss_value(loss, at) != sum_in_order(losses);
+    gradients_differ += gradient != sum_in_order(gradients);
+  }
+  BOOST_TEST(losses_differ > 0);  // not always, but another order has other bits
+  BOOST_TEST(gradients_differ > 0);
+}
+
+BOOST_AUTO_TEST_CASE(weights_are_summed_over_trajectories_in_a_tree) {
+  const auto data = data_of_chain(1);
+  const metric measure(chain, data, coordinates::qp);
+  std::vector<Eigen::VectorXd> squares;
+  for (std::size_t m = 0; m < data.trajectories(); ++m) {
+    squares.push_back(Eigen::VectorXd::Zero(12));
+    for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
+      for (Eigen::Index i = 0; i < 6; ++i) {
+        const double dq = data.finish[n].q[i] - data.start[n].q[i];
+        const double dp = data.finish[n].p[i] - data.start[n].p[i];
+        squares[m][i] += dq * dq / static_cast<double>(data.pairs());
+        squares[m][6 + i] += dp * dp / static_cast<double>(data.pairs());
+      }
+    }
+  }
+  const auto weights_of = [](const Eigen::VectorXd& sigma) {
+    Eigen::VectorXd weights = sigma;
+    for (double& x : weights) x = 1.0 / std::sqrt(x);  // Eigen's own roots round differently
+    return weights;
+  };
+  const vector<double, 6> ones = vector<double, 6>::Ones();
+  const phase_point<double, 6> zero{vector<double, 6>::Zero(), vector<double, 6>::Zero()};
+  Eigen::VectorXd weights(12);
+  measure.residual(ones, ones, zero, weights.data());
+  BOOST_TEST((weights == weights_of(tree_sum(squares))));
+  BOOST_TEST((weights != weights_of(sum_in_order(squares))));
+}
+
+BOOST_AUTO_TEST_CASE(standard_errors_are_summed_over_trajectories_in_a_tree) {
+  const auto data = data_of_chain(1);
+  const metric measure(chain, data, coordinates::qp);
+  const after_steps<> loss(two_stages, chain, data, state_error(measure));
+  const curvature bend(hessian(loss, theta), {0, 1});
+  const auto scores = trajectory_gradients(loss, theta);
+  std::vector<Eigen::VectorXd> squares;
+  for (const auto& score : scores) squares.push_back(bend.solve(score).cwiseAbs2());
+  const auto errors_of = [](const Eigen::VectorXd& sum) {
+    return Eigen::VectorXd((sum * (203.0 / 202.0)).cwiseSqrt());
+  };
+  BOOST_TEST((bend.standard_errors(scores) == errors_of(tree_sum(squares))));
+  BOOST_TEST((bend.standard_errors(scores) != errors_of(sum_in_order(squares))));
+}
+
+BOOST_AUTO_TEST_CASE(the_error_of_the_reference_is_summed_over_trajectories_in_a_tree) {
+  int differ = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const auto data = data_of_chain(seed);
+    const auto fit =
+        learn(two_stages, chain, data, data,
+              {.coordinates = coordinates::qp, .fixed = {theta[0], theta[1]}, .planned_steps = 200})
+            .summary;
+    const metric measure(chain, data, coordinates::qp);
+    std::vector<double> squares(203, 0.0);
+    std::vector<double> r(12);
+    BOOST_TEST(data.finer.size() == 16U);
+    for (const auto& [pair, finish] : data.finer) {
+      measure.residual(finish.q, finish.p, data.finish[pair], r.data());
+      for (const double x : r) squares[pair / 5] += x * x;  // five steps a trajectory
+    }
+    BOOST_TEST(fit.reference_error == std::sqrt(tree_sum(squares) / 16.0));
+    differ += fit.reference_error != std::sqrt(sum_in_order(squares) / 16.0);
+  }
+  BOOST_TEST(differ > 0);
 }

@@ -4,11 +4,14 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "../support/one_step.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
+#include "nysalt/losses/after_steps.hpp"
+#include "nysalt/losses/metric.hpp"
+#include "nysalt/losses/squares.hpp"
+#include "nysalt/losses/state_error.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 
@@ -75,19 +78,18 @@ BOOST_AUTO_TEST_CASE(the_librarys_loss_written_as_ones_own_is_learned_to_the_bit
   const auto data = data_of(1);
   const auto held_out = data_of(2);
   const metric measure(galaxy, data, coordinates::qp);
-  const loss_choice three_steps = loss_named("state:3");
-  const auto usual =
-      learn(nystrom{}, galaxy, data, held_out, {.loss = three_steps, .classical_starts = false});
-  const auto learned_with = [&](const auto& loss, int threads = 1) {
-    return learn(nystrom{}, galaxy, data, held_out, {.threads = threads, .classical_starts = false}, loss);
+  const fit_options from_one_start{.start = family.starts.front().theta};
+  fit_options by_state = from_one_start;
+  by_state.loss = loss_named("state:3");
+  const auto usual = learn(family, galaxy, data, held_out, by_state);
+  const auto learned_with = [&](const auto& loss) {
+    return learn(family, galaxy, data, held_out, from_one_start, loss);
   };
   const auto own = learned_with(state_after_three(measure));
   const auto other = learned_with(state_after_three(measure, 2.0));
   BOOST_TEST_CONTEXT(usual.summary.full() << own.summary.full() << other.summary.full()) {
-    BOOST_TEST((own.method.parameters() == usual.method.parameters()));
-    BOOST_TEST((other.method.parameters() != usual.method.parameters()));
-    BOOST_TEST(
-        (learned_with(state_after_three(measure), 2).method.parameters() == usual.method.parameters()));
+    BOOST_TEST((own.theta == usual.theta));
+    BOOST_TEST((other.theta != usual.theta));
     BOOST_TEST(own.summary.loss == usual.summary.loss);
     BOOST_TEST(own.summary.held_out_loss == usual.summary.held_out_loss);
     BOOST_TEST(own.summary.held_out_start_loss == usual.summary.held_out_start_loss);
@@ -174,7 +176,7 @@ BOOST_AUTO_TEST_CASE(where_an_own_loss_is_not_a_number_no_search_ends) {
       r[3] = r[3] + 0.0 * sqrt(bound - (finish.p[0] - wanted.p[0]) * (finish.p[0] - wanted.p[0]));
       return r;
     };
-    return learn(nystrom{}, galaxy, data, held_out, {}, own_loss{"cut off", 3, error}).summary;
+    return learn(family, galaxy, data, held_out, {}, own_loss{"cut off", 3, error}).summary;
   };
   BOOST_TEST(cut_off_at(1.0).usable);
   const auto nowhere = cut_off_at(-1.0);
