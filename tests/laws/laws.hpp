@@ -16,6 +16,7 @@
 #include "../support/rounding.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
+#include "nysalt/run_time_family.hpp"
 
 namespace nysalt::test {
 
@@ -46,6 +47,8 @@ bool suits(const model& system, const tabulated& method, bool over_slopes = true
 /// Methods for systems without a bath: rows of the classical table, members of the families drawn at random,
 /// adaptive ones at a random z; baoab, too, whose letter O is then deleted.
 std::vector<tabulated> methods_as_data(draws& random);
+/// All families. A new one is one name in a list of models.hpp.
+const std::vector<run_time_family>& families_as_data();
 /// Methods with letters O in the middle, at either end, at both, several, and next to each other.
 std::vector<tabulated> methods_for_baths(draws& random);
 
