@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Measures against their formulas, on states made by hand.
+// Error measures against their formulas, on states made by hand, and the weights of samples in means over
+// time.
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
@@ -14,6 +15,7 @@
 #include "nysalt/analysis/error_measures/relative.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/error_sum.hpp"
+#include "nysalt/analysis/sample_weights.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
@@ -64,9 +66,30 @@ struct lowered : harmonic_oscillator {
   }
 };
 
+/// A spring that is slack where it is not stretched: with lanes = 1 its energy may branch.
+struct slack_spring : harmonic_oscillator {
+  static constexpr int lanes = 1;
+  slack_spring() : harmonic_oscillator(1.0) {}
+  Eigen::Index pairs() const { return 1; }
+  template <class T>
+  T stiff_energy(const phase_point<T, 1>& x, Eigen::Index) const {
+    if (x.q[0] < 0.0) return T(0.0);
+    return 0.5 * x.q[0] * x.q[0];
+  }
+};
+
 const harmonic_oscillator oscillator(3.0);
 const auto position = relative_measure(oscillator, [](const auto& x) { return x.q[0]; });
 const auto path_of_position = path_measure(oscillator, [](const auto& x) { return x.q[0]; });
+
+/// The mean of t^k over samples of a step, by weights.
+double mean_of_power(const sample_weights& weights, double step, std::int64_t samples, int k) {
+  double sum = 0.0;
+  for (std::int64_t i = 0; i <= samples; ++i) {
+    sum += weights(i) * std::pow(static_cast<double>(i) * step, k);
+  }
+  return sum / weights.total();
+}
 
 }  // namespace
 
@@ -203,22 +226,6 @@ BOOST_AUTO_TEST_CASE(the_exchange_error_is_relative_to_the_whole_stiff_energy) {
   static_assert(!HasStiffEnergies<henon_heiles>);
 }
 
-namespace {
-
-/// A spring that is slack where it is not stretched: with lanes = 1 its energy may branch.
-struct slack_spring : harmonic_oscillator {
-  static constexpr int lanes = 1;
-  slack_spring() : harmonic_oscillator(1.0) {}
-  Eigen::Index pairs() const { return 1; }
-  template <class T>
-  T stiff_energy(const phase_point<T, 1>& x, Eigen::Index) const {
-    if (x.q[0] < 0.0) return T(0.0);
-    return 0.5 * x.q[0] * x.q[0];
-  }
-};
-
-}  // namespace
-
 BOOST_AUTO_TEST_CASE(the_exchange_error_leaves_a_system_of_one_lane_in_peace) {
   const auto measure = exchange_measure(slack_spring());
   BOOST_TEST(measure.error(measure.numbers_of(at(2.0, 0.0)), measure.numbers_of(at(-2.0, 0.0))) == 2.0);
@@ -287,4 +294,40 @@ BOOST_AUTO_TEST_CASE(a_sum_tells_where_which_lane_was_lost) {
   BOOST_TEST(errors.score(2).value == 0.0);
   BOOST_TEST(errors.score(0, 4).diverged_at.value() == 4);  // the state tells it too
   BOOST_TEST(errors.score(1, 4).diverged_at.value() == 3);
+}
+
+BOOST_AUTO_TEST_CASE(samples_alike_leave_out_the_start) {
+  const sample_weights alike(4);
+  BOOST_TEST(alike(0) == 0.0);
+  for (std::int64_t i = 1; i <= 4; ++i) BOOST_TEST(alike(i) == 1.0);
+  BOOST_TEST(alike.total() == 4.0);
+}
+
+// What is linear has its exact mean for any step; t^2 errs as the header says, by n^-2/2 at most.
+BOOST_AUTO_TEST_CASE(means_up_to_a_horizon_are_those_of_what_lies_between) {
+  for (const double step : {0.1, 0.083, 0.0999, 0.05, 0.011}) {
+    const auto samples = static_cast<std::int64_t>(std::ceil(1.0 / step - 1e-9));
+    const sample_weights weights(step, samples, 1.0);
+    const auto near = boost::test_tools::tolerance(100 * eps);  // of that many terms at most
+    BOOST_TEST(weights.total() == 1.0 / step, near);
+    BOOST_TEST(mean_of_power(weights, step, samples, 0) == 1.0, near);
+    BOOST_TEST(mean_of_power(weights, step, samples, 1) == 0.5, near);
+    BOOST_TEST(std::abs(3.0 * mean_of_power(weights, step, samples, 2) - 1.0) <= 0.51 * step * step);
+  }
+}
+
+// Ten samples alike of t^2 are 16 % above its mean, and the last of nine covers less.
+BOOST_AUTO_TEST_CASE(samples_alike_depend_on_the_step) {
+  BOOST_TEST(3.0 * mean_of_power(sample_weights(10), 0.1, 10, 2) > 1.15);
+  BOOST_TEST(3.0 * mean_of_power(sample_weights(12), 0.08, 12, 2) < 1.07);
+}
+
+BOOST_AUTO_TEST_CASE(a_horizon_ends_within_the_last_step) {
+  BOOST_CHECK_NO_THROW(sample_weights(0.1, 10, 0.901));
+  BOOST_CHECK_NO_THROW(sample_weights(0.1, 3, 0.3));  // 0.30000000000000004/0.1
+  BOOST_CHECK_NO_THROW(sample_weights(-0.1, 10, 1.0));
+  for (const double horizon : {0.9, 1.1, 0.0, -1.0, std::nan("")}) {
+    BOOST_TEST(refuses<std::invalid_argument>([&] { sample_weights(0.1, 10, horizon); },
+                                              {"sample_weights: horizon must lie", "10 steps of 0.1"}));
+  }
 }

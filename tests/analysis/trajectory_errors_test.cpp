@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
-// Many methods against one reference, along many trajectories.
+// Errors of methods along many trajectories, against one reference: with a bath and without one, by one
+// measure and by several.
 #include "nysalt/analysis/trajectory_errors.hpp"
 
 #include <boost/test/unit_test.hpp>
 
 #include <array>
-#include <atomic>
-#include <cstring>
-#include <memory>
-#include <thread>
+#include <bit>
 #include <vector>
 
-#include "../support/in_lanes.hpp"
 #include "../support/ranks_as_threads.hpp"
-#include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/analysis/error_measures/energy.hpp"
 #include "nysalt/analysis/error_measures/exchange.hpp"
@@ -21,107 +17,209 @@
 #include "nysalt/analysis/error_measures/relative.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/ensembles/gibbs.hpp"
-#include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/ensembles/typical_and_energetic.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/integrate.hpp"
 #include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/noises/along_path.hpp"
+#include "nysalt/references/fine_paths.hpp"
 #include "nysalt/references/fine_steps.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/in_bath.hpp"
-#include "nysalt/trial_run.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
 
 namespace {
 
-using state = phase_point<double, 6>;
-using pair = member<nystrom>;
-const fpu_chain<3> chain(50.0);
-const fpu_law<3> law(chain);
-const fine_steps<> reference(5e-4);
-const auto stiff_energy = [](const state& x) { return chain.stiff_energy(x); };
-const auto path = path_measure(chain, stiff_energy);
+using state = phase_point<double, Eigen::Dynamic>;
+using noise = std::vector<Eigen::VectorXd>;
+using errors = trajectory_errors_result;
 
-/// Two of one type: two half Verlets, and nearly McLachlan.
-const std::array<pair, 2> pairs{pair({.5, .375}), pair({.5, .4034})};
+/// What methods are compared on: a system with its starts, a reference, methods, and an error measure.
+struct setting {
+  std::string name;
+  model system;
+  initial_states starts;
+  detail::reference_value reference;
+  std::vector<tabulated> methods;
+  std::vector<error_measure> measures;
+  double step;
 
-/// Where one trajectory is read after the other.
-const in_lanes<fpu_chain<3>, 1> singly(chain);
-
-/// No reference: it throws when it is asked.
-struct no_reference {
-  void advance(const fpu_chain<3>&, state&, double) const { throw std::logic_error("it was asked"); }
-  no_reference finer() const { throw std::logic_error("it was asked"); }
-  std::string description() const { throw std::logic_error("it was asked"); }
-};
-
-/// Not finite after the given number of steps, all trajectories together; its finer self lasts.
-struct breaking {
-  std::int64_t steps_that_last;
-  std::shared_ptr<std::int64_t> taken = std::make_shared<std::int64_t>(0);  // by all copies
-  template <class S>
-  void advance(const S& system, state& x, double t) const {
-    reference.advance(system, x, t);
-    if ((*taken)++ >= steps_that_last) x.p[2] = NAN;
+  trajectory_options options(std::int64_t steps, std::int64_t trajectories) const {
+    return {.step = step, .steps = steps, .trajectories = trajectories, .threads = 2};
   }
-  breaking finer() const { return {1000, std::make_shared<std::int64_t>(0)}; }
-  std::string description() const { return "one that breaks"; }
+  errors judged(const std::vector<tabulated>& some, const error_measure& measure,
+                const trajectory_options& how) const {
+    return trajectory_errors(system, reference, starts, std::span<const tabulated>(some), measure, how);
+  }
 };
 
-/// The reference, but trajectories of which q_1 is near a given number are lost when they get there in time.
-struct losing {
-  double q1;
-  template <class S, class T>
-  void advance(const S& system, phase_point<T, 6>& x, double t) const {
-    reference.advance(system, x, t);
-    for (int k = 0; k < lanes_in<T>; ++k) {
-      if (lane(x.q[0], k) < q1) set_lane(x.p[2], k, NAN);
+const fpu_chain<3> chain(50.0);
+const fpu_chain<> same_chain(3, 50.0);
+const fpu_law<3> law(chain);
+const auto stiff_energy = [](const state& x) { return same_chain.stiff_energy(x); };
+const model of_chain(chain);
+
+/// Two half Verlets, and nearly McLachlan.
+const std::array<member<nystrom>, 2> pairs{member<nystrom>({.5, .375}), member<nystrom>({.5, .4034})};
+
+const tabulated by_verlet{verlet()};
+const tabulated by_baoab{baoab()};
+const tabulated by_end{thermostat<placement::end>(mclachlan2())};
+const tabulated by_halves{thermostat<placement::symmetric>(mclachlan2())};
+const tabulated by_thirds("thirds", run_time_word("OABOBAO"),
+                          std::vector<double>{1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0}, {});
+
+template <class R>
+detail::reference_value value_of(const R& reference) {
+  return detail::reference_value(detail::reference_of(of_chain, reference));
+}
+
+const setting on_the_chain{"chain",
+                           of_chain,
+                           law,
+                           value_of(fine_steps<>(5e-4)),
+                           {tabulated(pairs[0]), tabulated(pairs[1])},
+                           {energy_measure(of_chain), state_measure(of_chain), exchange_measure(same_chain),
+                            path_measure(of_chain, stiff_energy)},
+                           0.02};
+
+constexpr double friction = 0.5;
+model in_bath_of(double sigma, double damping = friction) {
+  return model(harmonic_oscillator(2.0)).in(bath::of_sigma(damping, sigma));
+}
+const model warm = in_bath_of(0.4);
+const normal_around<Eigen::Dynamic> around_zero({Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)}, 0.5,
+                                                1.0);
+setting in_the_bath(const detail::reference_value& reference, double step, const model& system = warm) {
+  return {"bath",
+          system,
+          around_zero,
+          reference,
+          {by_baoab, by_end, by_halves, by_thirds},
+          {energy_measure(system), state_measure(system)},
+          step};
+}
+/// Six of its steps are one step, in halves and in thirds.
+const setting warmed = in_the_bath(value_of(fine_paths(0.02)), 0.12);
+const std::vector<const setting*> settings{&on_the_chain, &warmed};
+
+double error_of(const setting& on, const tabulated& method, const trajectory_options& options) {
+  return on.judged({method}, on.measures[1], options).methods[0].error.mean;
+}
+
+/// The whole result, to the bit.
+std::vector<std::uint64_t> bits_of(const errors& result) {
+  std::vector<double> numbers;
+  const auto add = [&](const std::optional<estimate>& x) {
+    numbers.insert(numbers.end(), {double(x.has_value()), x ? x->mean : 0.0, x ? x->standard_error : 0.0});
+  };
+  add(result.reference_error);
+  add(result.null_model);
+  numbers.push_back(result.predictable_until.value_or(-1.0));
+  for (const method_error& one : result.methods) {
+    add(one.error);
+    numbers.push_back(one.evaluations_per_time);
+    numbers.insert(numbers.end(), one.of_each.begin(), one.of_each.end());
+    for (const auto& lost : one.diverged_at)
+      numbers.insert(numbers.end(), {double(lost.trajectory), double(lost.step)});
+  }
+  std::vector<std::uint64_t> result_bits;
+  for (const double x : numbers) result_bits.push_back(std::bit_cast<std::uint64_t>(x));
+  return result_bits;
+}
+
+/// A reference that gives another noise than that of its path, or counts how often it is asked.
+struct strange {
+  detail::reference_value of;
+  std::int64_t* asked = nullptr;
+
+  template <class T>
+  void advance(const model& system, phase_point<T, Eigen::Dynamic>& x, double t, const path_place& at,
+               std::span<vector<T, Eigen::Dynamic>> xi) const {
+    of.advance(system, x, t, at, xi);
+    if (asked != nullptr) {
+      ++*asked;
+      return;
+    }
+    auto y = x;
+    of.advance(system, y, t, {at.seed + 1, at.trajectory, at.step}, xi);
+  }
+  strange finer() const { return {of.finer(), asked}; }
+  std::string description() const { return "strange"; }
+};
+
+/// Of one trajectory at a time along paths that are kept whole.
+double error_by_hand(const tabulated& method, const trajectory_options& options, std::size_t parts) {
+  double squares = 0.0;
+  for (std::int64_t m = 0; m < options.trajectories; ++m) {
+    const auto trajectory = static_cast<std::uint64_t>(m);
+    recorded_path<double, Eigen::Dynamic> path(options.step / double(parts), friction, trajectory);
+    auto x = around_zero(options.seed, trajectory);
+    auto y = x;
+    std::vector<state> expected;
+    for (std::int64_t n = 0; n < options.steps; ++n) {
+      noise xi(parts, Eigen::VectorXd(1));
+      warmed.reference.advance(warm, x, options.step, path_place{options.seed, trajectory, n}, std::span(xi));
+      for (const auto& one : xi) path.add(one);
+      expected.push_back(x);
+    }
+    const along_path<double, Eigen::Dynamic> along(
+        path, intervals_of_noise(word_of(method), method.coefficients()), options.step);
+    const auto stepper = make_stepper(warm, method, options.step, along);
+    for (std::int64_t n = 0; n < options.steps; ++n) {
+      stepper.step(y, trajectory, n);
+      const state& wanted = expected[static_cast<std::size_t>(n)];
+      squares += std::pow(2.0 * (y.q[0] - wanted.q[0]), 2) + std::pow(y.p[0] - wanted.p[0], 2);
     }
   }
-  losing finer() const { return {-1e9}; }
-  std::string description() const { return "one that loses"; }
-};
-
-bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-bool same_bits(const estimate& a, const estimate& b) {
-  return same_bits(a.mean, b.mean) && same_bits(a.standard_error, b.standard_error);
-}
-bool same_bits(const trajectory_errors_result& a, const trajectory_errors_result& b) {
-  bool same = same_bits(a.reference_error.value(), b.reference_error.value()) &&
-              same_bits(a.null_model.value(), b.null_model.value()) &&
-              same_bits(a.predictable_until.value(), b.predictable_until.value());
-  const auto numbers = [](double x, double y) { return same_bits(x, y); };
-  const auto lost = [](const diverged_trajectory& x, const diverged_trajectory& y) {
-    return x.trajectory == y.trajectory && x.step == y.step;
-  };
-  for (std::size_t k = 0; k < a.methods.size(); ++k) {
-    const method_error& x = a.methods[k];
-    const method_error& y = b.methods[k];
-    same = same && same_bits(x.error, y.error) && std::ranges::equal(x.of_each, y.of_each, numbers) &&
-           std::ranges::equal(x.diverged_at, y.diverged_at, lost);
-  }
-  return same;
+  return std::sqrt(squares / static_cast<double>(options.trajectories * options.steps));
 }
 
 }  // namespace
 
+// A reference of the method's own steps is stepped without merging, which rounds otherwise: some 20 roundings
+// of numbers below 10 in each of up to 100 steps, which magnify little.
 BOOST_AUTO_TEST_CASE(a_method_has_no_error_against_itself) {
-  const trajectory_options options{.step = .01, .steps = 20, .trajectories = 5};
-  const auto of = [&](const auto& method) {
-    return trajectory_errors(chain, fine_steps<verlet>(.01), law, method, path, options);
+  const double rounding = 100 * 20 * eps * 10.0;
+  const auto at_own_step = [](const setting& like, const auto& reference, double step) {
+    setting own = like;
+    own.reference = value_of(reference);
+    own.step = step;
+    return own;
   };
-  // Stepping without merging differs by rounding, some 20 of them a step, which 20 steps magnify little.
-  const auto own = of(verlet());
-  BOOST_TEST(own.methods[0].error.mean <= 20 * 20 * eps * 10.0);
-  BOOST_TEST(of(verlet_2x()).methods[0].error.mean > 1e-3);
-  // What "finer" means here: two Verlets for one, as the method that was just judged.
+  const auto coarse = at_own_step(on_the_chain, fine_steps<verlet>(.01), .01);
+  BOOST_TEST(error_of(coarse, by_verlet, coarse.options(20, 5)) <= rounding);
+  BOOST_TEST(error_of(coarse, tabulated(verlet_2x()), coarse.options(20, 5)) > 1e-3);
+  const auto baoabs = at_own_step(warmed, fine_paths(0.1), 0.1);
+  const auto ends = at_own_step(warmed, fine_paths(0.1, thermostat<placement::end>(mclachlan2())), 0.1);
+  BOOST_TEST(error_of(baoabs, by_baoab, baoabs.options(100, 20)) <= rounding);
+  BOOST_TEST(error_of(ends, by_end, ends.options(100, 20)) <= rounding);
+  BOOST_TEST(error_of(baoabs, by_end, ends.options(100, 20)) > 1e-3);
+  BOOST_TEST(error_of(at_own_step(warmed, fine_paths(0.05), 0.1), by_baoab, baoabs.options(100, 20)) > 1e-3);
+
+  // What "finer" means: two Verlets for one, as the method that was just judged.
+  const auto own = coarse.judged({by_verlet}, coarse.measures[3], coarse.options(20, 5));
+  const auto twice = coarse.judged({tabulated(verlet_2x())}, coarse.measures[3], coarse.options(20, 5));
   BOOST_TEST(own.reference == "verlet with step 0.01");
-  BOOST_TEST(own.reference_error.value().mean == of(verlet_2x()).methods[0].error.mean,
+  BOOST_TEST(own.reference_error.value().mean == twice.methods[0].error.mean,
              boost::test_tools::tolerance(.1));  // relative to either of two paths that differ by 3 %
+}
+
+// Where noise is weak the steps of BAOAB are of order two: the error that a reference tells, 4/3 of its
+// difference from half the step, is that against a 64th of the step but for (omega h)^2 = 4 %, here of its
+// fourth part at most.
+BOOST_AUTO_TEST_CASE(a_reference_in_a_bath_tells_its_own_error) {
+  const model quiet = in_bath_of(1e-6);
+  const auto against = [&](double fine) {
+    const setting on = in_the_bath(value_of(fine_paths(fine)), 0.1, quiet);
+    return on.judged({by_baoab}, on.measures[1], on.options(50, 16));
+  };
+  const double told = against(0.1).reference_error->mean;
+  const double known = against(0.1 / 64.0).methods[0].error.mean;
+  const auto near = boost::test_tools::tolerance(0.01);
+  BOOST_TEST(known > 1e-3);
+  BOOST_TEST(told == known, near);
+  BOOST_TEST(0.75 * told != known, near);
 }
 
 /// The formulas once more, over paths that are kept; means over time by all samples alike, or up to a horizon
@@ -143,14 +241,14 @@ BOOST_AUTO_TEST_CASE(streaming_gives_what_the_formula_says) {
     double exchanged = 0.0;
     double whole = 0.0;
     for (std::uint64_t m = 0; m < trajectories; ++m) {
-      auto x = law(7, m);
-      auto y = x;
+      state x = on_the_chain.starts(7, m);
+      state y = x;
       double squares = 0.0;
       double relative_squares = 0.0;
       for (int n = 0; n <= steps; ++n) {
         if (n > 0) {
-          reference.advance(chain, x, .01);
-          make_stepper(chain, verlet(), .01).step(y);
+          on_the_chain.reference.advance(of_chain, x, .01, {}, {});
+          make_stepper(of_chain, by_verlet, .01).step(y);
         }
         const double share = weight(n) / all;
         const double difference = stiff_energy(y) - stiff_energy(x);
@@ -159,7 +257,7 @@ BOOST_AUTO_TEST_CASE(streaming_gives_what_the_formula_says) {
         size += stiff_energy(x) * stiff_energy(x) * share / trajectories;
         whole += stiff_energy(x) * share;
         for (Eigen::Index j = 0; j < 3; ++j) {
-          exchanged += std::abs(chain.stiff_energy(y, j) - chain.stiff_energy(x, j)) * share;
+          exchanged += std::abs(same_chain.stiff_energy(y, j) - same_chain.stiff_energy(x, j)) * share;
         }
       }
       mean += std::sqrt(squares) / trajectories;
@@ -167,406 +265,187 @@ BOOST_AUTO_TEST_CASE(streaming_gives_what_the_formula_says) {
     }
     trajectory_options options{.step = .01, .steps = steps, .trajectories = trajectories, .seed = 7};
     options.horizon = horizon;
-    const auto error = [&](const auto& measure) {
-      return trajectory_errors(chain, reference, law, verlet(), measure, options).methods[0].error.mean;
+    const auto error = [&](const error_measure& measure) {
+      return on_the_chain.judged({by_verlet}, measure, options).methods[0].error.mean;
     };
     // Merging rounds otherwise, 1e-16 a step, and errors of 1e-2 are differences of numbers near 2.
     const auto near = boost::test_tools::tolerance(1e-10);
-    BOOST_TEST(error(path) == mean / std::sqrt(size), near);
-    BOOST_TEST(error(relative_measure(chain, stiff_energy)) == mean_relative, near);
-    BOOST_TEST(error(exchange_measure(chain)) == exchanged / whole, near);
+    BOOST_TEST(error(on_the_chain.measures[3]) == mean / std::sqrt(size), near);
+    BOOST_TEST(error(relative_measure(of_chain, stiff_energy)) == mean_relative, near);
+    BOOST_TEST(error(on_the_chain.measures[2]) == exchanged / whole, near);
   }
 }
 
-// Where o_ref is 2 + q_1 with q_1 near 0, and 2 + q_1 of a chain that is far to the left: on each it keeps
-// its sign, on both together it does not; and sin(50 t) changes it on the way.
-BOOST_AUTO_TEST_CASE(a_relative_error_needs_an_observable_of_one_sign) {
-  state left = law(1, 1);
-  left.q.array() -= 10.0;  // the whole chain, whose energy does not mind but for the walls' springs
-  const auto judge = [&](const std::vector<state>& starts, const auto& observable) {
-    trajectory_errors(chain, reference, listed<6>(starts), verlet(), relative_measure(chain, observable),
-                      {.step = .001, .steps = 20, .trajectories = std::ssize(starts)});
-  };
-  const auto far = [](const state& x) { return 5.0 + x.q[2]; };
-  BOOST_CHECK_NO_THROW(judge({law(1, 0)}, far));
-  BOOST_CHECK_NO_THROW(judge({left}, far));
-  BOOST_TEST(refuses<std::invalid_argument>(
-      [&] {
-        judge({law(1, 0), left}, far);
-      },
-      {"relative error", "change its sign", "path error"}));
-  const auto elongation = [](const state& x) { return x.q[1] - x.q[0]; };
-  trajectory_options longer{.step = .002, .steps = 100, .trajectories = 1};
-  BOOST_TEST(refuses<std::invalid_argument>(
-      [&] {
-        trajectory_errors(chain, reference, law, verlet(), relative_measure(chain, elongation), longer);
-      },
-      {"relative error", "change its sign"}));
-  BOOST_CHECK_NO_THROW(
-      trajectory_errors(chain, reference, law, verlet(), path_measure(chain, elongation), longer));
+// 150 steps are three intervals, of which the path is kept one at a time.
+BOOST_AUTO_TEST_CASE(streaming_along_noise_gives_what_the_formula_says) {
+  trajectory_options options{.step = 0.12, .steps = 150, .trajectories = 11, .seed = 7};
+  const auto found = warmed.judged(warmed.methods, warmed.measures[1], options);
+  const auto near = boost::test_tools::tolerance(1e-10);  // errors of 1e-2 of numbers near 1, 150 steps
+  const std::array<std::size_t, 4> parts{1, 1, 2, 3};
+  for (std::size_t n = 0; n < parts.size(); ++n) {
+    BOOST_TEST(found.methods[n].error.mean == error_by_hand(warmed.methods[n], options, parts[n]), near);
+  }
+  options.seed = 8;
+  BOOST_TEST(found.methods[2].error.mean != error_by_hand(by_halves, options, 2), near);
 }
 
 BOOST_AUTO_TEST_CASE(errors_of_second_order_fall_by_four_with_the_step) {
-  const auto error = [](const auto& measure, double step) {
+  const auto error = [](const error_measure& measure, double step) {
     const auto steps = static_cast<std::int64_t>(.5 / step + .5);
     const trajectory_options options{.step = step, .steps = steps, .trajectories = 20};
-    const auto result = trajectory_errors(chain, reference, law, verlet(), measure, options);
+    const auto result = trajectory_errors(chain, fine_steps<>(5e-4), law, verlet(), measure, options);
     if (result.reference_error)
       BOOST_TEST(result.reference_error->mean < 1e-5 * result.methods[0].error.mean);
     return result.methods[0].error.mean;
   };
-  const auto ratio = [&](const auto& measure) { return error(measure, .005) / error(measure, .0025); };
   // The next term is z^2 = 1/16 of the first, so that the ratio is off by 6 % or so.
-  const auto near = boost::test_tools::tolerance(.08);
-  BOOST_TEST(ratio(path) == 4.0, near);
-  BOOST_TEST(ratio(state_measure(chain)) == 4.0, near);
-  BOOST_TEST(ratio(exchange_measure(chain)) == 4.0, near);
-  BOOST_TEST(ratio(energy_measure(chain)) == 4.0, near);
+  for (const error_measure& measure : on_the_chain.measures) {
+    BOOST_TEST(error(measure, .005) / error(measure, .0025) == 4.0, boost::test_tools::tolerance(.08));
+  }
 }
 
-BOOST_AUTO_TEST_CASE(methods_beside_each_other_do_not_notice) {
-  const trajectory_options options{.step = .02, .steps = 25, .trajectories = 20};
-  const auto both = trajectory_errors(chain, reference, law, pairs, path, options);
-  const auto span = trajectory_errors(chain, reference, law, std::span<const pair>(pairs), path, options);
-  BOOST_REQUIRE(both.methods.size() == 2U);
-  for (std::size_t k = 0; k < 2; ++k) {
-    const auto alone = trajectory_errors(chain, reference, law, pairs[k], path, options);
-    BOOST_TEST(same_bits(both.methods[k].error, alone.methods[0].error));
-    BOOST_TEST(same_bits(both.methods[k].error, span.methods[k].error));
+// Methods that share a path in a bath have noise in common parts, whose sums round otherwise.
+BOOST_AUTO_TEST_CASE(beside_others_a_method_has_the_error_that_it_has_alone) {
+  for (const setting* on : settings) {
+    const auto options = on->options(70, 20);
+    const auto table = on->judged(on->methods, on->measures[1], options);
+    for (std::size_t n = 0; n < on->methods.size(); ++n) {
+      const double alone = error_of(*on, on->methods[n], options);
+      const auto near = boost::test_tools::tolerance(on == &warmed ? 1e-10 : 0.0);
+      BOOST_TEST(table.methods[n].error.mean == alone, near);
+      BOOST_TEST(table.methods[(n + 1) % on->methods.size()].error.mean != alone,
+                 boost::test_tools::tolerance(1e-3));
+    }
+    BOOST_TEST(table.reference == on->reference.description());
   }
+  // An array, and a span of it, of methods by their type.
+  const auto options = on_the_chain.options(25, 20);
+  const auto& measure = on_the_chain.measures[3];
+  const auto both = trajectory_errors(chain, fine_steps<>(5e-4), law, pairs, measure, options);
+  const auto of_span = trajectory_errors(chain, fine_steps<>(5e-4), law,
+                                         std::span<const member<nystrom>>(pairs), measure, options);
+  const auto as_data = on_the_chain.judged(on_the_chain.methods, measure, options);
+  BOOST_TEST((bits_of(both) == bits_of(as_data) && bits_of(of_span) == bits_of(as_data)));
   BOOST_TEST(both.methods[0].error.mean > 3.0 * both.methods[1].error.mean);
-  BOOST_TEST(both.reference == reference.description());
 }
 
-BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_no_bit) {
-  // At z = 2.5 some of these diverge.
-  for (const double step : {.02, .05}) {
-    const auto run = [&](int threads) {
-      const trajectory_options options{.step = step, .steps = 20, .trajectories = 50, .threads = threads};
-      return trajectory_errors(chain, reference, law, std::array<verlet, 1>(), state_measure(chain), options);
-    };
-    const auto one = run(1);
-    for (const int threads : {2, 5}) {
-      const auto several = run(threads);
-      BOOST_TEST(same_bits(several.methods[0].error, one.methods[0].error));
-      BOOST_TEST(same_bits(several.reference_error.value(), one.reference_error.value()));
-      BOOST_TEST(several.methods[0].diverged == one.methods[0].diverged);
-      BOOST_TEST(several.methods[0].diverged_at.size() == one.methods[0].diverged_at.size());
-    }
-    BOOST_TEST((one.methods[0].diverged > 0) == (step == .05));
-  }
-}
-
-// Some diverge; of four leaves five ranks have none or one.
-BOOST_AUTO_TEST_CASE(the_number_of_ranks_changes_no_bit) {
-  std::vector<std::int64_t> told;
-  const auto run = [&](const communicator& ranks, int threads, std::uint64_t seed) {
-    trajectory_options options{
-        .step = .05, .steps = 20, .trajectories = 50, .seed = seed, .threads = threads, .ranks = &ranks};
-    options.null_model = true;
-    options.perturbation = 1e-6;
-    options.progress = [&told, &ranks](std::int64_t done) {
-      if (!ranks.is_first()) throw std::logic_error("not the first rank told it");
-      told.push_back(done);
-    };
-    return trajectory_errors(chain, reference, law, std::array<verlet, 1>(), state_measure(chain), options);
-  };
-  const auto expected = run(one_rank, 1, 1);
-  BOOST_TEST(expected.methods[0].diverged > 0);
-  BOOST_TEST(!same_bits(run(one_rank, 1, 2), expected));
-  for (const int size : {1, 2, 3, 5}) {
-    for (const int threads : {1, 2}) {
-      told.clear();
-      std::vector<trajectory_errors_result> found(static_cast<std::size_t>(size));
-      run_ranks(size, [&](const communicator& ranks) {
-        found[static_cast<std::size_t>(ranks.rank())] = run(ranks, threads, 1);
-      });
-      for (const auto& result : found) BOOST_TEST(same_bits(result, expected));
-      BOOST_REQUIRE(!told.empty());
-      BOOST_TEST(told.back() == 50);
-    }
-  }
-}
-
-// Some diverge, at steps of their own; 37 trajectories fill no number of lanes.
-BOOST_AUTO_TEST_CASE(the_number_of_lanes_changes_no_bit) {
-  for (const double step : {.02, .05}) {
-    const auto run = [&](const auto& system, const auto& measure) {
-      const trajectory_options options{.step = step, .steps = 130, .trajectories = 37, .threads = 2};
-      return trajectory_errors(system, reference, law, verlet(), measure(system), options);
-    };
-    const auto by_state = [](const auto& system) { return state_measure(system); };
-    const auto by_path = [](const auto& system) { return path_measure(system, stiff_energy); };
-    const auto by_energy = [](const auto& system) { return energy_measure(system); };
-    const auto by_exchange = [](const auto& system) { return exchange_measure(system); };
-    const auto agree = [&](const auto& measure) {
-      const auto one = run(singly, measure);
-      const auto same = [&](const auto& other) {
-        const auto& found = other.methods[0];
-        const auto& expected = one.methods[0];
-        BOOST_TEST(same_bits(found.error, expected.error));
-        BOOST_REQUIRE(found.diverged == expected.diverged);
-        for (std::size_t i = 0; i < expected.diverged_at.size(); ++i) {
-          BOOST_TEST(found.diverged_at[i].trajectory == expected.diverged_at[i].trajectory);
-          BOOST_TEST(found.diverged_at[i].step == expected.diverged_at[i].step);
+// At a step of .1, z = 2.5 of each half, some diverge, at steps that the measures see differently.
+BOOST_AUTO_TEST_CASE(each_measure_says_what_it_says_alone) {
+  for (const setting* on : settings) {
+    for (const double step : {on->step, on == &warmed ? 1.2 : 0.1}) {
+      for (const bool more : {false, true}) {
+        auto options = on->options(100, 37);
+        options.step = step;
+        options.null_model = more;
+        if (more) options.perturbation = 1e-6;
+        const auto together =
+            trajectory_errors(on->system, on->reference, on->starts, std::span<const tabulated>(on->methods),
+                              std::span(on->measures), options);
+        BOOST_REQUIRE(together.size() == on->measures.size());
+        for (std::size_t i = 0; i < together.size(); ++i) {
+          const auto alone = on->judged(on->methods, on->measures[i], options);
+          BOOST_TEST((bits_of(together[i]) == bits_of(alone)));
+          BOOST_TEST((bits_of(together[(i + 1) % together.size()]) != bits_of(alone)));
+          BOOST_TEST(alone.null_model.has_value() == (more && on->measures[i].needs_reference));
+          BOOST_TEST(alone.predictable_until.has_value() == (more && on->measures[i].needs_reference));
         }
-        if (one.reference_error) BOOST_TEST(same_bits(*other.reference_error, *one.reference_error));
-      };
-      same(run(chain, measure));
-      BOOST_TEST((one.methods[0].diverged > 0) == (step == .05));
-    };
-    agree(by_state);
-    agree(by_path);
-    agree(by_energy);
-    agree(by_exchange);
+        BOOST_TEST((together[1].methods[0].diverged > 0) == (step > on->step));
+      }
+    }
   }
 }
 
-// At z = 2.5 Verlet is unstable and magnifies stiff motion by 4 in a step; in 8 steps a chain that hardly
-// moves does not get there.
-BOOST_AUTO_TEST_CASE(diverged_trajectories_are_told_and_left_out) {
-  constexpr std::int64_t steps = 8;
-  const state at_rest{vector<double, 6>::Constant(1e-3), vector<double, 6>::Constant(1e-3)};
-  const auto measure = relative_measure(chain, [](const state& x) { return 20.0 + x.q[0]; });
-  const auto of = [&](const std::vector<state>& starts) {
-    const trajectory_options options{.step = .05, .steps = steps, .trajectories = std::ssize(starts)};
-    return trajectory_errors(chain, reference, listed<6>(starts), verlet(), measure, options).methods[0];
+// Once along each of 20 trajectories, and along 16 for the finer one; as often for perturbed starts. None is
+// needed if energies alone are compared.
+BOOST_AUTO_TEST_CASE(one_reference_serves_all_measures) {
+  const model singly{in_lanes<fpu_chain<3>, 1>(chain)};
+  const auto asked = [&](const std::vector<std::size_t>& chosen, std::optional<double> perturbation) {
+    std::int64_t count = 0;
+    std::vector<error_measure> measures;
+    for (const std::size_t i : chosen) measures.push_back(on_the_chain.measures[i]);
+    const trajectory_options options{
+        .step = .02, .steps = 5, .trajectories = 20, .null_model = true, .perturbation = perturbation};
+    const auto found = trajectory_errors(singly, strange{on_the_chain.reference, &count}, on_the_chain.starts,
+                                         std::span<const tabulated>(on_the_chain.methods),
+                                         std::span<const error_measure>(measures), options);
+    BOOST_TEST(found[0].methods[0].error.mean > 0.0);
+    BOOST_TEST(found[0].reference_error.has_value() == measures[0].needs_reference);
+    BOOST_TEST(found[0].reference.empty() != measures[0].needs_reference);
+    return count;
   };
-  const auto all = of({law(1, 0), at_rest, law(1, 1)});
-  const auto alone = of({at_rest});
-  BOOST_TEST(all.diverged == 2);
-  BOOST_REQUIRE(all.diverged_at.size() == 2U);
-  BOOST_TEST(all.diverged_at[0].trajectory == 0);
-  BOOST_TEST(all.diverged_at[1].trajectory == 2);
-  for (const auto& [trajectory, step] : all.diverged_at) {
-    const auto start = law(1, trajectory == 0 ? 0U : 1U);
-    BOOST_TEST(step == integrate(chain, verlet(), .05, start, steps).diverged_at.value());
-  }
-  BOOST_TEST(alone.diverged == 0);
-  BOOST_TEST(same_bits(all.error.mean, alone.error.mean));
-  BOOST_TEST(std::isnan(all.error.standard_error));
-  const auto none_left = of({law(1, 0)});
-  BOOST_TEST(none_left.diverged == 1);
-  BOOST_TEST(std::isnan(none_left.error.mean));
-  BOOST_TEST(none_left.evaluations_per_time * .05 * steps == 9.0, boost::test_tools::tolerance(8 * eps));
+  BOOST_TEST(asked({1}, {}) == 5 * (20 + 16));
+  BOOST_TEST(asked({1, 0, 2}, {}) == 5 * (20 + 16));
+  BOOST_TEST(asked({1, 0, 2}, 1e-6) == 5 * (20 + 2 * 16));
+  BOOST_TEST(asked({0, 0}, 1e-6) == 0);
 }
 
-// The observable has no value at the method's fifth step, where the state itself is sound.
-BOOST_AUTO_TEST_CASE(an_error_without_a_value_counts_as_diverged) {
-  std::int64_t looks = 0;
-  const auto measure = path_measure(singly, [&](const state&) {
-    ++looks;  // 1 at the start, 10 along the reference and 10 along the finer one, then the method's
-    return looks > 21 + 4 ? NAN : 1.0;
-  });
-  const trajectory_options options{.step = .02, .steps = 10, .trajectories = 1};
-  const auto result = trajectory_errors(singly, reference, law, verlet(), measure, options).methods[0];
-  BOOST_TEST(result.diverged == 1);
-  BOOST_TEST(result.diverged_at.at(0).step == 5);
+BOOST_AUTO_TEST_CASE(methods_share_the_noise_of_the_reference) {
+  const auto along = [](const auto& reference, std::size_t measure) {
+    const setting& on = warmed;
+    return trajectory_errors(warm, reference, around_zero, std::span<const tabulated>(on.methods),
+                             on.measures[measure], {.step = 0.1, .steps = 20, .trajectories = 200});
+  };
+  const auto fine = value_of(fine_paths(0.1 / 60.0));
+  const auto together = along(fine, 1);
+  const auto apart = along(strange{fine}, 1);
+  // A method's own error: w sigma h/2 = .04 where q learns of the noise at the end of a step, less elsewhere.
+  // Other noise: kT = sigma^2/(2 gamma) = .16, and e^2 = 4 (q - q')^2 + (p - p')^2 goes to 4 kT; with
+  // 1 - exp(-gamma t) at t = 2, averaged over time, .6 or so is left.
+  for (std::size_t n = 0; n < warmed.methods.size(); ++n) {
+    BOOST_TEST(together.methods[n].error.mean < 0.06);
+    BOOST_TEST(apart.methods[n].error.mean > 0.3);
+    BOOST_TEST(apart.methods[n].error.mean < 0.8);
+  }
+  BOOST_TEST(together.reference_error->mean < 0.05 * together.methods[0].error.mean);
+  BOOST_TEST(together.reference.starts_with("baoab with step"));
+  // The energy error needs the noise alone.
+  const auto energies = along(fine, 0);
+  BOOST_TEST(!energies.reference_error.has_value());
+  BOOST_TEST(energies.reference.empty());
+  for (const auto& method : energies.methods) BOOST_TEST(method.error.mean > 0.0);
+  BOOST_TEST(along(strange{fine}, 0).methods[0].error.mean != energies.methods[0].error.mean);
+}
+
+// Parts of .12 in thirds would not be multiples of .06.
+BOOST_AUTO_TEST_CASE(without_sigma_there_is_no_noise_and_no_part) {
+  for (const double damping : {0.0, friction}) {
+    const setting quiet = in_the_bath(value_of(fine_paths(0.06)), 0.12, in_bath_of(0.0, damping));
+    const auto found = quiet.judged(quiet.methods, quiet.measures[1], quiet.options(20, 5));
+    for (const auto& method : found.methods) BOOST_TEST(method.error.mean < 0.05);
+    BOOST_TEST(found.methods[0].error.mean > found.reference_error->mean);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(evaluations_are_counted_for_one_whole_trajectory) {
-  const trajectory_options options{.step = .01, .steps = 20, .trajectories = 3};
-  const auto evaluations = [&](const auto& method) {
-    const auto result = trajectory_errors(chain, reference, law, method, path, options);
-    return result.methods[0].evaluations_per_time * .2;
-  };
-  const auto near = boost::test_tools::tolerance(8 * eps);
-  BOOST_TEST(evaluations(verlet()) == 21.0, near);  // one for each step, and one to begin
-  BOOST_TEST(evaluations(verlet_2x()) == 41.0, near);
-  BOOST_TEST(evaluations(mclachlan2()) == 40.0, near);  // none to begin with a drift
-  BOOST_TEST(evaluations(srkn6b()) == 121.0, near);
-}
-
-BOOST_AUTO_TEST_CASE(the_energy_error_asks_for_no_reference) {
-  const trajectory_options options{.step = .01, .steps = 20, .trajectories = 3};
-  const auto result = trajectory_errors(chain, no_reference(), law, verlet(), energy_measure(chain), options);
-  BOOST_TEST(result.methods[0].error.mean > 0.0);
-  BOOST_TEST(!result.reference_error.has_value());
-  BOOST_TEST(result.reference.empty());
-  BOOST_CHECK_THROW(trajectory_errors(chain, no_reference(), law, verlet(), path, options), std::logic_error);
+  const std::vector<tabulated> methods{by_verlet, tabulated(verlet_2x()), tabulated(mclachlan2()),
+                                       tabulated(srkn6b())};
+  const auto result =
+      on_the_chain.judged(methods, on_the_chain.measures[0], {.step = .01, .steps = 20, .trajectories = 3});
+  // Verlet: one for each step, and one to begin; McLachlan: none to begin with a drift.
+  const std::array<double, 4> expected{21.0, 41.0, 40.0, 121.0};
+  for (std::size_t n = 0; n < methods.size(); ++n) {
+    BOOST_TEST(result.methods[n].evaluations_per_time * .2 == expected[n],
+               boost::test_tools::tolerance(8 * eps));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(progress_counts_trajectories_in_turn) {
-  for (const int threads : {1, 3}) {
-    std::vector<std::int64_t> told;
-    const trajectory_options options{
-        .step = .01, .steps = 2, .trajectories = 40, .threads = threads, .progress = [&](std::int64_t done) {
+  for (const int ranks : {1, 3}) {
+    for (const int threads : {1, 3}) {
+      std::vector<std::int64_t> told;
+      run_ranks(ranks, [&](const communicator& all) {
+        auto options = on_the_chain.options(2, 40);
+        options.threads = threads;
+        options.ranks = &all;
+        options.progress = [&](std::int64_t done) {
+          if (!all.is_first()) throw std::logic_error("not the first rank told it");
           told.push_back(done);
-        }};
-    trajectory_errors(chain, reference, law, verlet(), energy_measure(chain), options);
-    BOOST_REQUIRE(!told.empty());
-    BOOST_TEST(told.back() == 40);
-    for (std::size_t i = 1; i < told.size(); ++i) BOOST_TEST(told[i - 1] < told[i]);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(a_reference_that_breaks_is_told_of) {
-  const trajectory_options options{.step = .01, .steps = 5, .trajectories = 30};
-  const auto judge = [&](std::int64_t lasts) {
-    trajectory_errors(singly, breaking{lasts}, law, verlet(), path_measure(singly, stiff_energy), options);
-  };
-  BOOST_CHECK_NO_THROW(judge(30 * 5));
-  BOOST_TEST(refuses<std::runtime_error>(
-      [&] { judge(3); }, {"trajectory 0 ", "one that breaks", "must be finite", "at step 4"}));
-  BOOST_TEST(
-      refuses<std::runtime_error>([&] { judge(5 + 2); }, {"trajectory 1 ", "must be finite", "at step 3"}));
-  const auto log_of_q = path_measure(chain, [](const state& x) { return std::log(x.q[0] - 10.0); });
-  BOOST_TEST(refuses<std::runtime_error>(
-      [&] { trajectory_errors(chain, reference, law, verlet(), log_of_q, options); },
-      {"trajectory 0 ", "path error", "step 1"}));
-}
-
-// Two are lost, the later one earlier; it is the first of them that is named, whichever trajectories are
-// stepped beside it.
-BOOST_AUTO_TEST_CASE(the_first_trajectory_that_is_lost_is_named_by_any_number_of_lanes) {
-  const trajectory_options options{.step = .01, .steps = 60, .trajectories = 30};
-  std::vector<state> starts;
-  for (std::uint64_t m = 0; m < 30; ++m) starts.push_back(law(1, m));
-  starts[5].p[0] = -4.0;  // down from .7
-  starts[11].p[0] = -8.0;
-  const auto named = [&](const auto& system) {
-    try {
-      trajectory_errors(system, losing{.4}, listed<6>(starts), verlet(), state_measure(system), options);
-    } catch (const std::runtime_error& error) {
-      return std::string(error.what());
+        };
+        on_the_chain.judged({by_verlet}, on_the_chain.measures[0], options);
+      });
+      BOOST_REQUIRE(!told.empty());
+      BOOST_TEST(told.back() == 40);
+      for (std::size_t i = 1; i < told.size(); ++i) BOOST_TEST(told[i - 1] < told[i]);
     }
-    return std::string("none");
-  };
-  const auto alone = named(singly);
-  BOOST_TEST_CONTEXT(alone) { BOOST_TEST(alone.find("trajectory 5 ") == 0U); }
-  BOOST_TEST(named(chain) == alone);
-}
-
-// Trajectories 20 and 31 have an energy of 0, and the earlier one is seen late.
-BOOST_AUTO_TEST_CASE(the_first_trajectory_in_trouble_is_named_by_any_number_of_threads) {
-  std::vector<state> starts;
-  for (std::uint64_t m = 0; m < 40; ++m) starts.push_back(law(1, m));
-  starts[31].p[2] = INFINITY;
-  starts[20].q[0] = NAN;
-  for (const int threads : {1, 2, 5}) {
-    const trajectory_options options{.step = .01, .steps = 5, .trajectories = 40, .threads = threads};
-    BOOST_TEST(refuses<std::invalid_argument>(
-        [&] { trajectory_errors(chain, reference, listed<6>(starts), verlet(), path, options); },
-        {"start 20 ", "must be finite"}));
   }
-}
-
-// On the second rank of two and of three one is seen at once and one late, on the last one another.
-BOOST_AUTO_TEST_CASE(all_ranks_name_the_first_trajectory_in_trouble) {
-  std::vector<state> starts;
-  for (std::uint64_t m = 0; m < 60; ++m) starts.push_back(law(1, m));
-  for (const std::size_t m : {58U, 40U, 33U}) starts[m].q[0] = NAN;
-  const auto said = [&](const communicator& ranks) {
-    try {
-      trajectory_errors(chain, reference, listed<6>(starts), verlet(), path,
-                        {.step = .01, .steps = 5, .trajectories = 60, .ranks = &ranks});
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing");
-  };
-  const std::string expected = said(one_rank);
-  BOOST_TEST_CONTEXT(expected) { BOOST_TEST(expected.find("start 33 ") != std::string::npos); }
-  for (const int size : {2, 3, 5}) {
-    std::vector<std::string> found(static_cast<std::size_t>(size));
-    run_ranks(size, [&](const communicator& ranks) {
-      found[static_cast<std::size_t>(ranks.rank())] = said(ranks);
-    });
-    for (const auto& message : found) BOOST_TEST(message == expected);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
-  const auto judge = [](const trajectory_options& options, const auto& measure) {
-    trajectory_errors(chain, reference, law, verlet(), measure, options);
-  };
-  const auto refused = [&](const trajectory_options& options, auto... words) {
-    return refuses<std::invalid_argument>([&] { judge(options, path); }, {words...});
-  };
-  BOOST_CHECK_NO_THROW(judge({.step = .01, .steps = 1, .trajectories = 1}, path));
-  BOOST_TEST(refused({.step = .01, .steps = 0, .trajectories = 1}, "0 steps", "at least 1"));
-  BOOST_TEST(refused({.step = .01, .steps = 1, .trajectories = 0}, "0 trajectories"));
-  BOOST_TEST(refused({.step = 0.0, .steps = 1}, "step must be"));
-  BOOST_TEST(refused({.step = NAN, .steps = 1}, "step must be"));
-  BOOST_TEST(refused({.step = .01, .steps = 1, .threads = 0}, "thread"));
-  BOOST_TEST(refused({.step = .01, .steps = 1, .threads = 1'000'000}, "fit into memory", "threads"));
-  BOOST_TEST(refused({.step = .01, .steps = 1, .trajectories = 2'000'000'000}, "fit into memory"));
-  BOOST_TEST(refused({.step = .0103, .steps = 1}, "a multiple"));  // of the fine step
-  const auto nothing = path_measure(chain, [](const state&) { return 0.0; });
-  BOOST_TEST(refuses<std::invalid_argument>([&] { judge({.step = .01, .steps = 1}, nothing); },
-                                            {"path error", "must not be 0"}));
-  const std::vector<state> at_rest{{vector<double, 6>::Zero(), vector<double, 6>::Zero()}};
-  BOOST_TEST(refuses<std::invalid_argument>(
-      [&] {
-        trajectory_errors(chain, reference, listed<6>(at_rest), verlet(), energy_measure(chain),
-                          {.step = .01, .steps = 1, .trajectories = 1});
-      },
-      {"energy error", "must not be 0"}));
-}
-
-BOOST_AUTO_TEST_CASE(a_tuned_method_keeps_its_step_and_system) {
-  const tuned_method<nystrom> tuned(pairs[1], .02, chain.description());
-  const auto judge = [&](double step) {
-    return trajectory_errors(chain, reference, law, tuned, path, {.step = step, .steps = 5})
-        .methods[0]
-        .diverged;
-  };
-  BOOST_TEST(judge(.02) == 0);
-  BOOST_TEST(refuses<std::invalid_argument>([&] { judge(.01); }, {"must run at the step 0.02", "got 0.01"}));
-}
-
-BOOST_AUTO_TEST_CASE(a_measure_of_a_system_of_another_size_is_refused) {
-  const trajectory_options options{.step = .01, .steps = 2, .trajectories = 2};
-  for (const auto& measure :
-       {state_measure(henon_heiles()), energy_measure(henon_heiles()),
-        path_measure(henon_heiles(), [](const phase_point<double, 2>& x) { return x.q[0]; })}) {
-    BOOST_TEST(refuses<std::invalid_argument>(
-        [&] { trajectory_errors(chain, reference, law, verlet(), measure, options); },
-        {measure.name, "of systems of 6 degrees of freedom", "got 2"}));
-  }
-}
-
-namespace {
-
-/// A black box that keeps scratch: two threads in one copy of it is one too many.
-struct one_thread_at_a_time {
-  static constexpr int dimension = 1;
-  static constexpr int lanes = 1;
-  mutable std::atomic<bool> is_busy = false;
-  one_thread_at_a_time() = default;
-  one_thread_at_a_time(const one_thread_at_a_time&) {}
-  one_thread_at_a_time& operator=(const one_thread_at_a_time&) { return *this; }
-
-  void force(const vector<double, 1>& q, vector<double, 1>& f) const {
-    if (is_busy.exchange(true)) throw std::logic_error("two threads at a time");
-    std::this_thread::yield();
-    f = -q;
-    is_busy = false;
-  }
-};
-
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(threads_have_copies_of_a_black_box) {
-  const one_thread_at_a_time box;
-  const normal_around<1> starts({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 1.0, 1.0);
-  const auto first = [](const auto& x) { return x.q[0]; };
-  const auto judge = [&](int threads) {
-    const trajectory_options options{.step = .1, .steps = 5, .trajectories = 40, .threads = threads};
-    return trajectory_errors(box, fine_steps<>(.05), starts, verlet(), path_measure(box, first), options);
-  };
-  BOOST_TEST(judge(2).methods[0].error.mean == judge(1).methods[0].error.mean);
-
-  const auto try_out = [&](int threads) {
-    const auto some = typical_and_energetic_starts(box, starts, 1, 0, 40);
-    return trial_run(box, tabulated(verlet()), .1, some, {.steps = 10, .threads = threads}).report();
-  };
-  BOOST_TEST(try_out(2) == try_out(1));
-  const auto warm_up = [&](int threads) {
-    const in_bath warm(box, bath::of_temperature(1.0, 0.5));
-    const burn_in_options options{
-        .friction = 1.0, .step = 0.5, .length = 10.0, .pilots = 16, .threads = threads};
-    return gibbs(warm, starts, options).report().tau;
-  };
-  BOOST_TEST(warm_up(2) == warm_up(1));
 }

@@ -25,7 +25,8 @@ inline const int installed = __sanitizer_install_malloc_and_free_hooks(count_all
 #elif !defined NYSALT_THREAD_SANITIZER
 // Eigen's storage comes from malloc, and so does that of operator new. glibc lets a program wrap it by name.
 extern "C" void* __libc_malloc(std::size_t);
-extern "C" [[gnu::visibility("default")]] void* malloc(std::size_t size) {
+// Weak, as several objects of a program may include this.
+extern "C" [[gnu::visibility("default"), gnu::weak]] void* malloc(std::size_t size) {
   ++nysalt::test::allocations;
   nysalt::test::allocated_bytes += size;
   return __libc_malloc(size);
