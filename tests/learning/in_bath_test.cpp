@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+// Compiled with -O1: 6 s at -O0, 0.6 s at -O1.
 // In a bath the learner finds the member that made the data, from their noise, and no other way; and on the
 // damped oscillator the optimum of docs/theory-langevin-optimum.md.
 #include <boost/test/unit_test.hpp>

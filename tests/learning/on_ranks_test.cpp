@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+// Compiled with -O1: 3 s at -O0, 0.7 s at -O1.
 // Ranks that share the data learn what one learns, to the last bit, as sums over trajectories are added in
 // the order of tree_sum.
 #include <boost/test/unit_test.hpp>

@@ -11,6 +11,8 @@
 #include "../support/refusal.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/listed.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/learn.hpp"
@@ -19,6 +21,7 @@
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 
 using namespace nysalt;
@@ -267,6 +270,36 @@ BOOST_AUTO_TEST_CASE(the_summary_tells_parameters_in_full_and_the_reason) {
       BOOST_TEST(says(fit.brief(), ", " + fit.verdict_in_words()));
       BOOST_TEST((fit.usable || says(fit.brief(), "NOT usable: " + fit.reason)));
     }
+  }
+}
+
+// Where a formula is as good, the summary names it. More in long/learning/verdict_test.
+BOOST_AUTO_TEST_CASE(where_learning_gains_nothing_the_classical_method_is_named) {
+  const henon_heiles galaxy;
+  const normal_around<2> law({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.1);
+  const fit_options options{.loss = loss_named("state:1"), .random_starts = 2, .planned_steps = 5000};
+  const auto made_by = [&](const auto& reference, double step, std::uint64_t seed) {
+    return make_flow_map_data(galaxy, law, reference,
+                              {.step = step, .horizon = 10.0 * step, .trajectories = 50, .seed = seed});
+  };
+  // Data that a classical method made are fitted by itself.
+  const auto by_mclachlan = [&](std::uint64_t seed) {
+    auto data = made_by(fine_steps(0.5, mclachlan2{}), 0.5, seed);
+    data.finer.clear();  // half the step is another map
+    return data;
+  };
+  const auto own = learn(two_stages, galaxy, by_mclachlan(1), by_mclachlan(2), options).summary;
+  // At a large step learning gains.
+  const auto exact = [&](std::uint64_t seed) { return made_by(fine_steps<>(0.02), 0.8, seed); };
+  const auto large = learn(run_time_family(fg_chin()), galaxy, exact(1), exact(2), options).summary;
+  BOOST_TEST_CONTEXT(own.full() << large.full()) {
+    BOOST_TEST((own.verdict() == verdict::nothing_gained));
+    BOOST_TEST(own.rival == "mclachlan2");
+    BOOST_TEST(own.usable);
+    BOOST_TEST(says(own.brief(), "nothing gained over mclachlan2: take mclachlan2"));
+    BOOST_TEST((large.verdict() == verdict::usable));
+    BOOST_TEST(large.gain() > 1.0);
+    BOOST_TEST(says(large.full(), "trial run"));
   }
 }
 
