@@ -12,6 +12,7 @@ Exit code 1: a mutant survives that is not stated to be equivalent; 2: the build
 """
 import argparse
 import hashlib
+import itertools
 import json
 import os
 import pathlib
@@ -177,8 +178,17 @@ class Suite:
             return [case.get("name") for case in cases
                     if case.get("status") == "fail" and case.get("name") in self.labels]
 
+    GRADES = (4.0, 30.0)  # seconds: what is quick runs first
+
+    def costs(self):
+        """Seconds of each test, as far as ctest has seen it run."""
+        file = self.folder / "Testing/Temporary/CTestCostData.txt"
+        rows = [line.split() for line in file.read_text(encoding="utf-8").splitlines()] if file.is_file() else []
+        return {row[0]: float(row[2]) for row in rows if len(row) == 3}
+
     def in_order(self, mutant, killer):
-        """Groups of tests: what found the mutant before, the nearest folders, the others; tier 1 before tier 2."""
+        """Groups of tests: what found the mutant before, the nearest folders, the others; tier 1 before tier 2, and of
+        each the quick ones first."""
         left = dict.fromkeys(sorted(self.labels))
         if killer in left:
             del left[killer]
@@ -190,8 +200,10 @@ class Suite:
                 names = [name for name in left if self.tier(name) == tier and re.search(group, name)]
                 for name in names:
                     del left[name]
-                if names:
-                    yield names
+                costs = self.costs()
+                for low, high in itertools.pairwise((0.0, *self.GRADES, float("inf"))):
+                    if some := [name for name in names if low <= costs.get(name, 0.0) < high]:
+                        yield some
 
     def is_sound(self, name):
         if name not in self.sound | self.unsound:
@@ -216,7 +228,7 @@ class Suite:
                     return {"killed_by": failed[0], "tier": self.tier(failed[0]),
                             "seconds": round(time.monotonic() - began, 1)}
         return {"killed_by": None, "tried": tried, "all": self.options.all, "near": self.options.near,
-                "seconds": round(time.monotonic() - began, 1)}
+                "tests": self.options.tests, "seconds": round(time.monotonic() - began, 1)}
 
 
 # ---- The table.
@@ -248,7 +260,8 @@ def is_settled(row, mutant, options):
         return False
     if row["killed_by"]:
         return True
-    return (row["all"] or not options.all) and (options.near or not row["near"])
+    return ((row["all"] or not options.all) and (options.near or not row["near"])
+            and row["tests"] in ("", options.tests))
 
 
 def main():
