@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: BSL-1.0
+// Words on oscillators: the matrix of a step, its energy error, its powers and its resonances.
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "../support/dense.hpp"
+#include "../support/draws.hpp"
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "../support/step_matrix.hpp"
+#include "nysalt/derivatives/energy_on_oscillator.hpp"
+#include "nysalt/derivatives/near_resonance.hpp"
+#include "nysalt/derivatives/sum_resonance.hpp"
+#include "nysalt/derivatives/transient_growth.hpp"
+#include "nysalt/derivatives/word_on_oscillator.hpp"
+#include "nysalt/learning/stability_guard.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/classical_methods.hpp"
+#include "nysalt/stepper.hpp"
+#include "nysalt/systems/with_quadratic_part.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// q'' = -(omega^2 + kappa) q, of which kappa is called soft.
+struct split_oscillator {
+  static constexpr int dimension = 1;
+  double omega;
+  double kappa;
+  template <class T>
+  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    f[0] = q[0] * -(omega * omega + kappa);
+  }
+  template <class T>
+  void soft_force(const vector<T, 1>& q, vector<T, 1>& f) const {
+    f[0] = q[0] * -kappa;
+  }
+  normal_modes modes() const { return {Eigen::MatrixXd::Ones(1, 1), Eigen::VectorXd::Constant(1, omega)}; }
+};
+
+tabulated classical_word(const std::string& name) {
+  for (const auto& row : classical_table) {
+    if (row.name == name) return as_data(row);
+  }
+  throw std::invalid_argument(name);
+}
+
+double rho(const tabulated& method, double z) {
+  return energy_error_on_oscillator(method.letters(), method.coefficients(), z);
+}
+
+/// The mean growth of (omega q)^2/2 + p^2/2 after n steps from independent normal omega q and p.
+double growth(const tabulated& method, double z, int steps) {
+  const auto m = matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
+  Eigen::Matrix2d step;
+  step << m.qq, m.qp * z, m.pq / z, m.pp;
+  Eigen::Matrix2d power = Eigen::Matrix2d::Identity();
+  for (int n = 0; n < steps; ++n) power = step * power;
+  return 0.5 * (power.squaredNorm() - 2.0);
+}
+
+const std::vector<double> halves{0.5, 1.0, 0.5};
+
+double by_powers(const run_time_word& word, const std::vector<double>& c, double theta, double k, int steps) {
+  const auto times_k = [k](double x) { return k * x; };
+  Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
+  step_on_oscillator(word, c, theta, times_k, one(0, 0), one(1, 0));
+  step_on_oscillator(word, c, theta, times_k, one(0, 1), one(1, 1));
+  const double omega = std::sqrt(theta * theta + k);
+  one(0, 1) *= omega;
+  one(1, 0) /= omega;
+  Eigen::Matrix2d power = one;
+  double largest = 1.0;
+  for (int n = 1; n <= steps; ++n) {
+    largest = std::max(largest, spectral_norm(power));
+    power = one * power;
+  }
+  return largest;
+}
+
+/// V = q K q/2 with a matrix K.
+struct coupled {
+  static constexpr int dimension = 2;
+  Eigen::Matrix2d stiffness;
+  template <class T>
+  T potential(const vector<T, 2>& q) const {
+    T sum(0.0);
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      for (Eigen::Index j = 0; j < 2; ++j) sum += q[i] * q[j] * (0.5 * stiffness(i, j));
+    }
+    return sum;
+  }
+};
+
+const Eigen::Array2d omega(1.0, 2.2);
+const Eigen::Matrix2d soft = 0.05 * Eigen::Matrix2d{{1.0, 0.8}, {0.8, 1.0}};
+
+with_quadratic_part<coupled> two_modes(const Eigen::Matrix2d& rest) {
+  const Eigen::Matrix2d squares = omega.square().matrix().asDiagonal();
+  return {coupled{squares + rest}, squares};
+}
+
+/// Logarithm of the spectral radius of the matrix of one step.
+double growth_of_step(const auto& system, const run_time_word& word, const std::vector<double>& c, double h) {
+  const stepper<std::remove_cvref_t<decltype(system)>, run_time_word> one(system, word, c, h);
+  Eigen::Matrix4d step;
+  for (Eigen::Index j = 0; j < 4; ++j) {
+    phase_point<double, 2> x{vector<double, 2>(0.0, 0.0), vector<double, 2>(0.0, 0.0)};
+    (j < 2 ? x.q : x.p)[j % 2] = 1.0;
+    one.step(x);
+    step.col(j) << x.q, x.p;
+  }
+  return std::log(spectral_radius(step));
+}
+
+std::optional<resonance> near(const tabulated& method, const std::vector<frequency_band>& bands,
+                              double step) {
+  return near_resonance(method.letters(), method.coefficients(), bands, step);
+}
+
+/// Position Verlet in that many equal steps, whose phase at z is 2 n asin(z/(2 n)).
+tabulated many_steps(int n) {
+  std::string letters = "A";
+  std::vector<double> c{0.5 / n};
+  for (int k = 0; k < n; ++k) {
+    letters += "BA";
+    c.push_back(1.0 / n);
+    c.push_back(k + 1 < n ? 1.0 / n : 0.5 / n);
+  }
+  return {"verlet", run_time_word(letters), c, {2, true, false}};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(letters_act_as_in_a_step) {
+  draws random;
+  for (const char* letters : {"ABA", "BAGAB", "ABABABA", "RSR", "RSRSRSR", "SRHRS"}) {
+    for (const double omega : {0.0, 1.3}) {
+      const run_time_word word{std::string(letters)};
+      std::vector<double> c(word.slots);
+      for (double& x : c) x = random.uniform(-0.5, 1.0);
+      const double h = 0.7;
+      const split_oscillator system{omega, 2.0};
+      const stepper<split_oscillator, run_time_word> one(system, word, c, h);
+      phase_point<double, 1> x{vector<double, 1>(0.4), vector<double, 1>(-0.9)};
+      double q = x.q[0];
+      double p = h * x.p[0];  // in units of q/h
+      one.step(x);
+      step_on_oscillator(
+          word, c, h * omega, [&](double y) { return h * h * system.kappa * y; }, q, p);
+      BOOST_TEST_CONTEXT("word " << letters << ", omega " << omega) {
+        // Some ten operations a letter, on numbers that grow to 10 at most.
+        const double rounding = 100.0 * static_cast<double>(word.length) * eps;
+        BOOST_TEST(std::abs(q - x.q[0]) <= rounding);
+        BOOST_TEST(std::abs(p - h * x.p[0]) <= rounding);
+      }
+    }
+  }
+}
+
+// Velocity Verlet: trace/2 = 1 - z^2/2. Impulses: cos theta - k sin(theta)/(2 theta).
+BOOST_AUTO_TEST_CASE(traces_are_the_known_ones) {
+  const auto verlet = half_trace(run_time_word("BAB"), {0.5, 1.0, 0.5}, 0.0, 1.0, 9.0);
+  BOOST_TEST(std::abs(verlet.at_low() - 0.5) < 10.0 * eps);
+  BOOST_TEST(std::abs(verlet.at_high() + 3.5) < 100.0 * eps);
+  const auto impulse = half_trace(run_time_word("SRS"), {0.5, 1.0, 0.5}, 2.0, 0.0, 3.0);
+  BOOST_TEST(std::abs(impulse.at_low() - std::cos(2.0)) < 10.0 * eps);
+  BOOST_TEST(std::abs(impulse.at_high() - (std::cos(2.0) - 0.75 * std::sin(2.0))) < 10.0 * eps);
+}
+
+// Takahashi and Imada's: 1 - z^2/2 + z^4/24 in the trace.
+BOOST_AUTO_TEST_CASE(gradient_kicks_have_two_coefficients) {
+  const auto trace = half_trace(run_time_word("AGA"), {0.5, 1.0, 1.0 / 24.0, 0.5}, 0.0, 1.0, 4.0);
+  BOOST_TEST(std::abs(trace.at_low() - (0.5 + 1.0 / 24.0)) < 10.0 * eps);
+  BOOST_TEST(std::abs(trace.at_high() - (-1.0 + 16.0 / 24.0)) < 20.0 * eps);
+}
+
+BOOST_AUTO_TEST_CASE(the_bath_is_left_out) {
+  const auto with = half_trace(run_time_word("BAOAB"), {0.5, 0.5, 1.0, 0.5, 0.5}, 0.0, 1.0, 4.0);
+  const auto without = half_trace(run_time_word("BAAB"), {0.5, 0.5, 0.5, 0.5}, 0.0, 1.0, 4.0);
+  BOOST_TEST(with.at_low() == without.at_low());
+  BOOST_TEST(with.at_high() == without.at_high());
+}
+
+// After n steps the energy has grown by sin^2(n t) rho, cos t = trace/2. The matrix errs by some 10 roundings
+// of its entries, which are below z + 1/z here, and its n-th power by n times that.
+BOOST_AUTO_TEST_CASE(the_energy_grows_by_rho_times_the_square_of_a_sine) {
+  for (const char* name : {"verlet", "mclachlan2", "mclachlan2v", "bcss3", "bcss4", "omelyan5v", "srkn6b",
+                           "chin4a", "chin4a_displaced"}) {
+    const tabulated method = classical_word(name);
+    for (const double z : {0.3, 0.9, 1.5}) {
+      const auto m = matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
+      const double angle = std::acos(m.half_trace());
+      for (const int steps : {1, 2, 7}) {
+        const double sine = std::sin(steps * angle);
+        const double expected = sine * sine * rho(method, z);
+        const double rounding = 2.0 * steps * 10.0 * eps * (z + 1.0 / z) * (z + 1.0 / z);
+        BOOST_TEST_CONTEXT(name << " at z = " << z << ", " << steps << " steps") {
+          BOOST_TEST(std::abs(growth(method, z, steps) - expected) <= rounding);
+          BOOST_TEST(std::abs(growth(method, z, steps) - 1.01 * expected) > 1e-3 * expected);
+        }
+      }
+    }
+  }
+}
+
+// Of Verlet's method rho = z^4/(32 (1 - z^2/4)); the difference of B and C that makes it cancels to a part of
+// z^2.
+BOOST_AUTO_TEST_CASE(of_verlet_it_is_the_closed_form) {
+  for (const double z : {0.1, 0.5, 1.0, 1.9}) {
+    const double closed = std::pow(z, 4) / (32.0 * (1.0 - z * z / 4.0));
+    const double relative = 40.0 * eps / (z * z * (1.0 - z * z / 4.0));
+    BOOST_TEST(std::abs(rho(tabulated(verlet{}), z) - closed) <= relative * closed);
+    BOOST_TEST(std::abs(rho(tabulated(bcss2{}), z) - closed) > relative * closed);
+  }
+  BOOST_TEST(rho(tabulated(verlet{}), 2.01) == std::numeric_limits<double>::infinity());
+  BOOST_TEST(rho(tabulated(verlet{}), 2.0) == std::numeric_limits<double>::infinity());
+}
+
+// Exchanging kicks and drifts exchanges omega q and p, up to a sign. B + C is the difference of entries below
+// z + 1/z, each right to some 10 roundings, and 1 - A^2 that of numbers below 1.
+BOOST_AUTO_TEST_CASE(a_word_and_its_velocity_form_err_alike) {
+  const tabulated method(mclachlan2{});
+  for (const double z : {0.4, 1.3, 2.2}) {
+    const auto m = matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
+    const double defect = std::abs(m.qp * z + m.pq / z);
+    const double rotation = 1.0 - m.half_trace() * m.half_trace();
+    const double relative = 40.0 * eps * ((z + 1.0 / z) / defect + 1.0 / rotation);
+    BOOST_TEST(std::abs(rho(method, z) / rho(tabulated(mclachlan2v{}), z) - 1.0) <= relative);
+    BOOST_TEST(std::abs(rho(method, z) / rho(tabulated(bcss2v{}), z) - 1.0) > relative);
+  }
+}
+
+// Against a central difference over 1e-5, which errs by the third derivative, of order one, times 1e-10/6,
+// and by roundings of 1e-15 over 1e-5.
+BOOST_AUTO_TEST_CASE(slopes_are_those_of_the_value) {
+  draws random;
+  for (const char* name : {"mclachlan2v", "bcss3", "chin4a", "chin4a_displaced"}) {
+    const tabulated method = classical_word(name);
+    const double z = random.uniform(0.7, 1.3);
+    auto c = method.coefficients();
+    const auto at = detail::energy_defect_on_oscillator(method.letters(), c, z);
+    BOOST_TEST(at.value * at.value == rho(method, z), boost::test_tools::tolerance(1e-12));
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      constexpr double change = 1e-5;
+      const double before = c[i];
+      c[i] = before + change;
+      const double above = detail::energy_defect_on_oscillator(method.letters(), c, z).value;
+      c[i] = before - change;
+      const double below = detail::energy_defect_on_oscillator(method.letters(), c, z).value;
+      c[i] = before;
+      const double slope = at.slopes[static_cast<Eigen::Index>(i)];
+      BOOST_TEST_CONTEXT(name << ", coefficient " << i + 1) {
+        BOOST_TEST(std::abs((above - below) / (2.0 * change) - slope) <= 1e-8 * (1.0 + std::abs(slope)));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(words_that_are_no_plain_step_are_refused) {
+  using wrong = std::invalid_argument;
+  for (const char* name : {"impulse", "baoab", "takahashi_imada_processed"}) {
+    for (const auto* table : {&classical_table[0], &processed_table[0]}) {
+      const std::size_t rows =
+          table == &classical_table[0] ? std::size(classical_table) : std::size(processed_table);
+      for (std::size_t k = 0; k < rows; ++k) {
+        if (table[k].name != name) continue;
+        BOOST_TEST(refuses<wrong>([&] { rho(as_data(table[k]), 0.5); }, {"no rotation", "no processor"}));
+      }
+    }
+  }
+  BOOST_TEST(refuses<wrong>([] { energy_error_on_oscillator(run_time_word("BAB"), {0.5, 1.0}, 0.5); }, {}));
+}
+
+// The formula lets n t come to pi/2, which some n of 200 do to within a few degrees.
+BOOST_AUTO_TEST_CASE(it_is_that_of_all_powers) {
+  draws random;
+  int unstable = 0;
+  for (int n = 0; n < 300; ++n) {
+    const double theta = n % 5 == 0 ? 0.0 : random.uniform(0.1, 7.0);
+    const double k = random.uniform(0.01, 4.0);
+    const double expected = by_powers(run_time_word("RSR"), halves, theta, k, 200);
+    const double found = transient_growth(run_time_word("RSR"), halves, theta, k, 200);
+    if (expected > 1e6) ++unstable;
+    BOOST_TEST_CONTEXT("seed " << draws::seed << ", theta " << theta << ", k " << k) {
+      if (expected < 1e6) BOOST_TEST(std::abs(found - expected) <= 0.05 * expected);
+      if (expected >= 1e6) BOOST_TEST(found > 1e5);
+    }
+  }
+  BOOST_TEST(unstable > 10);
+}
+
+// S R S at h omega = pi is -(1, 0; k, 1) in (q, p): g = n k/omega beside the diagonal after n steps, with
+// omega^2 = pi^2 + k, and the norm g/2 + sqrt(1 + g^2/4).
+BOOST_AUTO_TEST_CASE(impulses_grow_linearly_at_a_resonance) {
+  const double k = 0.09;
+  const double per_step = k / std::sqrt(pi * pi + k);
+  for (const std::int64_t steps : {1000, 10'000}) {
+    const double found = transient_growth(run_time_word("SRS"), {0.5, 1.0, 0.5}, pi, k, steps);
+    const double g = per_step * static_cast<double>(steps);
+    // Rounding of pi makes t some 2e-9, and the error (n t)^2.
+    BOOST_TEST(std::abs(found / (0.5 * g + std::sqrt(1.0 + 0.25 * g * g)) - 1.0) < 1e-8);
+  }
+  BOOST_TEST(transient_growth(run_time_word("RSR"), halves, 0.9 * pi, k, 10'000) < 1.1);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_exact_magnifies_nothing) {
+  BOOST_TEST(transient_growth(run_time_word("R"), {1.0}, 2.0, 1e-30, 10'000) <= 1.0 + 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_number_is_not_within_a_bound) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST(!(transient_growth(run_time_word("RSR"), {0.5, nan, 0.5}, 2.0, 0.1, 100) <= 1e300));
+}
+
+BOOST_AUTO_TEST_CASE(growth_is_that_of_the_eigenvalues_of_a_step) {
+  draws random;
+  int growing = 0;
+  for (const char* letters : {"SRS", "RSRSR", "SRHRS"}) {
+    const run_time_word word{std::string(letters)};
+    for (int n = 0; n < 200; ++n) {
+      std::vector<double> c(word.slots, 0.5);
+      if (word.slots == 3) c[1] = 1.0;
+      if (word.slots == 6) c = {0.25, 0.5, 0.5, 0.01, 0.5, 0.25};
+      const double h = random.uniform(0.1, 4.0);
+      const Eigen::Matrix2d k = random.uniform(0.1, 3.0) * soft;
+      const auto system = two_modes(k);
+      const double expected = growth_of_step(system, word, c, h);
+      const double found = growth_of_pair(word, c, h * omega, h * h * k);
+      // Eigenvalues of a defective matrix err by the root of rounding, times entries of some tens.
+      BOOST_TEST(std::abs(found - expected) < 1e-6,
+                 letters << " at " << h << ": " << found << ", " << expected);
+      growing += expected > 1e-3;
+    }
+  }
+  BOOST_TEST(growing > 10);
+}
+
+BOOST_AUTO_TEST_CASE(the_guard_objects_to_a_sum_resonance) {
+  const auto system = two_modes(soft);
+  const std::vector<phase_point<double, 2>> states(
+      3, {vector<double, 2>(0.1, 0.2), vector<double, 2>(0.3, 0.1)});
+  const stability_guard guard(system, states);
+  const double resonance = 2.0 * pi / omega.sum();
+  // (omega_1 + omega_2) h = 2 pi, moved by what the soft force adds to the frequencies.
+  constexpr double step = 1.9415;
+  BOOST_TEST(std::abs(step / resonance - 1.0) < 0.02);
+  BOOST_TEST(growth_of_step(system, run_time_word("SRS"), halves, step) > 0.02);
+  const auto said = guard.objection(run_time_word("SRS"), halves, step);
+  BOOST_TEST(said.find("which soft forces couple") != std::string::npos, said);
+  for (const double part : {0.8, 0.9, 1.15}) {
+    BOOST_TEST(guard.admits(run_time_word("SRS"), halves, part * step),
+               guard.objection(run_time_word("SRS"), halves, part * step));
+  }
+  // Without the coupling there is nothing, and at a difference resonance there is nothing either.
+  const Eigen::Matrix2d apart = soft.diagonal().asDiagonal();
+  BOOST_TEST(stability_guard(two_modes(apart), states).admits(run_time_word("SRS"), halves, step));
+  const double difference = 2.0 * pi / (omega[1] - omega[0]);
+  BOOST_TEST(growth_of_pair(run_time_word("SRS"), halves, difference * omega,
+                            difference * difference * soft) < 1e-6);
+}
+
+// Sixty-four steps turn by z to within z^3/(24 n^2), 0.3 % at 2 pi.
+BOOST_AUTO_TEST_CASE(near_means_within_a_tenth_of_the_half_turns) {
+  const tabulated method = many_steps(64);
+  for (const int k : {1, 2}) {
+    for (const double off : {-0.12, -0.09, -0.05, 0.0, 0.05, 0.09, 0.12}) {
+      const double step = (1.0 + off) * k * pi / 50.0;
+      const auto found = near(method, {{0.0, 6.0}, {50.0, 50.0}}, step);
+      BOOST_TEST(found.has_value() == (std::abs(off) < 0.1), k << " pi, off by " << off);
+      if (found) BOOST_TEST(found->half_turns == k);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_band_is_near_where_one_of_its_frequencies_is) {
+  const tabulated method = many_steps(64);
+  BOOST_TEST(near(method, {{40.0, 50.0}}, 0.95 * pi / 40.0).has_value());
+  BOOST_TEST(near(method, {{40.0, 50.0}}, 0.95 * pi / 50.0).has_value());
+  BOOST_TEST(!near(method, {{40.0, 50.0}}, 0.85 * pi / 50.0));
+}
+
+// Verlet in two steps turns by 3.6 where h omega is pi: the step of another motion, as that of one Verlet
+// step of half the length.
+BOOST_AUTO_TEST_CASE(what_counts_is_the_phase_of_the_word) {
+  BOOST_TEST(!near(many_steps(2), {{50.0, 50.0}}, pi / 50.0));
+  BOOST_TEST(near(many_steps(64), {{50.0, 50.0}}, pi / 50.0).has_value());
+}
+
+BOOST_AUTO_TEST_CASE(slow_motion_and_rotations_have_none) {
+  BOOST_TEST(!near(many_steps(64), {{0.0, 30.0}}, pi / 30.0));
+  BOOST_TEST(!near(many_steps(64), {{49.0, 51.0}}, 0.01));
+  BOOST_TEST(!near(many_steps(64), {}, 1.0));
+  BOOST_TEST(!near(tabulated(impulse{}), {{50.0, 50.0}}, pi / 50.0));
+}
+
+BOOST_AUTO_TEST_CASE(in_words_it_says_which) {
+  const std::string text = in_words(*near(many_steps(64), {{49.0, 51.0}}, 0.118));
+  BOOST_TEST(text.find("2 pi") != std::string::npos);
+  BOOST_TEST(text.find("10 %") != std::string::npos);
+  BOOST_TEST(text.find("49 to 51") != std::string::npos);
+}
