@@ -1,20 +1,34 @@
 // SPDX-License-Identifier: BSL-1.0
-// A pass over the data gives the bits of pair after pair over double, whatever the lanes and the threads.
+// Losses over steps have the bits of window after window over double, whatever the number of parameters, and
+// in a bath they take the noise that the data hold.
 #include "nysalt/losses/after_steps.hpp"
 
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
-#include "../support/one_step.hpp"
+#include "../support/central_difference.hpp"
 #include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "../support/same_squares.hpp"
 #include "../support/sample_blocks.hpp"
+#include "../support/steps_in_bath.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/families/aba.hpp"
+#include "nysalt/families/bab.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/families/thermostatted.hpp"
+#include "nysalt/losses/energy_error.hpp"
+#include "nysalt/losses/metric.hpp"
 #include "nysalt/losses/own_loss.hpp"
+#include "nysalt/losses/squares.hpp"
+#include "nysalt/losses/state_error.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 
 using namespace nysalt;
@@ -22,89 +36,294 @@ using namespace nysalt::test;
 
 namespace {
 
-constexpr parameters_of<nystrom> theta{0.45, 0.38};
+using wrong = std::invalid_argument;
 
-/// Trajectories of different lengths, among them empty ones and one longer than what a thread takes at once.
-template <class S>
-flow_map_data uneven_data(const S& system) {
-  const vector<double, S::dimension> zero = Eigen::VectorXd::Zero(size(system));
-  const normal_around<S::dimension> starts({zero, zero}, 0.1, 0.2);
-  auto data = make_flow_map_data(system, starts, fine_steps<>(0.05),
-                                 {.step = 0.4, .horizon = 0.4, .trajectories = 3783});
-  data.first_of = {0, 0, 1, 3, 3, 20, 37, 60, 61};
-  while (data.first_of.back() + 32 < 1900) {
-    data.first_of.push_back(data.first_of.back() + data.first_of.size() % 31);
-  }
-  data.first_of.push_back(3783);
-  data.first_of.push_back(3783);
+struct asked {
+  after_steps_options options{};
+  bool of_energy = false;
+};
+const asked five_steps{{.steps = {5}}};
+const asked apart{{.steps = {5}, .apart = 5}};
+const asked several_times{{.steps = {1, 2, 5}, .apart = 3}};
+const asked ten_of_energy{{.steps = {10}}, true};
+
+const henon_heiles galaxy;
+const run_time_family two_stages{nystrom()};
+const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
+const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
+
+/// Trajectories of 4, 5, 0, 11, 12, 9 and 40 steps: some are too short.
+flow_map_data uneven_data() {
+  auto data = make_flow_map_data(galaxy, starts, fine_steps<>(0.05),
+                                 {.step = 0.4, .horizon = 16.2, .trajectories = 2});
+  data.first_of = {0, 4, 9, 9, 20, 32, 41, 81};
+  data.start.resize(81);
+  data.finish.resize(81);
   return data;
 }
 
-bool same(const squares& a, const squares& b) {
-  return a.value == b.value && a.half_gradient == b.half_gradient && a.normal_matrix == b.normal_matrix;
+/// Not at the start of the family, where derivatives may vanish by symmetry.
+template <Family F>
+parameters_of<F> elsewhere() {
+  auto theta = F::start();
+  for (std::size_t k = 0; k < theta.size(); ++k) theta[k] += 0.01 * static_cast<double>(k + 1);
+  return theta;
 }
 
-template <Scalar R, class S>
-void check_bits(const S& system, const flow_map_data& data, const metric& measure, int threads) {
-  const one_step<nystrom, R> loss(system, data, measure, threads);
-  const sample_blocks<nystrom, S> pairs(system, data, measure);
-  const auto expected = pairs.by_trajectory(theta);
-  BOOST_TEST_CONTEXT(lanes_in<R> << " lanes, " << threads << " threads") {
-    const auto losses = trajectory_losses(loss, theta);
-    const auto gradients = trajectory_gradients(loss, theta);
-    BOOST_REQUIRE(losses.size() == expected.size());
-    int differ = 0;
-    for (std::size_t m = 0; m < losses.size(); ++m) {
-      differ += losses[m] != expected[m].value || gradients[m] != expected[m].gradient();
-    }
-    BOOST_TEST(differ == 0);
-    BOOST_TEST(same(squares_at(loss, theta), pairs(column_of(theta))));
-    BOOST_TEST(!same(squares_at(loss, parameters_of<nystrom>{0.45, 0.38 + 1e-15}), pairs(column_of(theta))));
-    // One pass without derivatives, three with.
-    const int of_each = nystrom::word::evaluations_of_plain_step;
-    BOOST_TEST(loss.evaluations() == 4 * of_each * std::int64_t(data.pairs()));
-  }
+window_error<> error_of(const asked& what, const flow_map_data& data, const metric& measure) {
+  return what.of_energy ? energy_error(galaxy, data) : state_error(measure);
 }
 
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(lanes_and_threads_change_no_bit) {
-  const henon_heiles galaxy;
-  const auto data = uneven_data(galaxy);
+template <Family F>
+void check_bits(const asked& what, std::size_t windows) {
+  const auto data = uneven_data();
   const metric measure(galaxy, data, coordinates::qp);
-  for (const int threads : {1, 2, 3}) {
-    check_bits<double>(galaxy, data, measure, threads);
-    check_bits<detail::lanes>(galaxy, data, measure, threads);
+  const sample_blocks<F, henon_heiles> blocks(galaxy, data, measure, what.options, what.of_energy);
+  const Eigen::VectorXd at = column_of(elsewhere<F>());
+  const auto expected = blocks(at);
+  auto in_threads = what.options;
+  in_threads.threads = 2;
+  const after_steps<> loss(run_time_family(F()), galaxy, data, error_of(what, data, measure), in_threads);
+  BOOST_TEST_CONTEXT(F::name << " over " << what.options.steps.back() << " steps") {
+    BOOST_TEST(blocks.windows() == windows);
+    BOOST_TEST(same(squares_at(loss, at), expected));
+    BOOST_TEST(loss_value(loss, at) == expected.value);
+    BOOST_TEST(expected.half_gradient.cwiseAbs().minCoeff() > 1e-9);
+    auto beside = at;
+    beside[at.size() - 1] += 1e-15;
+    BOOST_TEST(!same(squares_at(loss, beside), expected));
+    // A pass for each two parameters, and one without derivatives.
+    const std::int64_t passes = 2 * ((F::parameters + 1) / 2) + 1;
+    using word = typename F::word;
+    const std::int64_t of_run =
+        word::evaluations_to_open + what.options.steps.back() * std::int64_t{word::evaluations_per_step};
+    BOOST_TEST(loss.evaluations() == passes * of_run * static_cast<std::int64_t>(windows));
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_dynamic_dimension_with_modes_changes_no_bit) {
-  const auto chain = linear_chain::between_walls(3, 1.0, 2.0);
-  const auto data = uneven_data(chain);
-  const metric measure(chain, data, coordinates::modes);
-  check_bits<double>(chain, data, measure, 2);
-  check_bits<detail::lanes>(chain, data, measure, 2);
+/// The loss without derivatives, formula by formula.
+double energy_loss_by_hand(const flow_map_data& data, const parameters_of<nystrom>& theta) {
+  const auto c = nystrom::coefficients(theta);
+  const auto energy_of = [](const auto& x) {
+    const double x1 = x.q[0];
+    const double x2 = x.q[1];
+    return 0.5 * (x.p.squaredNorm() + x.q.squaredNorm()) + x1 * x1 * x2 - x2 * x2 * x2 / 3.0;
+  };
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t m = 0; m < data.trajectories(); ++m) {
+    for (std::size_t first = data.first_of[m]; first + 10 <= data.first_of[m + 1]; ++first) {
+      phase_point<double, 2> x = data.start[first];
+      for (int n = 0; n < 10; ++n) {
+        for (std::size_t i = 0; i < c.size(); ++i) {
+          const vector<double, 2> f(-x.q[0] - 2.0 * x.q[0] * x.q[1],
+                                    -x.q[1] - x.q[0] * x.q[0] + x.q[1] * x.q[1]);
+          if (i % 2 == 0) x.q += x.p * (c[i] * data.step);
+          if (i % 2 == 1) x.p += f * (c[i] * data.step);
+        }
+      }
+      sum += std::pow(energy_of(x) - energy_of(data.start[first]), 2);
+      count += 1.0;
+    }
+  }
+  double kinetic = 0.0;
+  for (const auto& x : data.start) kinetic += std::pow(0.5 * x.p.squaredNorm(), 2);
+  return sum / count / (kinetic / static_cast<double>(data.pairs()));
 }
 
-namespace {
-struct a_fork : potential_only {  // takes a branch, and says so
-  static constexpr int lanes = 1;
-};
+template <placement P>
+using family = thermostatted_family<nystrom, P>;
+using symmetric = family<placement::symmetric>;
+
+constexpr double h = 0.4;
+constexpr parameters_of<nystrom> maker{0.45, 0.38};
+constexpr parameters_of<nystrom> far{0.55, 0.42};
+const in_bath<henon_heiles> warm(henon_heiles(), bath::of_sigma(0.7, 0.1));
+
+template <Family F>
+flow_map_data made(int parts, std::int64_t trajectories = 20) {
+  return made_by_steps(warm, starts, member<F>(maker),
+                       {.step = h, .trajectories = trajectories, .parts = parts});
+}
+
+/// The same data in fewer parts.
+flow_map_data in_parts(flow_map_data data, int parts) {
+  const int together = data.noise_parts / parts;
+  const coarse_graining coarse(warm.bath().friction() * h / data.noise_parts);
+  vector_list noise;
+  for (std::size_t first = 0; first < data.noise.size(); first += static_cast<std::size_t>(together)) {
+    Eigen::VectorXd of_one(2);
+    coarse.over(data.noise, first, std::size_t(together), of_one);
+    noise.push_back(of_one);
+  }
+  data.noise = noise;
+  data.noise_parts = parts;
+  return data;
+}
+
+template <Family F>
+double loss_of(const flow_map_data& data, const parameters_of<nystrom>& theta, int steps = 1) {
+  const metric measure(warm, data, coordinates::qp);
+  const after_steps<> loss(run_time_family(F()), warm, data, state_error(measure), {.steps = {steps}});
+  return loss_value(loss, column_of(theta));
+}
+
+/// The formula, window by window over double; each letter O takes the noise given for its position.
+template <Family F>
+double loss_by_hand(const flow_map_data& data, const parameters_of<nystrom>& theta, std::size_t steps) {
+  const auto c = F::coefficients(theta);
+  const std::string letters = F::word::letters();
+  const bath& heat_bath = warm.bath();
+  vector<double, 2> of_q(0.0, 0.0), of_p(0.0, 0.0), sigma_q(0.0, 0.0), sigma_p(0.0, 0.0);
+  double windows = 0.0;
+  for (std::size_t m = 0; m < data.trajectories(); ++m) {
+    for (std::size_t n = data.first_of[m]; n + steps <= data.first_of[m + 1]; ++n) {
+      phase_point<double, 2> x = data.start[n];
+      auto next = n * static_cast<std::size_t>(data.noise_parts);
+      for (std::size_t i = 0; i < steps * letters.size(); ++i) {
+        const char letter = letters[i % letters.size()];
+        const double time = c[i % letters.size()] * h;
+        vector<double, 2> f;
+        force<double>(warm, x.q, f);
+        if (letter == 'A') x.q += x.p * time;
+        if (letter == 'B') x.p += f * time;
+        if (letter == 'O') x.p = x.p * heat_bath.decay(time) + data.noise[next++] * heat_bath.deviation(time);
+      }
+      of_q += (x.q - data.finish[n + steps - 1].q).cwiseAbs2();
+      of_p += (x.p - data.finish[n + steps - 1].p).cwiseAbs2();
+      windows += 1.0;
+    }
+  }
+  const auto pairs = static_cast<double>(data.pairs());
+  for (std::size_t n = 0; n < data.pairs(); ++n) {
+    sigma_q += (data.start[n].q - data.finish[n].q).cwiseAbs2() / pairs;
+    sigma_p += (data.start[n].p - data.finish[n].p).cwiseAbs2() / pairs;
+  }
+  return (of_q.cwiseQuotient(sigma_q).sum() + of_p.cwiseQuotient(sigma_p).sum()) / windows;
+}
+
+template <Family F>
+void check_formula(int parts, int steps) {
+  const auto data = made<F>(parts);
+  // Some thirty operations a step, and 200 windows added.
+  BOOST_TEST(loss_of<F>(data, far, steps) == loss_by_hand<F>(data, far, std::size_t(steps)),
+             boost::test_tools::tolerance(200 * 30 * steps * eps));
+  // Who made the data has no loss but that of rounding; increments are .03 or more.
+  const double rounding = 30.0 * steps * eps / 0.03;
+  BOOST_TEST(loss_of<F>(data, maker, steps) <= 4.0 * rounding * rounding);
+  BOOST_TEST(loss_of<F>(data, far, steps) > 1e-8);
+  // With the noise of other pairs the loss is some half of the increments.
+  auto shuffled = data;
+  const std::size_t numbers = data.noise.size();
+  for (std::size_t n = 0; n < numbers; ++n) {
+    shuffled.noise[n] = data.noise[(n + static_cast<std::size_t>(parts)) % numbers];
+  }
+  BOOST_TEST(loss_of<F>(shuffled, maker, steps) > 0.1);
+  // The noise of each step counts, the last one's too.
+  shuffled = data;
+  const std::size_t last = numbers - static_cast<std::size_t>(parts);  // of the last window's last step
+  shuffled.noise[last].swap(shuffled.noise[last - static_cast<std::size_t>(parts)]);
+  BOOST_TEST(loss_of<F>(shuffled, maker, steps) > 1e-5);
+}
+
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(bits_are_those_of_window_after_window) {
+  check_bits<nystrom>(five_steps, 1 + 7 + 8 + 5 + 36);
+  check_bits<nystrom>(apart, 1 + 2 + 2 + 1 + 8);
+  check_bits<nystrom>(several_times, 1 + 3 + 3 + 2 + 12);
+  check_bits<nystrom>(ten_of_energy, 2 + 3 + 31);
+  check_bits<aba<4>>({}, 81);  // three parameters, two at a time
+  check_bits<aba<4>>(five_steps, 57);
+  check_bits<aba<4>>(ten_of_energy, 36);
+}
+
+// A run of five steps of B A B A B takes eleven evaluations, five plain ones fifteen.
+BOOST_AUTO_TEST_CASE(words_that_begin_with_a_kick_take_an_evaluation_less_a_step) {
+  using word = bab<2>::word;
+  static_assert(word::evaluations_to_open + 5 * word::evaluations_per_step == 11);
+  static_assert(5 * word::evaluations_of_plain_step == 15);
+  check_bits<bab<2>>(five_steps, 57);  // one parameter
+}
+
+// In modes, of a dynamic dimension, with masses: trajectory by trajectory, one longer than what a thread
+// takes at once, and empty ones.
+BOOST_AUTO_TEST_CASE(each_trajectory_has_the_bits_of_its_pairs) {
+  const auto chain = linear_chain::between_walls(3, 1.0, 2.0);
+  const vector<double, Eigen::Dynamic> zero = Eigen::VectorXd::Zero(3);
+  auto data = make_flow_map_data(chain, normal_around<Eigen::Dynamic>({zero, zero}, 0.1, 0.2),
+                                 fine_steps<>(0.05), {.step = 0.4, .horizon = 0.4, .trajectories = 2100});
+  data.first_of = {0, 0, 1, 3, 3, 20, 37, 60, 61, 200, 2100, 2100};
+  const metric measure(chain, data, coordinates::modes);
+  const after_steps<> loss(two_stages, chain, data, state_error(measure), {.threads = 2});
+  const sample_blocks<nystrom, linear_chain> pairs(chain, data, measure);
+  const auto expected = pairs.by_trajectory(array_of<2>(theta));
+  const auto losses = trajectory_losses(loss, theta);
+  const auto gradients = trajectory_gradients(loss, theta);
+  BOOST_REQUIRE(losses.size() == expected.size());
+  int differ = 0;
+  for (std::size_t m = 0; m < losses.size(); ++m) {
+    differ += losses[m] != expected[m].value || gradients[m] != expected[m].gradient();
+  }
+  BOOST_TEST(differ == 0);
+  BOOST_TEST(same(squares_at(loss, theta), pairs(theta)));
+  BOOST_TEST(!same(squares_at(loss, Eigen::Vector2d(0.45, 0.38 + 1e-15)), pairs(theta)));
+}
+
+BOOST_AUTO_TEST_CASE(the_energy_loss_is_its_formula) {
+  const auto data = uneven_data();
+  const metric measure(galaxy, data, coordinates::qp);
+  const after_steps<> loss(run_time_family(nystrom()), galaxy, data, energy_error(galaxy, data),
+                           ten_of_energy.options);
+  const auto at = elsewhere<nystrom>();
+  const double expected = energy_loss_by_hand(data, at);
+  // An energy below 1 rounds in some 20 operations for each of 10 steps, over errors of some 1e-4 or more.
+  BOOST_TEST(loss_value(loss, column_of(at)) == expected,
+             boost::test_tools::tolerance(2.0 * 200.0 * eps / 1e-4));
+  BOOST_TEST(expected > 1e-8);
+}
+
+BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
+  const auto check = [](const std::string& what, const after_steps<>& loss, const Eigen::VectorXd& at) {
+    const Eigen::VectorXd ours = squares_at(loss, at).gradient();
+    const auto value = [&](const Eigen::VectorXd& x) { return loss_value(loss, x); };
+    for (Eigen::Index k = 0; k < at.size(); ++k) {
+      const central_difference difference(value, at, k);
+      const double s = 1e-4;
+      // A residual is the difference of numbers below 1, or below the increments' inverse 1/.05, after some
+      // hundred roundings.
+      const double rounding = 2.0 * 100.0 * eps * 20.0 * std::sqrt(value(at)) / s;
+      const double off = std::abs(ours[k] - difference(s));
+      BOOST_TEST_CONTEXT(what << ", parameter " << k) {
+        BOOST_TEST(off <= 2.0 * difference.truncation(s) + rounding);
+        BOOST_TEST(off <= 1e-4 * ours.norm());  // which says something
+      }
+    }
+  };
+  const auto data = uneven_data();
+  const metric measure(galaxy, data, coordinates::qp);
+  const run_time_family four_kicks{aba<4>()};
+  const Eigen::VectorXd at = column_of(elsewhere<aba<4>>());
+  for (const auto& what : {five_steps, several_times, ten_of_energy}) {
+    check(std::to_string(what.options.steps.back()) + " steps",
+          after_steps<>(four_kicks, galaxy, data, error_of(what, data, measure), what.options), at);
+  }
+  const auto noisy = made<symmetric>(2);
+  const metric of_noisy(warm, noisy, coordinates::qp);
+  check("in a bath", after_steps<>(run_time_family(symmetric()), warm, noisy, state_error(of_noisy)),
+        column_of(far));
+}
 
 // Each trajectory adds its part of the mean to the whole: the mean over some has their parts, and no others.
 BOOST_AUTO_TEST_CASE(some_trajectories_alone) {
-  const henon_heiles galaxy;
-  const normal_around<2> starts({vector<double, 2>(0.0, 0.0), vector<double, 2>(0.0, 0.0)}, 0.1, 0.2);
   constexpr int trajectories = 23;
   const auto data = make_flow_map_data(galaxy, starts, fine_steps<>(0.05),
                                        {.step = 0.4, .horizon = 3.2, .trajectories = trajectories});
   const metric measure(galaxy, data, coordinates::qp);
-  const run_time_family family{nystrom()};
   const auto parts_of = [&](int every) {
-    const after_steps<> loss(family, galaxy, data, state_error<detail::lanes>(measure),
+    const after_steps<> loss(two_stages, galaxy, data, state_error<detail::lanes>(measure),
                              {.steps = {1, 3}, .apart = 2, .every = every});
-    return trajectory_losses(loss, column_of(theta));
+    return trajectory_losses(loss, theta);
   };
   const auto all = parts_of(1);
   for (const int every : {2, 5, 23, 40}) {
@@ -118,6 +337,12 @@ BOOST_AUTO_TEST_CASE(some_trajectories_alone) {
   }
 }
 
+namespace {
+struct a_fork : potential_only {  // takes a branch, and says so
+  static constexpr int lanes = 1;
+};
+}  // namespace
+
 BOOST_AUTO_TEST_CASE(packs_are_for_systems_that_serve_them) {
   using packs = detail::lanes;
   static_assert(std::same_as<scalar_of_passes<henon_heiles>, packs>);
@@ -126,15 +351,103 @@ BOOST_AUTO_TEST_CASE(packs_are_for_systems_that_serve_them) {
   static_assert(std::same_as<scalar_of_passes<black_box>, double>);
   static_assert(std::same_as<scalar_of_passes<a_fork>, double>);
   const black_box box;
-  const normal_around<1> starts({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.5, 0.5);
+  const normal_around<1> of_rest({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.5, 0.5);
   const auto data =
-      make_flow_map_data(box, starts, fine_steps<>(0.05), {.step = 0.4, .horizon = 2.0, .trajectories = 3});
+      make_flow_map_data(box, of_rest, fine_steps<>(0.05), {.step = 0.4, .horizon = 2.0, .trajectories = 3});
   const metric measure(box, data, coordinates::qp);
-  const one_step<nystrom, double> loss(box, data, measure);
+  const after_steps<double> loss(two_stages, box, data, state_error<double>(measure));
   loss_value(loss, theta);  // derivatives along two parameters are carried even where no caller asks for them
   BOOST_TEST(loss.evaluations() == 2 * 15 * (1 + 2 * 2));
   squares_at(loss, theta);  // and count one each
   BOOST_TEST(loss.evaluations() == 2 * (2 * 15 * (1 + 2 * 2)));
-  BOOST_TEST(refuses<std::invalid_argument>([&] { one_step<nystrom, packs>(box, data, measure); },
-                                            {"black_box", "after_steps<double>"}));
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] { after_steps<packs>(two_stages, box, data, state_error<packs>(measure)); },
+      {"black_box", "after_steps<double>"}));
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
+  const auto data = uneven_data();
+  const metric measure(galaxy, data, coordinates::qp);
+  const auto made = [&](int steps) {
+    return [&, steps] { after_steps<>(two_stages, galaxy, data, state_error(measure), {.steps = {steps}}); };
+  };
+  BOOST_TEST(refuses<wrong>(made(41), {"41 steps", "longer horizon"}));
+  BOOST_TEST(refuses<wrong>(made(0), {"from 1 on", "got 0"}));
+  BOOST_TEST(refuses<wrong>(made(-1), {"from 1 on", "got -1"}));
+  const auto of_times = [&](const std::vector<int>& steps) {
+    return [&, steps] { after_steps<>(two_stages, galaxy, data, state_error(measure), {.steps = steps}); };
+  };
+  BOOST_TEST(refuses<wrong>(of_times({}), {"from 1 on"}));
+  BOOST_TEST(refuses<wrong>(of_times({2, 2}), {"rising", "2, 2"}));
+  BOOST_TEST(refuses<wrong>(of_times({4, 3}), {"rising", "4, 3"}));
+  BOOST_TEST(!refuses<wrong>(made(40), {}));
+  const black_box box;
+  const normal_around<1> of_rest({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.5, 0.5);
+  const auto of_box = make_flow_map_data(box, of_rest, fine_steps<>(0.05), {.step = 0.4, .trajectories = 3});
+  BOOST_TEST(refuses<wrong>([&] { energy_error(box, of_box); }, {"energy loss", "potential", "black_box"}));
+}
+
+BOOST_AUTO_TEST_CASE(the_loss_is_that_of_a_step_with_its_noise) {
+  for (const int steps : {1, 3}) {
+    check_formula<family<placement::end>>(1, steps);
+    check_formula<family<placement::middle>>(1, steps);
+    check_formula<symmetric>(2, steps);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(more_parts_than_the_letters_need_are_put_together) {
+  const auto sixths = made<symmetric>(6);
+  for (const auto& theta : {maker, far}) {
+    const double expected = loss_of<symmetric>(sixths, theta);
+    // Noise differs by rounding: so do residuals, which at the minimum are nothing else.
+    const double rounding = 1e4 * eps * expected + std::pow(100.0 * eps, 2);
+    BOOST_TEST(std::abs(loss_of<symmetric>(in_parts(sixths, 2), theta) - expected) <= rounding);
+  }
+  const auto quarters = made<family<placement::end>>(4);
+  BOOST_TEST(loss_of<family<placement::end>>(quarters, maker) <= 1e-24);
+  BOOST_TEST(loss_of<family<placement::end>>(in_parts(quarters, 2), maker) <= 1e-24);
+  BOOST_TEST(loss_of<family<placement::middle>>(quarters, maker) > 1e-3);  // it is another method
+}
+
+BOOST_AUTO_TEST_CASE(evaluations_are_those_of_plain_steps) {
+  const auto data = made<symmetric>(2);
+  const metric measure(warm, data, coordinates::qp);
+  const after_steps<> loss(run_time_family(symmetric()), warm, data, state_error(measure));
+  loss_value(loss, column_of(maker));
+  BOOST_TEST(loss.evaluations() == 2 * 200);
+}
+
+BOOST_AUTO_TEST_CASE(data_without_the_noise_that_is_needed_are_refused) {
+  const auto refused = [](const flow_map_data& data, auto of, std::initializer_list<std::string_view> w) {
+    return refuses<wrong>([&] { loss_of<decltype(of)>(data, maker); }, w);
+  };
+  auto without = made<symmetric>(2);
+  without.noise.clear();
+  without.noise_parts = 0;
+  BOOST_TEST(
+      refused(without, symmetric(), {"a multiple of 2 for the word OABABAO", "got 0", "noise_parts = 2"}));
+  BOOST_TEST(refused(without, family<placement::end>(), {"a multiple of 1 for the word ABABAO", "got 0"}));
+  const auto thirds = made<family<placement::end>>(3);
+  BOOST_TEST(refused(thirds, symmetric(), {"got 3", "noise_parts = 2"}));
+  BOOST_TEST(!refused(thirds, family<placement::middle>(), {}));
+  BOOST_TEST(refused(made<family<placement::end>>(1), symmetric(), {"got 1", "noise_parts = 2"}));
+  BOOST_TEST(refused(made<symmetric>(2), nystrom(), {"must have a letter O"}));
+}
+
+BOOST_AUTO_TEST_CASE(without_sigma_no_noise_is_needed) {
+  for (const double friction : {0.0, 0.7}) {
+    const in_bath<henon_heiles> quiet(henon_heiles(), bath::of_sigma(friction, 0.0));
+    auto data = made_by_steps(quiet, starts, member<symmetric>(maker), {.step = h});
+    const metric measure(quiet, data, coordinates::qp);
+    const auto loss = [&] {
+      return loss_value(after_steps<>(run_time_family(symmetric()), quiet, data, state_error(measure)),
+                        column_of(maker));
+    };
+    BOOST_TEST(loss() <= 1e-24);
+    data.noise_parts = 0;
+    data.noise.clear();
+    BOOST_TEST(loss() <= 1e-24);
+    data.finish[0].p[0] += 1e-3;
+    BOOST_TEST(loss() > 1e-9);
+  }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A loss of one's own function: the library's losses come out of it to the bit, in any lanes and threads.
+// A loss of one's own function: the library's losses come out of it to the bit, over double and in lanes.
 #include "nysalt/losses/own_loss.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -97,18 +97,18 @@ constexpr auto bent = []<class T>(const phase_point<T, 2>& start, const phase_po
 };
 
 template <Scalar R>
-void check_the_librarys(int threads) {
+void check_the_librarys() {
   const auto data = data_of(galaxy);
   const metric measure(galaxy, data, coordinates::qp);
-  const auto state = squares_of<R>(galaxy, data, state_error<R>(measure), threads);
+  const auto state = squares_of<R>(galaxy, data, state_error<R>(measure));
   const auto weights = weights_of(measure, 2);
   const auto of_own = [&](const auto& error) {
-    return squares_of<R>(galaxy, data, own_error<R>(galaxy, error), threads);
+    return squares_of<R>(galaxy, data, own_error<R>(galaxy, error));
   };
-  BOOST_TEST_CONTEXT(lanes_in<R> << " lanes, " << threads << " threads") {
+  BOOST_TEST_CONTEXT(lanes_in<R> << " lanes") {
     BOOST_TEST(same(of_own(own_state_error(weights)), state));
     BOOST_TEST(!same(of_own(own_state_error(weights * (1.0 + 1e-15))), state));
-    const auto energy = squares_of<R>(galaxy, data, energy_error<R>(galaxy, data), threads);
+    const auto energy = squares_of<R>(galaxy, data, energy_error<R>(galaxy, data));
     BOOST_TEST(same(of_own(own_energy_error(data)), energy));
     BOOST_TEST(energy.value > 1e-12);
   }
@@ -117,28 +117,8 @@ void check_the_librarys(int threads) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_librarys_losses_come_out_to_the_bit) {
-  for (const int threads : {1, 2}) {
-    check_the_librarys<double>(threads);
-    check_the_librarys<detail::lanes>(threads);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(lanes_and_threads_change_no_bit) {
-  const auto data = data_of(galaxy);
-  const auto of = [&]<Scalar R>(R, int threads, double scale = 1.0) {
-    const auto error = [scale](const auto&... states) {
-      auto r = bent(states...);
-      r[1] = r[1] * scale;
-      return r;
-    };
-    return squares_of<R>(galaxy, data, own_error<R>(galaxy, error), threads);
-  };
-  const auto expected = of(0.0, 1);
-  for (const int threads : {1, 2, 3}) {
-    BOOST_TEST(same(of(0.0, threads), expected));
-    BOOST_TEST(same(of(detail::lanes(0.0), threads), expected));
-  }
-  BOOST_TEST(!same(of(0.0, 1, 1.0 + 1e-14), expected));
+  check_the_librarys<double>();
+  check_the_librarys<detail::lanes>();
 }
 
 BOOST_AUTO_TEST_CASE(any_number_of_residuals_is_told_by_what_is_returned) {
