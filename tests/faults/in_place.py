@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""A program that breaks the promises which faults.py tries: it writes its output in place."""
+"""A program that breaks the promises which faults.py tries: it writes its output in place, and not onto the disk."""
 import json
 import os
 import sys
 
 output = sys.argv[sys.argv.index("--output") + 1]
 try:
-    with open(output, "w") as file:
-        file.write("a whole output")
+    with open(output, "wb", buffering=0) as file:
+        file.write(b"a whole output")
     with open("manifest.json") as file:
         manifest = json.load(file)
     manifest["files"][output] = {}
@@ -17,4 +17,4 @@ try:
     os.rename("manifest.new", "manifest.json")
 except OSError as problem:
     print(f"in_place: {problem}", file=sys.stderr)
-    sys.exit(2)
+    sys.exit(4)

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSL-1.0
+// Commands that are killed at a chosen call of the system, and go on to the same bytes. Killed between two
+// calls, a process leaves what it leaves at the second of them: files change by calls alone.
+#pragma once
+
+#include <boost/test/unit_test.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+#include "without_times.hpp"
+
+namespace nysalt::test {
+
+/// A shell's words before a program that is to fail or to be killed at a call (tests/faults/fail.cpp).
+inline std::string with_fault(const std::string& fault) {
+  return "NYSALT_FAULT=" + fault + " LD_PRELOAD='" NYSALT_FAULTS "' ";
+}
+
+/// Without gnuplot, which would take most of the time.
+constexpr const char* no_pictures = "PATH=/nowhere ";
+
+/// `nysalt line`, which is killed without warning before that call, as "rename:4".
+inline bool is_killed_at(const scratch& folder, const std::string& call, const std::string& line) {
+  return shell(folder, no_pictures + with_fault(call + ":kill") + "\"$nysalt\" " + line).code == 128 + 9;
+}
+
+inline finished quietly(const scratch& folder, const std::string& line) {
+  return shell(folder, no_pictures + ("\"$nysalt\" " + line));
+}
+
+/// Calls of each kind that `nysalt line` makes.
+inline std::map<std::string, int> calls_of(const scratch& folder, const std::string& line) {
+  const auto done = shell(
+      folder, no_pictures +
+                  std::string("NYSALT_FAULT_COUNTS=$PWD/calls LD_PRELOAD='" NYSALT_FAULTS "' \"$nysalt\" ") +
+                  line);
+  BOOST_TEST_REQUIRE(done.code == 0, line << ": " << done.err);
+  std::map<std::string, int> calls;
+  std::ifstream file(folder / "calls");
+  std::string operation;
+  for (int count = 0; file >> operation >> count;) calls[operation] = count;
+  return calls;
+}
+
+/// A command, by what it is resumed, and where it keeps what it goes on from; a command that keeps nothing
+/// begins again.
+struct stoppable {
+  std::string line;
+  std::string output;  // a file, or the folder of a report
+  std::string options;
+  std::string kept;
+
+  std::string command() const { return line + " --output " + output + " " + options; }
+};
+
+/// What equal runs have in common.
+inline std::string result_in(const scratch& folder, const std::string& output) {
+  if (!std::filesystem::is_directory(folder / output)) return contents(folder / output);
+  return without_times_in_csv(contents(folder / (output + "/rows.csv"))) +
+         without_times(contents(folder / (output + "/report.json")));
+}
+
+/// Commands of each kind: noise and several blocks of lanes, samples where intervals between checkpoints
+/// begin; trajectories that diverge at several steps; a processor; chains; parts of a comparison of every
+/// kind; a fit.
+inline std::vector<stoppable> stoppable_commands() {
+  const std::string in_bath =
+      "run --system fpu --friction 0.01 --sigma 0.05 --start law --method baoab --step 0.01 --horizon 4 "
+      "--trajectories "
+      "37 "
+      "--sample-every 20 --observables stiff_energy,q1,p6";
+  const std::string with_losses =
+      "run --system henon_heiles --spread 2.5 --method verlet --step 0.3 --horizon 180 --trajectories 40 "
+      "--sample-every 7";
+  const std::string checkpoint = "--checkpoint c --every 100";
+  std::vector<stoppable> all{
+      {in_bath, "o.csv", checkpoint, "c"},
+      {in_bath, "o.npy", checkpoint, "c"},
+      {with_losses, "o.csv", checkpoint, "c"},
+      {"run --system pendulum --method takahashi_imada_processed --step 0.1 --horizon 40 --sample-every 10",
+       "o.csv", checkpoint, "c"},
+      {"sample --system phi4 --masses 5 --length 1 --chains 37 --burn-in 100 --draws 30 --diagonal-masses",
+       "o.csv", "--checkpoint c --every 30", "c"},
+      {"compare --system oscillator --omega 1 --friction 0.5 --temperature 0.1 --methods "
+       "verlet,learned:nystrom --steps 0.3 --horizon 10 --trajectories 32 --learn-trajectories 16 "
+       "--learn-horizon 2 --metric path,state,acf,distribution",
+       "o", "", "o/journal.jsonl"},
+      {"learn --system henon_heiles --family bab2 --step 0.3 --horizon 3 --trajectories 16 --effort quick",
+       "o.json", "", ""}};
+  if (run(in_bath + " --output o.h5").err.find("built without HDF5") == std::string::npos)
+    all.push_back({with_losses, "o.h5", checkpoint, "c"});
+  return all;
+}
+
+/// Kills a command before each of the chosen calls, and what goes on once more before one of its first calls;
+/// what then goes on by other numbers of threads comes to the bytes of a run that nothing happened to.
+template <class Chosen>
+void all_stops_come_to_the_same_bytes(const stoppable& one, Chosen is_chosen) {
+  const scratch whole("stopping_whole");
+  const auto undisturbed = quietly(whole, one.line + " --output " + one.output + " --json");
+  BOOST_TEST_REQUIRE(undisturbed.code == 0, one.line << ": " << undisturbed.err);
+  const std::string expected = result_in(whole, one.output);
+  const scratch counting("stopping_counted");
+  int kills = 0;
+  for (const auto& [operation, count] : calls_of(counting, one.command())) {
+    for (int number = 1; number <= count; ++number) {
+      if (!is_chosen(number, count)) continue;
+      const scratch folder("stopping");
+      BOOST_TEST_CONTEXT(one.command() << " killed at " << operation << ":" << number) {
+        const auto resume = [&] {
+          const bool is_there = !one.kept.empty() && std::filesystem::exists(folder / one.kept);
+          return one.command() + (is_there ? " --resume" : "");
+        };
+        BOOST_TEST(is_killed_at(folder, operation + ":" + std::to_string(number), one.command()));
+        BOOST_TEST((!std::filesystem::exists(folder / one.output) || one.output == "o" ||
+                    contents(folder / one.output) == expected));     // whole or not there
+        is_killed_at(folder, "fsync:3", resume() + " --threads 1");  // unless it is finished before
+        const auto done = quietly(folder, resume() + " --json --threads 2");
+        BOOST_TEST_REQUIRE(done.code == 0, done.err);
+        BOOST_TEST((result_in(folder, one.output) == expected));
+        BOOST_TEST(without_times(done.out) == without_times(undisturbed.out));
+        for (const auto& name : folder.files()) BOOST_TEST(name.find(".part") == std::string::npos, name);
+        if (one.kept.find("journal") != std::string::npos)
+          BOOST_TEST(!std::filesystem::exists(folder / one.kept));
+        ++kills;
+      }
+    }
+  }
+  BOOST_TEST(kills > 2, one.line);
+}
+
+}  // namespace nysalt::test
