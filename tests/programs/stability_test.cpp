@@ -139,19 +139,6 @@ BOOST_AUTO_TEST_CASE(rare_starts_count) {
   BOOST_TEST(!is_bounded(what, 0.3, 2000));
 }
 
-// Verlet on the pendulum is the standard map: beyond h = .986 no invariant circle is left.
-BOOST_AUTO_TEST_CASE(a_safe_step_was_tried) {
-  const auto safe_step = [](const std::string& system, const std::string& method) {
-    return document("stability --system " + system + " --method " + method + " --step 0.01")["safe_step"];
-  };
-  for (const char* spread : {"", " --spread 2"}) {
-    BOOST_TEST(safe_step("pendulum" + std::string(spread), "verlet").get<double>() < 0.986);
-  }
-  // Where frequencies have no bound, and of words that rotate, nothing is promised.
-  BOOST_TEST(safe_step("kepler", "verlet").is_null());
-  BOOST_TEST(safe_step("fpu", "impulse").is_null());
-}
-
 // Impulses on phi^4: no mode is magnified much by itself, and runs are lost all the same.
 BOOST_AUTO_TEST_CASE(words_that_rotate_are_tried) {
   const std::string what = " --system phi4 --spread 0.3 --method impulse";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Runs are warned where they are near an end of stability, and `stability` draws the curve.
+// Runs are warned where they are near an end of stability, `stability` draws the curve, and safe steps were
+// tried.
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
@@ -37,6 +38,19 @@ json warnings_of(const std::string& arguments, const scratch& folder = scratch("
 }
 
 }  // namespace
+
+// Verlet on the pendulum is the standard map: beyond h = .986 no invariant circle is left.
+BOOST_AUTO_TEST_CASE(a_safe_step_was_tried) {
+  const auto safe_step = [](const std::string& system, const std::string& method) {
+    return document("stability --system " + system + " --method " + method + " --step 0.01")["safe_step"];
+  };
+  for (const char* spread : {"", " --spread 2"}) {
+    BOOST_TEST(safe_step("pendulum" + std::string(spread), "verlet").get<double>() < 0.986);
+  }
+  // Where frequencies have no bound, and of words that rotate, nothing is promised.
+  BOOST_TEST(safe_step("kepler", "verlet").is_null());
+  BOOST_TEST(safe_step("fpu", "impulse").is_null());
+}
 
 BOOST_AUTO_TEST_CASE(a_run_is_warned_of_a_small_margin) {
   const std::string what = " --system fpu --method verlet --horizon 0.1";
