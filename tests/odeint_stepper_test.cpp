@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "laws/models.hpp"
+#include "laws/laws.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/references/odeint_stepper.hpp"
 #include "support/rounding.hpp"

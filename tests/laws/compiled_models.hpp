@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Models whose kernels are compiled once for all tests.
+// Models whose kernels are compiled once for all tests; compiled_specimens.hpp has more.
 #pragma once
 
 #include <memory>

@@ -6,6 +6,7 @@
 #include "models.hpp"
 #include "nysalt/families/thermostatted.hpp"
 #include "nysalt/methods/classical_methods.hpp"
+#include "nysalt/methods/s_aia.hpp"
 
 namespace nysalt::test {
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "models.hpp"
-#include "nysalt/families/thermostatted.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/systems/in_bath.hpp"
 
@@ -38,13 +37,4 @@ struct shared_equally {
 };
 
 using O = ornstein_uhlenbeck;
-using nystrom_symmetric = member<thermostatted_family<nystrom, placement::symmetric>>;
-using nystrom_middle = member<thermostatted_family<nystrom, placement::middle>>;
-
-/// Letters O in the middle, at one end, at both, several, and next to each other.
-using noisy_methods =
-    joined<rows<with_letter<'O'>>,
-           std::tuple<nystrom_symmetric, nystrom_middle, shared_equally<kick, drift, kick, O>,
-                      shared_equally<O, kick, drift>, shared_equally<O, kick, O, O, drift, O>>>;
-
 }  // namespace nysalt::test

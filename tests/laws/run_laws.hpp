@@ -91,45 +91,6 @@ phase_point<double, N> watched_finish(const auto& fixed, const phase_point<doubl
   return fixed.synchronous(run);
 }
 
-/// The finish of a run that is looked at every so often, by integrate.
-template <SeparableSystem S, Method M, NoiseSource Noise = no_noise>
-phase_point<double, S::dimension> observed_finish(const S& system, const M& method, double step,
-                                                  const phase_point<double, S::dimension>& x,
-                                                  std::int64_t steps, std::int64_t every,
-                                                  const Noise& noise = {}) {
-  const auto observe = [](std::int64_t, double, const auto&) {};
-  return integrate(make_stepper(system, method, step, noise), x, steps, observe, every).finish;
-}
-
-/// The finish of a run that is cut in two, the open run being all that is kept.
-template <SeparableSystem S, Method M, NoiseSource Noise = no_noise>
-phase_point<double, S::dimension> cut_finish(const S& system, const M& method, double step,
-                                             const phase_point<double, S::dimension>& x, std::int64_t steps,
-                                             std::int64_t first, const Noise& noise = {}) {
-  auto kept = [&] {
-    const auto before = make_stepper(system, method, step, noise);
-    auto run = before.open(x);
-    before.advance(run, first);
-    return run;
-  }();
-  const auto after = make_stepper(system, method, step, noise);
-  after.advance(kept, steps - first);
-  return after.synchronous(kept);
-}
-
-/// The finish of a run that is closed and opened anew at every step: what looking must not do.
-template <SeparableSystem S, Method M>
-phase_point<double, S::dimension> reopened_finish(const S& system, const M& method, double step,
-                                                  phase_point<double, S::dimension> x, std::int64_t steps) {
-  const auto fixed = make_stepper(system, method, step);
-  for (std::int64_t n = 0; n < steps; ++n) {
-    auto run = fixed.open(x);
-    fixed.advance(run, 1);
-    x = fixed.synchronous(run);
-  }
-  return x;
-}
-
 /// Whether W trajectories side by side have the bits of each alone, run by the same stepper; the first of
 /// them has that number, and the noise that goes with it.
 template <int W, class Stepper>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "compiled_models.hpp"
+#include "compiled_specimens.hpp"
 #include "laws.hpp"
 #include "models.hpp"
 
@@ -17,6 +17,22 @@ specimen within(double reach, const model& system) {
   return {system, {zero, zero, reach}};
 }
 
+/// Atoms at rest.
+specimen atoms(Eigen::Index space, Eigen::Index count) {
+  const lennard_jones<> system(space, count);
+  return {system, {cluster_at_rest(system), Eigen::VectorXd::Zero(system.size()), 0.05}};
+}
+
+/// Four rows of three predictors.
+logistic_regression a_posterior_of_rows() {
+  Eigen::MatrixXd rows(4, 3);
+  rows << 1.0, 0.5, -2.0, 1.0, -1.5, 0.3, 1.0, 2.0, 1.0, 1.0, 0.1, -0.7;
+  return {rows, Eigen::Vector4d(1.0, 0.0, 1.0, 0.0), 4.0};
+}
+
+/// Small swings split off.
+auto split_pendulum() { return with_quadratic_part(pendulum(), Eigen::MatrixXd::Identity(1, 1)); }
+
 }  // namespace
 
 const std::vector<specimen>& specimens() {
@@ -28,14 +44,13 @@ const std::vector<specimen>& specimens() {
       within(0.5, fpu_chain<>(2, 7.0)),
       within(1.0, pendulum()),
       within(0.25, henon_heiles()),
-      {kepler(), a_planet::reach},
-      {lennard_jones<>(2, 3), flat_atoms::reach},
-      {lennard_jones<>(3, 5), atoms_in_space::reach},
+      {kepler(), {Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0), 0.2}},  // a circle
+      atoms(2, 3),
+      atoms(3, 5),
       within(1.0, phi4_chain<>(5)),
       within(0.5, phi4_lattice(3, -1.0, 2.0)),
       within(1.0, gaussian(Eigen::Vector3d(0.3, 1.0, 2.5))),
       within(1.0, a_posterior_of_rows()),
-      within(1.0, potential_only()),
       within(1.0, dynamic_potential()),
       within(1.0, black_box()),
       within(1.0, black_box_with_derivative()),

@@ -17,6 +17,8 @@
 #include "nysalt/scalars/series.hpp"
 #include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/in_bath.hpp"
+#include "nysalt/systems/kepler.hpp"
+#include "nysalt/systems/lennard_jones_cluster.hpp"
 
 namespace nysalt::test {
 namespace {

@@ -2,8 +2,17 @@
 // Systems that cannot be are refused with a sentence.
 #include <boost/test/unit_test.hpp>
 
-#include "../laws/models.hpp"
+#include "../support/draws.hpp"
 #include "../support/refusal.hpp"
+#include "../support/systems.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
+#include "nysalt/systems/gaussian.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/kepler.hpp"
+#include "nysalt/systems/lennard_jones_cluster.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+#include "nysalt/systems/logistic_regression.hpp"
+#include "nysalt/systems/phi4_chain.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -138,7 +147,8 @@ BOOST_AUTO_TEST_CASE(targets_of_sampling_have_laws) {
 
 // Margins at which exp() would overflow, and descriptions that differ where the data differ.
 BOOST_AUTO_TEST_CASE(a_logistic_regression_is_finite_far_out_and_known_by_its_data) {
-  const logistic_regression posterior = a_posterior_of_rows();
+  const Eigen::MatrixXd rows{{1.0, 0.5, -2.0}, {1.0, -1.5, 0.3}, {1.0, 2.0, 1.0}, {1.0, 0.1, -0.7}};
+  const logistic_regression posterior(rows, Eigen::Vector4d(1.0, 0.0, 1.0, 0.0), 4.0);
   const Eigen::Vector3d far(3000.0, -2000.0, 1000.0);
   // log(1 + exp(m)) = m to rounding for the two rows that are on the wrong side.
   const auto tail = [](double margin) { return std::max(-margin, 0.0); };

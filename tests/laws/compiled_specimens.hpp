@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSL-1.0
+// Further models whose kernels are compiled once.
+#pragma once
+
+#include "compiled_models.hpp"
+#include "nysalt/systems/gaussian.hpp"
+#include "nysalt/systems/kepler.hpp"
+#include "nysalt/systems/lennard_jones_cluster.hpp"
+#include "nysalt/systems/logistic_regression.hpp"
+#include "nysalt/systems/phi4_lattice.hpp"
+#include "nysalt/systems/with_quadratic_part.hpp"
+
+#ifndef NYSALT_TEST_EXTERN_SPECIMEN
+#define NYSALT_TEST_EXTERN_SPECIMEN extern
+#endif
+
+namespace nysalt::detail {
+
+#define NYSALT_TEST_MODEL(...) \
+  NYSALT_TEST_EXTERN_SPECIMEN template std::shared_ptr<const any_system> erased(const __VA_ARGS__&)
+
+NYSALT_TEST_MODEL(fpu_chain<>);
+NYSALT_TEST_MODEL(gaussian);
+NYSALT_TEST_MODEL(kepler);
+NYSALT_TEST_MODEL(lennard_jones<>);
+NYSALT_TEST_MODEL(logistic_regression);
+NYSALT_TEST_MODEL(phi4_lattice);
+NYSALT_TEST_MODEL(test::black_box_with_derivative);
+NYSALT_TEST_MODEL(test::relativistic_with_velocity);
+NYSALT_TEST_MODEL(with_quadratic_part<pendulum>);
+NYSALT_TEST_MODEL(with_quadratic_part<test::dynamic_potential>);
+NYSALT_TEST_MODEL(with_quadratic_part<test::two_masses>);
+
+#undef NYSALT_TEST_MODEL
+
+}  // namespace nysalt::detail
