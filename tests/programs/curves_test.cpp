@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
-// Schemes of several steps, and as many trajectories as are enough.
+// Schemes of several steps, as many trajectories as are enough, and schemes at another size.
 #include <boost/test/unit_test.hpp>
 
 #include "../support/table.hpp"
 
-BOOST_AUTO_TEST_CASE(curves) { nysalt::test::run_table("curves"); }
+using nysalt::test::run_table;
+
+BOOST_AUTO_TEST_CASE(curves) { run_table("curves"); }
+BOOST_AUTO_TEST_CASE(other_size) { run_table("other_size"); }

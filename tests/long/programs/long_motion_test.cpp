@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // What takes long motion or a large system to be seen. Tier 1 has short ones of the same commands in
-// tests/programs/comparison_test.cpp and stability_test.cpp.
+// tests/programs/cases/comparison.txt and stability.txt.
 #include <boost/test/unit_test.hpp>
 
 #include "../../support/document.hpp"
