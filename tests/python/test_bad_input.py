@@ -2,6 +2,7 @@
 """What cannot be is a ValueError of one sentence, in the words of Python."""
 import os
 
+import neighbour
 import numpy as np
 import pytest
 
@@ -214,3 +215,10 @@ def test_unknown_arguments_are_type_errors():
 def test_unknown_parameters_are_refused_with_the_known_ones():
     with pytest.raises(ValueError, match="unknown parameter 'omgea' of the system fpu: it takes pairs, omega, spread"):
         nysalt.system("fpu", omgea=3)
+
+
+def test_exceptions_of_other_modules_are_as_without_this_package():
+    with pytest.raises(OverflowError, match="^--too-large was given$"):
+        neighbour.overflow()
+    with pytest.raises(ValueError, match="^give --force$"):
+        neighbour.invalid()

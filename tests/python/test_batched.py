@@ -1,9 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
 """Functions over (trajectories, dimension): the same bits as one after the other, and one call a kick."""
-import os
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
@@ -98,11 +94,3 @@ def test_it_learns_as_the_plain_one():
     fits = [nysalt.learn(system(lambda q: -q - q**3, batched), "nystrom", step=0.3, horizon=3, trajectories=5,
                          effort="quick", loss="state:1").theta for batched in (False, True)]
     assert (fits[0] == fits[1]).all()
-
-
-def test_the_example():
-    example = os.path.join(os.path.dirname(__file__), "../../examples/python/batched_force.py")
-    done = subprocess.run([sys.executable, example], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    off = float(done.stdout.split()[-1])
-    assert off < 1e-2  # of energies of some 3

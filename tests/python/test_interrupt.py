@@ -26,7 +26,7 @@ def long_integration():
 
 
 def long_learning():
-    nysalt.learn(CHAIN, "fg4", step=0.03, trajectories=50, random_starts=10000)  # few data, a long search
+    nysalt.learn(CHAIN, "nystrom", step=0.02, trajectories=10**5)  # tests/long/python has the search
 
 
 def long_comparison():

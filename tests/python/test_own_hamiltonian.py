@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
 """A Hamiltonian by functions of Python: the theta of the compiled one, and what goes wrong in functions."""
 import gc
-import pathlib
-import runpy
 import traceback
 import weakref
 
@@ -12,7 +10,6 @@ import pytest
 import nysalt
 from conftest import henon_heiles_by_functions
 
-EXAMPLE = pathlib.Path(__file__).parents[2] / "examples/python/own_hamiltonian.py"
 LEARNING = dict(family="nystrom", step=0.4, horizon=4, trajectories=10, fine_step=0.05, loss="state:1", random_starts=0)
 
 
@@ -55,18 +52,6 @@ def test_it_is_compared_as_the_compiled_one_is():
             assert a["error"] == pytest.approx(b["error"], rel=1e-9)  # the potential rounds in another order
     by_method = {row["method"]: row["error"] for row in mine if row["metric"] == "state"}
     assert by_method["srkn6b"] < by_method["verlet"]
-
-
-def test_the_example_learns_and_compares(capsys):
-    its = runpy.run_path(str(EXAMPLE))
-    assert its["scheme"].usable and not its["morse"].frequency_bands
-    assert {row["metric"] for row in its["found"]["rows"]} == {"state", "energy"}
-    # 20 trajectories at the step 0.3, and examples/new_hamiltonian.cpp learns from 100 others at 0.4: the errors of
-    # both, and what the step changes, add up to less than five of these.
-    theirs = np.array([0.5199, 0.4113])
-    errors = np.array(list(its["scheme"].standard_errors.values()))
-    assert (abs(its["scheme"].theta - theirs) <= 5 * errors + 1e-4).all()
-    assert "mclachlan2" in capsys.readouterr().out
 
 
 def test_a_scheme_is_of_the_name(tmp_path):

@@ -58,9 +58,9 @@ def test_a_comparison_is_the_document_of_the_program(program):
 
 def test_a_recommendation_is_the_document_of_the_program(program):
     found, scheme = nysalt.recommend(nysalt.system("pendulum"), 5, budget=4, families="nystrom",
-                                     trajectories=20, learn_trajectories=10)
+                                     trajectories=8, learn_trajectories=5)
     of_program = program("recommend", "--system", "pendulum", "--horizon", "5", "--budget", "4", "--families",
-                         "nystrom", "--trajectories", "20", "--learn-trajectories", "10")
+                         "nystrom", "--trajectories", "8", "--learn-trajectories", "5")
     of_program.pop("output")
     for one in (found, of_program):
         one.pop("advice")  # it tells of seconds

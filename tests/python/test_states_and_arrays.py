@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
 """States are stepped as run steps them; arrays are filled where they lie."""
-import pathlib
-import runpy
 import tracemalloc
 
 import numpy as np
@@ -81,11 +79,6 @@ def test_a_run_prints_as_one_line(chain):
                                      "41 samples to t = 20: energy, q1>")
 
 
-def test_threads_change_nothing(chain):
-    runs = [nysalt.run(chain, "baoab", 0.01, 5, trajectories=70, threads=threads) for threads in (1, 2)]
-    assert np.array_equal(runs[0].values, runs[1].values)
-
-
 def test_energy_and_force_are_those_of_the_hamiltonian():
     system = nysalt.system("henon_heiles")
     q, p = system.starts(5)
@@ -103,9 +96,3 @@ def test_facts_of_a_system():
     assert chain.default_observable == "stiff_energy" and "q1..q4" in chain.observables
     assert chain.parameters == {"name": "fpu", "pairs": 2, "omega": 30.0} and not chain.calls_python
     assert chain.frequency_bands[-1][1] >= 30 and nysalt.system("kepler").frequency_bands == []
-
-
-def test_the_example_steps_its_states(capsys):
-    its = runpy.run_path(str(pathlib.Path(__file__).parents[2] / "examples/python/states.py"))
-    assert its["off"].max() < 0.5 and len(capsys.readouterr().out.splitlines()) == 10
-    assert not np.array_equal(its["q"], its["chain"].starts(1000)[0])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Letters that a system declares: words of them are methods and families by their names."""
+"""Letters that a system declares: words of them are methods and families by their names. Tier 1: tests/smoke has one plug-in."""
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +7,7 @@ import pytest
 
 import nysalt
 
-PLUGINS = Path(__file__).parents[2] / "examples" / "plugins"
+PLUGINS = Path(__file__).parents[3] / "examples" / "plugins"
 
 
 @pytest.fixture(autouse=True)

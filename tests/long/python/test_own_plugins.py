@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Systems of users that are compiled: by a source, and by a potential as text."""
+"""Systems of users that are compiled: by a source, and by a potential as text. Tier 1: tests/smoke has one plug-in."""
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +7,7 @@ import pytest
 
 import nysalt
 
-TODA = str(Path(__file__).parents[2] / "examples" / "plugins" / "toda.hpp")
+TODA = str(Path(__file__).parents[3] / "examples" / "plugins" / "toda.hpp")
 
 
 @pytest.fixture(autouse=True)

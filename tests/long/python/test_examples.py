@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSL-1.0
+"""The examples of docs/python.md run, and find what they say. Tier 1 has their calls in tests/python."""
+import json
+import os
+import pathlib
+import runpy
+import subprocess
+
+import numpy as np
+import nysalt
+
+EXAMPLES = pathlib.Path(__file__).parents[3] / "examples/python"
+
+
+def test_fpu_is_under_25_lines_and_learns_what_the_program_learns(tmp_path, monkeypatch, capsys):
+    assert len((EXAMPLES / "fpu.py").read_text().splitlines()) < 25
+    monkeypatch.chdir(tmp_path)
+    found = runpy.run_path(str(EXAMPLES / "fpu.py"))
+    scheme = found["scheme"]
+    done = subprocess.run([os.environ["NYSALT_PROGRAM"], "learn", "--family", "nystrom", "--system", "fpu", "--omega", "50",
+                           "--step", "0.02", "--loss", "state:1", "--output", "theirs.json", "--json"],
+                          capture_output=True, text=True, check=True)
+    by_program = json.loads(done.stdout)
+    assert scheme.parameters == by_program["parameters"]
+    assert scheme.standard_errors == by_program["standard_errors"]
+    assert (scheme.loss, scheme.held_out_loss) == (by_program["loss"], by_program["held_out_loss"])
+    assert (tmp_path / "scheme.json").read_bytes() == (tmp_path / "theirs.json").read_bytes()
+    assert scheme.usable and scheme.reason is None
+    printed = capsys.readouterr().out
+    assert "usable" in printed and "scheme:nystrom" in printed
+    errors = {row["method"]: row["error"] for row in found["found"]["rows"]}
+    assert errors["scheme:nystrom"] < errors["verlet"]  # which has half the step
+
+
+def test_own_hamiltonian_learns_and_compares(capsys):
+    found = runpy.run_path(str(EXAMPLES / "own_hamiltonian.py"))
+    assert found["scheme"].usable and not found["morse"].frequency_bands
+    assert {row["metric"] for row in found["found"]["rows"]} == {"state", "energy"}
+    # 20 trajectories at the step 0.3, and examples/new_hamiltonian.cpp learns from 100 others at 0.4: the errors of
+    # both, and what the step changes, add up to less than five of these.
+    theirs = np.array([0.5199, 0.4113])
+    errors = np.array(list(found["scheme"].standard_errors.values()))
+    assert (abs(found["scheme"].theta - theirs) <= 5 * errors + 1e-4).all()
+    assert "mclachlan2" in capsys.readouterr().out
+
+
+def test_batched_force(capsys):
+    runpy.run_path(str(EXAMPLES / "batched_force.py"), run_name="__main__")
+    assert float(capsys.readouterr().out.split()[-1]) < 1e-2  # of energies of some 3
+
+
+def test_states(capsys):
+    found = runpy.run_path(str(EXAMPLES / "states.py"))
+    assert found["off"].max() < 0.5 and len(capsys.readouterr().out.splitlines()) == 10
+    assert not np.array_equal(found["q"], found["chain"].starts(1000)[0])
