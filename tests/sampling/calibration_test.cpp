@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
+// Compiled with -O1: 60 s at -O0, 0.8 s at -O1.
 // Moments of what Hybrid Monte Carlo draws are those of the law, within their standard errors and for several
-// seeds; without Metropolis' rule, or with a wrong one, the same judgement rejects them.
+// seeds; without Metropolis' rule, or with a wrong one, the same comparison rejects them. And effective draws
+// are not too many, however short the chains and however long their memory.
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
@@ -8,8 +10,11 @@
 #include <limits>
 #include <vector>
 
+#include "../support/autoregression.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
+#include "nysalt/analysis/autocovariance.hpp"
+#include "nysalt/analysis/integrated_time.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/hmc.hpp"
 #include "nysalt/methods/classical.hpp"
@@ -19,6 +24,7 @@
 #include "nysalt/systems/phi4_lattice.hpp"
 
 using namespace nysalt;
+using namespace nysalt::test;
 
 namespace {
 
@@ -57,7 +63,7 @@ double distance_of_hmc(const model& system, double step, double length, const mo
        .chains = chains,
        .burn_in = 100,
        .draws = draws,
-       .seed = test::seed(number)},
+       .seed = seed(number)},
       [&](const hmc_draw& draw) { means[static_cast<std::size_t>(draw.chain)] += f(draw.q) / draws; });
   return worst_distance(means, exact);
 }
@@ -66,14 +72,14 @@ double distance_of_hmc(const model& system, double step, double length, const mo
 template <class S>
 double distance_without_rule(const S& system, double step, std::int64_t steps, const moments_of& f,
                              const Eigen::VectorXd& exact, std::uint64_t number) {
-  const std::uint64_t seed = test::seed(number);
+  const std::uint64_t of_run = seed(number);
   const auto stepper = make_stepper(system, verlet{}, step);
   std::vector<Eigen::VectorXd> means(chains, Eigen::VectorXd::Zero(exact.size()));
   constexpr std::int64_t draws = 1000;
   for (std::uint64_t m = 0; m < chains; ++m) {
-    auto x = near_zero(system.size(), 0.5)(seed, m);
+    auto x = near_zero(system.size(), 0.5)(of_run, m);
     for (std::int64_t n = 0; n < draws; ++n) {
-      standard_normals(seed, {.trajectory = m, .step = n, .purpose = noise_purpose::momenta}, x.p);
+      standard_normals(of_run, {.trajectory = m, .step = n, .purpose = noise_purpose::momenta}, x.p);
       auto run = stepper.open(x);
       stepper.advance(run, 1 + n % steps);
       x = stepper.synchronous(run);
@@ -112,31 +118,6 @@ Eigen::VectorXd by_quadrature(const phi4_lattice& lattice) {
   return sums / weights;
 }
 
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(moments_of_a_gaussian) {
-  const Eigen::Vector3d frequencies(0.5, 1.0, 2.0);
-  const gaussian system(frequencies);
-  Eigen::VectorXd exact(9);
-  const Eigen::Array3d variances = frequencies.array().square().inverse();
-  exact << Eigen::Vector3d::Zero(), variances.matrix(), (3.0 * variances.square()).matrix();
-  const double allowed = test::standard_errors(test::false_alarms / (9 * seeds), chains - 1);  // 9 moments
-  for (std::uint64_t number = 1; number <= seeds; ++number)
-    BOOST_TEST(distance_of_hmc(system, 0.7, 2.0, gaussian_moments, exact, number) < allowed);
-  BOOST_TEST(distance_without_rule(system, 0.7, 5, gaussian_moments, exact, 1) > 2.0 * allowed);
-}
-
-BOOST_AUTO_TEST_CASE(moments_of_a_small_lattice) {
-  const phi4_lattice lattice(2, -2.0, 3.0);
-  const Eigen::VectorXd exact = by_quadrature(lattice);
-  const double allowed = test::standard_errors(test::false_alarms / (4 * seeds), chains - 1);  // 4 moments
-  for (std::uint64_t number = 1; number <= seeds; ++number)
-    BOOST_TEST(distance_of_hmc(lattice, 0.3, 0.8, lattice_moments, exact, number) < allowed);
-  BOOST_TEST(distance_without_rule(lattice, 0.3, 4, lattice_moments, exact, 1) > 2.0 * allowed);
-}
-
-namespace {
-
 /// The force of the lattice with the potential of another: proposals are accepted by a wrong energy.
 struct wrong_energy {
   static constexpr int dimension = Eigen::Dynamic;
@@ -153,14 +134,67 @@ struct wrong_energy {
   }
 };
 
+using draws_of_chains = std::vector<std::vector<double>>;
+
+constexpr double memories[] = {-0.9, -0.5, 0.0, 0.5, 0.9, 0.97};
+constexpr int lengths[] = {20, 50, 100, 200, 500};
+constexpr int repetitions = 50;
+
+/// Four chains of a memory, tau = (1 + phi)/(1 - phi), the n-th of a seed.
+draws_of_chains autoregressions(double phi, std::uint64_t of_seed, std::uint64_t n, int length) {
+  draws_of_chains all(4);
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    autoregression<double> next(phi, of_seed, 4 * n + k);
+    for (int i = 0; i < length; ++i) all[k].push_back(next.next());
+  }
+  return all;
+}
+
+/// How many times too many the effective draws are, at most, over all lengths and memories.
+template <class Count>
+double worst_ratio(std::uint64_t of_seed, Count count) {
+  double worst = 0.0;
+  std::uint64_t number = 0;
+  for (const double phi : memories) {
+    for (const int length : lengths) {
+      const double expected = 4.0 * length * (1.0 - phi) / (1.0 + phi);
+      for (int n = 0; n < repetitions; ++n) {
+        const double found = count(autoregressions(phi, of_seed, number++, length));
+        if (std::isfinite(found)) worst = std::max(worst, found / expected);
+      }
+    }
+  }
+  return worst;
+}
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(moments_of_a_gaussian) {
+  const Eigen::Vector3d frequencies(0.5, 1.0, 2.0);
+  const gaussian system(frequencies);
+  Eigen::VectorXd exact(9);
+  const Eigen::Array3d variances = frequencies.array().square().inverse();
+  exact << Eigen::Vector3d::Zero(), variances.matrix(), (3.0 * variances.square()).matrix();
+  const double allowed = standard_errors(false_alarms / (9 * seeds), chains - 1);  // 9 moments
+  for (std::uint64_t number = 1; number <= seeds; ++number)
+    BOOST_TEST(distance_of_hmc(system, 0.7, 2.0, gaussian_moments, exact, number) < allowed);
+  BOOST_TEST(distance_without_rule(system, 0.7, 5, gaussian_moments, exact, 1) > 2.0 * allowed);
+}
+
+BOOST_AUTO_TEST_CASE(moments_of_a_small_lattice) {
+  const phi4_lattice lattice(2, -2.0, 3.0);
+  const Eigen::VectorXd exact = by_quadrature(lattice);
+  const double allowed = standard_errors(false_alarms / (4 * seeds), chains - 1);  // 4 moments
+  for (std::uint64_t number = 1; number <= seeds; ++number)
+    BOOST_TEST(distance_of_hmc(lattice, 0.3, 0.8, lattice_moments, exact, number) < allowed);
+  BOOST_TEST(distance_without_rule(lattice, 0.3, 4, lattice_moments, exact, 1) > 2.0 * allowed);
+}
 
 BOOST_AUTO_TEST_CASE(a_wrong_rule_is_found) {
   const wrong_energy system;
   const Eigen::VectorXd exact = by_quadrature(system.forces);
   // More than what one of four moments is off by chance.
   BOOST_TEST(distance_of_hmc(system, 0.1, 0.8, lattice_moments, exact, 1) >
-             test::standard_errors(test::false_alarms / 4, chains - 1));
+             standard_errors(false_alarms / 4, chains - 1));
 }
 
 // In many dimensions H' - H is normal with the mean mu and the variance 2 mu, and erfc(sqrt(mu)/2) are
@@ -172,13 +206,51 @@ BOOST_AUTO_TEST_CASE(acceptance_in_many_dimensions_is_that_of_a_normal_energy_er
   for (const double z : {0.4, 0.6}) {
     const auto found =
         hmc(system, tabulated(verlet{}), near_zero(size, 1.0),
-            {.step = z, .length = 0.1 * z, .chains = 16, .burn_in = 100, .draws = 500, .seed = test::seed(1)},
+            {.step = z, .length = 0.1 * z, .chains = 16, .burn_in = 100, .draws = 500, .seed = seed(1)},
             [](const hmc_draw&) {});
     const double mu = size * std::pow(z, 6) / 32.0;
     const double expected = std::erfc(0.5 * std::sqrt(mu));
     // The next term of the normal law's expansion is of relative order 1/sqrt(size), and odd: it drops out.
     BOOST_TEST(std::abs(found.acceptance.mean - expected) <
-               test::standard_errors(test::false_alarms / 2, 15) * found.acceptance.standard_error + 2e-3);
+               standard_errors(false_alarms / 2, 15) * found.acceptance.standard_error + 2e-3);
     BOOST_TEST(std::abs(found.acceptance.mean - std::erfc(0.5 * std::sqrt(2.0 * mu))) > 0.02);
+  }
+}
+
+// An estimate z of its errors e tau below tau is tau (1 - z e), and counts as 2 e tau at least: it is too
+// small by a factor of (2 + z)/2 at most, where the two are equal.
+BOOST_AUTO_TEST_CASE(effective_draws_stay_below_their_bound) {
+  const double z = standard_errors(false_alarms / (6 * 5 * repetitions));
+  BOOST_TEST(worst_ratio(seed(1), [](const draws_of_chains& all) { return effective_draws(all); }) <
+             0.5 * (2.0 + z));
+}
+
+// Draws over an estimated tau, without that floor.
+BOOST_AUTO_TEST_CASE(draws_over_an_estimated_time_exceed_the_bound) {
+  const auto plain = [](const draws_of_chains& all) {
+    std::vector<autocovariance_sums> groups;
+    for (const auto& chain : all) {
+      autocovariance_along<double> sums(static_cast<int>(chain.size() / 3), 0.0);
+      for (const double x : chain) sums.add(x);
+      groups.push_back(sums.in_lane(0));
+    }
+    const auto time =
+        integrated_autocorrelation_time(autocovariance(1.0, 0.0, std::move(groups)).normalised());
+    return time.enough ? 4.0 * static_cast<double>(all[0].size()) / time.tau : NAN;
+  };
+  BOOST_TEST(worst_ratio(seed(1), plain) > 8.0);
+}
+
+// Of chains that are long enough the floor does not count.
+BOOST_AUTO_TEST_CASE(long_chains_count_as_they_should) {
+  for (const double phi : {-0.3, 0.0, 0.9}) {
+    const double expected = 4.0 * 20'000 * (1.0 - phi) / (1.0 + phi);
+    const double found = effective_draws(autoregressions(phi, seed(2), 0, 20'000));
+    // tau is known to sqrt((4 W + 2)/80000), W = 5 (1 + |phi|)/(1 - |phi|) rounded up.
+    const double window = 1.0 + 5.0 * (1.0 + std::abs(phi)) / (1.0 - std::abs(phi));
+    const double error = std::sqrt((4.0 * window + 2.0) / 80'000.0);
+    const double z = standard_errors(false_alarms / 3);
+    BOOST_TEST(found / expected < 1.0 / (1.0 - z * error));
+    BOOST_TEST(found / expected > 1.0 / (1.0 + z * error));
   }
 }

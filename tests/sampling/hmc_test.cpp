@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
-// Hybrid Monte Carlo samples exp(-V/kT) whatever the step, accepts as theory says, and keeps its bits.
+// Hybrid Monte Carlo samples exp(-V/kT) whatever the step and the masses, accepts as theory predicts, and
+// draws the same where it is cut and goes on from a kept state.
 #include "nysalt/hmc.hpp"
 
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -23,6 +25,8 @@ using namespace nysalt;
 using namespace nysalt::test;
 
 namespace {
+
+using wrong = std::invalid_argument;
 
 const normal_around<1> at_zero({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 1.0, 1.0);
 
@@ -65,6 +69,69 @@ struct spring_of_sign {
     f[0] = q[0] * (sign * 100.0);
   }
 };
+
+const Eigen::Array3d masses(1.0, 2.0, 5.0);
+
+/// Nothing acts on these masses.
+struct free_masses {
+  static constexpr int dimension = 3;
+  template <class T>
+  T potential(const vector<T, 3>&) const {
+    return T(0.0);
+  }
+  template <class T>
+  void force(const vector<T, 3>&, vector<T, 3>& f) const {
+    for (auto& one : f) one = T(0.0);
+  }
+  double inverse_mass(Eigen::Index i) const { return 1.0 / masses[i]; }
+};
+
+const phi4_chain<> wells(5);
+const Eigen::VectorXd no_shift = Eigen::VectorXd::Zero(5);
+const normal_around<Eigen::Dynamic> around_wells({no_shift, no_shift}, 0.5, 1.0);
+
+struct course {
+  std::vector<double> draws;  // coordinate 1, chain after chain; 0 where it was not drawn here
+  std::vector<hmc_state> kept;
+  hmc_result result;
+};
+
+course run_from(hmc_options options, const hmc_state* from = nullptr) {
+  course all;
+  all.draws.resize(static_cast<std::size_t>(options.chains * options.draws));
+  options.from = from;
+  options.keep = [&](const hmc_state& state) { all.kept.push_back(state); };
+  all.result = hmc(wells, tabulated(bcss3{}), around_wells, options, [&](const hmc_draw& draw) {
+    all.draws[static_cast<std::size_t>(draw.chain * options.draws + draw.number)] = draw.q[0];
+  });
+  return all;
+}
+
+/// Whether what was drawn after the state is the same, and the result.
+bool goes_on_as(const course& whole, const course& rest, const hmc_options& options, const hmc_state& state) {
+  const auto first = std::max<std::int64_t>(0, state.trajectories - options.burn_in);
+  for (std::int64_t m = 0; m < options.chains; ++m) {
+    for (std::int64_t n = first; n < options.draws; ++n) {
+      const auto at = static_cast<std::size_t>(m * options.draws + n);
+      if (whole.draws[at] != rest.draws[at]) return false;
+    }
+  }
+  return whole.result.step == rest.result.step &&
+         whole.result.acceptance.mean == rest.result.acceptance.mean &&
+         whole.result.square_of_energy_error.mean == rest.result.square_of_energy_error.mean &&
+         whole.result.diverged == rest.result.diverged &&
+         whole.result.evaluations_of_draw == rest.result.evaluations_of_draw &&
+         whole.result.evaluations_of_burn_in == rest.result.evaluations_of_burn_in &&
+         whole.result.deviations == rest.result.deviations;
+}
+
+const hmc_options tuned{.step = 0.3,
+                        .length = 1.0,
+                        .chains = 37,
+                        .burn_in = 120,
+                        .draws = 40,
+                        .acceptance = 0.9,
+                        .keep_every = 20};
 
 }  // namespace
 
@@ -122,23 +189,79 @@ BOOST_AUTO_TEST_CASE(acceptance_follows_the_arctangent_law) {
   BOOST_TEST(std::abs(result.acceptance.mean - after_two) > allowed);
 }
 
-BOOST_AUTO_TEST_CASE(neither_lanes_nor_threads_change_a_bit) {
-  const phi4_chain<> ring(5);
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(5);
-  const normal_around<Eigen::Dynamic> starts({zero, zero}, 0.5, 1.0);
-  hmc_options options{
-      .step = 0.3, .length = 1.0, .chains = 19, .burn_in = 120, .draws = 30, .acceptance = 0.9};
-  hmc_result first;
-  const auto all = draws_of(ring, tabulated(omelyan5v{}), starts, options, &first);
-  options.threads = 3;
-  BOOST_TEST((draws_of(ring, tabulated(omelyan5v{}), starts, options) == all));
-  options.seed = 2;
-  BOOST_TEST((draws_of(ring, tabulated(omelyan5v{}), starts, options) != all));
-  // A chain does not depend on those beside it, but for the step that all tune.
-  options = {.step = first.step, .length = 1.0, .chains = 19, .burn_in = 10, .draws = 30};
-  const auto many = draws_of(ring, tabulated(verlet{}), starts, options);
+// But for the step that all tune, and for the durations that they share.
+BOOST_AUTO_TEST_CASE(a_chain_does_not_depend_on_those_beside_it) {
+  hmc_options options{.step = 0.2, .length = 1.0, .chains = 19, .burn_in = 10, .draws = 30};
+  const auto many = draws_of(wells, tabulated(verlet{}), around_wells, options);
   options.chains = 1;
-  BOOST_TEST((draws_of(ring, tabulated(verlet{}), starts, options).front() == many.front()));
+  BOOST_TEST((draws_of(wells, tabulated(verlet{}), around_wells, options).front() == many.front()));
+  options.seed = 2;
+  BOOST_TEST((draws_of(wells, tabulated(verlet{}), around_wells, options).front() != many.front()));
+}
+
+// Nothing acts: a trajectory of duration T moves q_i by p_i T/m_i, of variance kT T^2/m_i. T is common to all
+// coordinates and cancels in ratios. T^2 of uniform T weighs 40,000 moves like 22,000, and a ratio of two
+// variances is known to sqrt(4/22,000).
+BOOST_AUTO_TEST_CASE(momenta_have_the_variances_of_their_masses) {
+  constexpr std::int64_t chains = 1000;
+  Eigen::Array3d squares = Eigen::Array3d::Zero();
+  std::vector<Eigen::Vector3d> before(chains, Eigen::Vector3d::Zero());
+  const normal_around<3> at_rest({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, 0.0, 1.0);
+  const auto result =
+      hmc(free_masses{}, tabulated(verlet{}), at_rest,
+          {.step = 0.5, .length = 10.0, .chains = chains, .burn_in = 0, .draws = 40, .seed = seed(1)},
+          [&](const hmc_draw& draw) {
+            auto& last = before[static_cast<std::size_t>(draw.chain)];
+            squares += (draw.q - last).array().square();
+            last = draw.q;
+          });
+  BOOST_TEST(result.acceptance.mean == 1.0);
+  const double allowed = standard_errors(false_alarms / 2) * std::sqrt(4.0 / 22'000.0);
+  for (const Eigen::Index i : {1, 2}) {
+    const double ratio = squares[i] / squares[0];
+    BOOST_TEST(std::abs(ratio * masses[i] / masses[0] - 1.0) < allowed);
+    BOOST_TEST(std::abs(ratio - 1.0) > allowed);                           // of velocities without masses
+    BOOST_TEST(std::abs(ratio * std::pow(masses[i], 3) - 1.0) > allowed);  // of momenta with 1/m for m
+  }
+}
+
+// One step of Verlet's method maps (sqrt(k) q, p/sqrt(m)) by M = (1 - z^2/2, z; -z + z^3/4, 1 - z^2/2), and
+// (H' - H)/kT = x^T A x/2 of standard normal x, A = M^T M - 1: of mean tr A/2 and variance tr A^2/2.
+BOOST_AUTO_TEST_CASE(energy_errors_of_masses_are_those_of_theory) {
+  constexpr double step = 1.0;
+  const Eigen::Array3d frequencies(1.0, 0.8, 0.5);
+  const Eigen::VectorXd stiffness = masses * frequencies.square();
+  const linear_chain springs(stiffness.asDiagonal().toDenseMatrix(), masses.matrix());
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(3);
+  const normal_around<Eigen::Dynamic> starts({zero, zero}, 1.0, 1.0);
+  hmc_result result;
+  const auto chains = draws_of(springs, tabulated(verlet{}), starts,
+                               {.step = step,
+                                .length = 0.74 * step,  // always one step
+                                .temperature = 2.0,
+                                .chains = 64,
+                                .burn_in = 50,
+                                .draws = 2000,
+                                .seed = seed(1)},
+                               &result);
+  const auto mean_square = [](const Eigen::Array3d& omega) {
+    double mean = 0.0;
+    double variance = 0.0;
+    for (const double one : omega) {
+      const double z = one * step;
+      const Eigen::Matrix2d map{{1.0 - z * z / 2.0, z}, {-z + z * z * z / 4.0, 1.0 - z * z / 2.0}};
+      const Eigen::Matrix2d a = map.transpose() * map - Eigen::Matrix2d::Identity();
+      mean += 0.5 * a.trace();
+      variance += 0.5 * (a * a).trace();
+    }
+    return variance + mean * mean;
+  };
+  const estimate& found = result.square_of_energy_error;
+  const double allowed = standard_errors(false_alarms / 2, 63);
+  BOOST_TEST(std::abs(found.mean - mean_square(frequencies)) <= allowed * found.standard_error);
+  BOOST_TEST(std::abs(found.mean - mean_square(stiffness.array().sqrt())) > allowed * found.standard_error);
+  const auto variance = mean_over_chains(chains, square);
+  BOOST_TEST(std::abs(variance.mean - 2.0 / stiffness[0]) <= allowed * variance.standard_error);
 }
 
 BOOST_AUTO_TEST_CASE(the_step_is_tuned_to_the_acceptance) {
@@ -165,7 +288,7 @@ BOOST_AUTO_TEST_CASE(the_step_is_tuned_to_the_acceptance) {
 // With the wrong sign of the force a trajectory of length 1 ends where the energy is e^20 times as large, at
 // every step: the burn-in must end with a sentence, not with steps that become ever smaller.
 BOOST_AUTO_TEST_CASE(an_acceptance_that_no_step_has_is_refused) {
-  const hmc_options options{.step = 0.1, .length = 1.0, .burn_in = 200, .draws = 10, .acceptance = 0.9};
+  const hmc_options options{.step = 0.1, .length = 1.0, .burn_in = 100, .draws = 10, .acceptance = 0.9};
   const auto ignore = [](const hmc_draw&) {};
   BOOST_TEST(hmc(spring_of_sign{-1.0}, tabulated(verlet{}), at_zero, options, ignore).step > 0.01);
   BOOST_TEST(refuses<std::runtime_error>(
@@ -214,37 +337,73 @@ BOOST_AUTO_TEST_CASE(diagonal_masses_are_found_and_the_law_stays) {
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_sampled_is_refused) {
-  const harmonic_oscillator spring(1.0);
+  const model spring{harmonic_oscillator(1.0)};
+  const tabulated by_verlet{verlet{}};
   const hmc_options sound{.step = 0.1, .length = 1.0, .chains = 2, .burn_in = 0, .draws = 2};
-  const auto refused = [&](const model& system, const tabulated& method, hmc_options options,
-                           const char* words, const initial_states& starts = at_zero) {
-    BOOST_CHECK_EXCEPTION(hmc(system, method, starts, options, [](const hmc_draw&) {}), std::invalid_argument,
-                          [&](const auto& problem) {
-                            BOOST_TEST_MESSAGE(problem.what());
-                            return std::string(problem.what()).find(words) != std::string::npos;
-                          });
+  const auto refused = [&](const char* words, const std::function<void(hmc_options&)>& change,
+                           const tabulated& method, const initial_states& starts = at_zero) {
+    hmc_options options = sound;
+    change(options);
+    return refuses<wrong>([&] { hmc(spring, method, starts, options, [](const hmc_draw&) {}); }, {words});
   };
+  const auto none = [](hmc_options&) {};
   const tabulated one_way("one way", run_time_word("AB"), {1.0, 1.0}, {1, false, false});
-  refused(spring, one_way, sound, "must be reversible");
-  auto options = sound;
-  options.step = 0.0;
-  refused(spring, tabulated(verlet{}), options, "step must be positive");
-  options = sound;
-  options.temperature = -1.0;
-  refused(spring, tabulated(verlet{}), options, "kT must be positive");
-  options = sound;
-  options.acceptance = 1.5;
-  options.burn_in = 100;
-  refused(spring, tabulated(verlet{}), options, "acceptance must be between");
-  options = sound;
-  options.diagonal_masses = true;
-  options.burn_in = 100;
-  refused(spring, tabulated(verlet{}), options, "ask for an acceptance");
-  options = sound;
-  options.draws = 0;
-  refused(spring, tabulated(verlet{}), options, "draws must be at least 1");
+  BOOST_TEST(refused("must be reversible", none, one_way));
+  BOOST_TEST(refused(
+      "step must be positive", [](auto& o) { o.step = 0.0; }, by_verlet));
+  BOOST_TEST(refused(
+      "kT must be positive", [](auto& o) { o.temperature = -1.0; }, by_verlet));
+  BOOST_TEST(refused(
+      "draws must be at least 1", [](auto& o) { o.draws = 0; }, by_verlet));
+  const auto tuning = [](hmc_options& o) {
+    o.acceptance = 1.5;
+    o.burn_in = 100;
+  };
+  BOOST_TEST(refused("acceptance must be between", tuning, by_verlet));
+  const auto masses_alone = [](hmc_options& o) {
+    o.diagonal_masses = true;
+    o.burn_in = 100;
+  };
+  BOOST_TEST(refused("ask for an acceptance", masses_alone, by_verlet));
   const normal_around<1> far({vector<double, 1>(1e200), vector<double, 1>(0.0)}, 1.0, 1.0);
-  refused(spring, tabulated(verlet{}), sound, "must be finite at a start", far);
+  BOOST_TEST(refused("must be finite at a start", none, by_verlet, far));
+}
+
+BOOST_AUTO_TEST_CASE(cut_and_resumed_they_draw_the_same_bits) {
+  hmc_options with_masses = tuned;
+  with_masses.diagonal_masses = true;
+  for (const hmc_options& options : {tuned, with_masses}) {
+    const course whole = run_from(options);
+    BOOST_TEST_REQUIRE(whole.kept.size() == 8U);  // 160 trajectories
+    for (const auto& state : whole.kept) {
+      BOOST_TEST(goes_on_as(whole, run_from(options, &state), options, state), state.trajectories);
+    }
+    // What is looked at can tell: another seed goes on otherwise.
+    hmc_options another = options;
+    another.seed = 2;
+    BOOST_TEST(!goes_on_as(whole, run_from(another, &whole.kept[4]), options, whole.kept[4]));
+    // How often states are kept changes nothing.
+    hmc_options never = options;
+    never.keep_every = 0;
+    BOOST_TEST((run_from(never).draws == whole.draws));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_state_of_other_options_is_refused) {
+  const course whole = run_from(tuned);
+  const auto refused = [&](const hmc_options& options, const hmc_state& state) {
+    return refuses<wrong>([&] { run_from(options, &state); }, {"the state to go on from"});
+  };
+  hmc_options fewer_chains = tuned;
+  fewer_chains.chains = 36;
+  BOOST_TEST(refused(fewer_chains, whole.kept[2]));
+  hmc_options with_masses = tuned;
+  with_masses.diagonal_masses = true;
+  BOOST_TEST(refused(with_masses, whole.kept[2]));
+  hmc_options fewer_draws = tuned;
+  fewer_draws.draws = 10;
+  BOOST_TEST(refused(fewer_draws, whole.kept.back()));
+  BOOST_CHECK_NO_THROW(run_from(tuned, &whole.kept.back()));
 }
 
 BOOST_AUTO_TEST_CASE(draws_of_chains_tell_whether_they_agree) {
