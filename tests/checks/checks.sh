@@ -36,6 +36,7 @@ check() {
       recorded coverage "$tiers" check_coverage "$argument"
       ;;
     mutants)
+      [[ -z $argument || $argument =~ ^[0-9,-]+$ ]] || refuse "check mutants takes numbers such as 3,7-12, got '$argument'"
       recorded mutants "${argument:-all}" check_mutants "$argument"
       ;;
     tidy | faults)
@@ -148,6 +149,14 @@ check_seeds() {
   build "${needed[@]}"
   say "${#needed[@]} tests, each at $1 seeds"
   tests/checks/seeds.py "build/$preset" "$1" --counts "$counts"
+}
+
+# check_mutants [NUMBERS]: whether the tests of tier 1 find the mutants, or those of the numbers, such as 3,7-12.
+check_mutants() {
+  preset=release
+  setup "${packages[@]}"
+  tests/mutants/run.py ${1:+--only "$1"} | tee build/check/mutants.log
+  tail -n 1 build/check/mutants.log >"$counts"
 }
 
 # check_coverage [tier1 | failed]: of tier 1 alone, or the tests that failed in the last run, whose counts are kept.

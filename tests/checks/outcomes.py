@@ -30,6 +30,7 @@ CHECKS = {
     "faults": "failures of each call that writes",
     "coverage": "lines that tests run",
     "seeds": "stochastic tests at many seeds",
+    "mutants": "mistakes planted in the product",
 }
 
 
