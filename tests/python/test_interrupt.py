@@ -26,7 +26,7 @@ def long_integration():
 
 
 def long_learning():
-    nysalt.learn(CHAIN, "nystrom", step=0.02, trajectories=10**5)  # tests/long/python has the search
+    nysalt.learn(CHAIN, "nystrom", step=0.02, trajectories=10**4)  # tests/long/python has the search
 
 
 def long_comparison():
