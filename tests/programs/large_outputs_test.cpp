@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Outputs of `run` as arrays: the numbers of the table to the bit, the same bytes however often it was
-// stopped, and what cannot be is refused.
+// Outputs of `run` as arrays: the numbers of the table to the bit, also while the file is under way.
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
@@ -15,20 +14,16 @@
 #include <vector>
 
 #include "../support/arrays.hpp"
-#include "../support/killed.hpp"
-#include "../support/program.hpp"
+#include "../support/stopping.hpp"
 
 using namespace nysalt::test;
 
 namespace {
 
 // Noise, and several blocks of lanes.
-std::string of_length(const std::string& horizon, int every = 70) {
-  return "run --system fpu --friction 0.01 --sigma 0.05 --method baoab --step 0.01 --trajectories 37 "
-         "--observables stiff_energy,q1,p6 --horizon " +
-         horizon + " --sample-every " + std::to_string(every) + " ";
-}
-const std::string in_bath = of_length("40");
+const std::string in_bath =
+    "run --system fpu --friction 0.01 --sigma 0.05 --start law --method baoab --step 0.01 --trajectories 37 "
+    "--observables stiff_energy,q1,p6 --horizon 40 --sample-every 70 ";
 // Some of them diverge, at several steps.
 const std::string with_losses =
     "run --system henon_heiles --spread 2.5 --method verlet --step 0.3 --horizon 600 --trajectories 40 "
@@ -78,15 +73,6 @@ std::vector<double> values(const std::filesystem::path& file, std::size_t k, con
 bool are_equal(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) ||
          (std::isnan(a) && std::isnan(b));
-}
-
-void refused(const scratch& folder, const std::string& line, const std::string& why, int code = 2) {
-  const auto before = folder.files();
-  const auto result = shell(folder, line);
-  BOOST_TEST(result.code == code, line << " ended with " << result.code);
-  BOOST_TEST(result.err.find(why) != std::string::npos, line << " said " << result.err);
-  BOOST_TEST(std::count(result.err.begin(), result.err.end(), '\n') == 1, result.err);
-  BOOST_TEST((folder.files() == before), line << " left something");
 }
 
 }  // namespace
@@ -160,22 +146,15 @@ BOOST_AUTO_TEST_CASE(a_file_of_hdf5_tells_what_it_is) {
   const std::vector<double> verlet{0.5, 1.0, 0.5};
   BOOST_TEST(numbers_in_hdf5(file, "coefficients") == verlet, boost::test_tools::per_element());
 }
-#else
-BOOST_AUTO_TEST_CASE(without_hdf5_such_a_file_is_refused) {
-  refused(scratch("arrays_without"), "\"$nysalt\" " + in_bath + "--output a.h5", "built without HDF5");
-}
 #endif
 
-BOOST_AUTO_TEST_CASE(killed_it_can_be_read_and_goes_on_to_the_same_bytes) {
-  const std::string longer = of_length("400");
+BOOST_AUTO_TEST_CASE(killed_it_can_be_read) {
   for (const auto& kind : kinds) {
     const scratch folder("arrays_killed");
-    done(folder, longer + "--threads 1 --output whole" + kind);
-    const std::string expected = contents(folder / ("whole" + kind));
-    const std::string part = folder / ("a" + kind + ".part");
-    const std::string command = longer + "--output a" + kind + " --checkpoint a.checkpoint --every ";
-    BOOST_TEST(killed_at(folder, command + "100", "a.checkpoint", 500));
-    const auto of_part = values(part, 1, "q1");
+    done(folder, in_bath + "--output whole" + kind);
+    BOOST_TEST(
+        is_killed_at(folder, "rename:4", in_bath + "--output a" + kind + " --checkpoint c --every 500"));
+    const auto of_part = values(folder / ("a" + kind + ".part"), 1, "q1");
     const auto of_whole = values(folder / ("whole" + kind), 1, "q1");
     std::size_t missing = 0;
     for (std::size_t i = 0; i < of_whole.size(); ++i) {
@@ -184,73 +163,47 @@ BOOST_AUTO_TEST_CASE(killed_it_can_be_read_and_goes_on_to_the_same_bytes) {
     }
     BOOST_TEST(missing > 0U);
     BOOST_TEST(missing < of_whole.size());
-    BOOST_TEST(killed_at(folder, command + "100 --resume --threads 1", "a.checkpoint", 1200));
-    done(folder, command + "5000 --resume");
-    BOOST_TEST((contents(folder / ("a" + kind)) == expected), kind);
-    BOOST_TEST(!std::filesystem::exists(part));
-    const auto again = run(folder, command + "5000 --resume");
-    BOOST_TEST(again.out.find("finished already") != std::string::npos, again.out << again.err);
-    BOOST_TEST(again.err == "");
   }
 }
 
-BOOST_AUTO_TEST_CASE(an_output_under_way_that_is_another_is_refused) {
-  const std::string longer = of_length("400");
-  for (const auto& kind : kinds) {
-    const scratch folder("arrays_edited");
-    const std::string command =
-        "\"$nysalt\" " + longer + "--output a" + kind + " --checkpoint a.checkpoint --every 100 ";
-    BOOST_TEST(killed_at(folder, command.substr(10), "a.checkpoint", 300));
-    const std::string part = folder / ("a" + kind + ".part");
-    const std::string sound = contents(part);
-    const auto try_out = [&](const std::string& text) {
-      std::ofstream(part, std::ios::binary) << text;
-      refused(folder, command + "--resume", "edited or cut");
-    };
-    try_out(sound.substr(0, sound.size() - 8));
-    std::string edited = sound;
-    edited[20] ^= 1;
-    try_out(edited);
-    try_out("");
-    std::ofstream(part, std::ios::binary) << sound;
-    refused(folder, command.substr(0, command.find("--checkpoint")) + "--checkpoint other --every 100",
-            "a run that was stopped left it");
-    done(folder, longer + "--output a" + kind);  // a run without a checkpoint leaves it alone
-    BOOST_TEST((contents(part) == sound));
-    std::filesystem::remove(part);
-    refused(folder, command + "--resume", "cannot resume from a" + kind + ".part: there is no such file");
-  }
-}
-
-BOOST_AUTO_TEST_CASE(the_picture_of_an_array_is_that_of_the_table) {
+// The data of a picture: of a table, of one that was killed, and of arrays.
+BOOST_AUTO_TEST_CASE(the_picture_is_that_of_the_table) {
   const scratch folder("arrays_plot");
-  done(folder, in_bath + "--plot --output a.csv");
+  const auto drawn = [&](const std::string& arguments) {
+    const auto result = quietly(folder, in_bath + "--plot --output " + arguments);
+    BOOST_TEST_REQUIRE(result.code == 0, result.err);
+  };
+  drawn("a.csv");
   const std::string data = contents(folder / "a.dat");
   BOOST_TEST(data.size() > 1000U);
+  const std::string killed = "k.csv --checkpoint c --every 500 ";
+  BOOST_TEST(is_killed_at(folder, "rename:4", in_bath + "--plot --output " + killed));
+  drawn(killed + "--resume");
+  BOOST_TEST((contents(folder / "k.dat") == data));
   for (const auto& kind : kinds) {
-    done(folder, in_bath + "--plot --output b" + kind);
-    BOOST_TEST(contents(folder / "b.dat") == data);
+    drawn("b" + kind);
+    BOOST_TEST((contents(folder / "b.dat") == data));
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused_and_leaves_nothing) {
-  const std::string command = "\"$nysalt\" ";
-  for (const auto& kind : kinds) {
-    const scratch folder("arrays_refused");
-    refused(folder, command + in_bath + "--output none/a" + kind, "there is no folder none");
-    // A file may have that many blocks of 512 bytes, and the kernel says so rather than kill the process.
-    constexpr int not_written = 4;  // an exit code
-    const std::string limited =
-        "export LLVM_PROFILE_FILE=/dev/null; ulimit -f 100; ";  // counts of lines elsewhere
-    refused(folder, limited + command + in_bath + "--output a" + kind, "not writable, or full", not_written);
-    refused(folder, limited + command + in_bath + "--checkpoint c --every 100 --output a" + kind,
-            "not writable, or full", not_written);
-  }
+// A file of that size the disk does not have, or NumPy's format.
+BOOST_AUTO_TEST_CASE(what_is_too_large_is_refused_and_leaves_nothing) {
   const scratch folder("arrays_large");
-  refused(folder, command + of_length("1e5", 1) + "--output a.npy --checkpoint c --every 1000",
-          "let --output end in .h5");
+  const auto refused = [&](const std::string& arguments, const std::string& why) {
+    const auto result =
+        run(folder,
+            "run --method verlet --step 0.01 --trajectories 37 --sample-every 1 --checkpoint c "
+            "--every 1000 --horizon " +
+                arguments);
+    BOOST_TEST(result.code == 2, arguments);
+    BOOST_TEST(result.err.find(why) != std::string::npos, arguments << " said " << result.err);
+    BOOST_TEST(std::count(result.err.begin(), result.err.end(), '\n') == 1, result.err);
+    BOOST_TEST(folder.files().empty());
+  };
+  refused("1e5 --output a.npy", "let --output end in .h5");
 #if defined NYSALT_HAS_HDF5
-  refused(folder, command + of_length("1e11", 1) + "--output a.h5 --checkpoint c --every 1000",
-          "its disk has");
+  refused("1e11 --output a.h5", "its disk has");
+#else
+  refused("1 --output a.h5", "built without HDF5");
 #endif
 }

@@ -107,7 +107,9 @@ void all_stops_come_to_the_same_bytes(const stoppable& one, Chosen is_chosen) {
   const std::string expected = result_in(whole, one.output);
   const scratch counting("stopping_counted");
   int kills = 0;
-  for (const auto& [operation, count] : calls_of(counting, one.command())) {
+  const auto calls = calls_of(counting, one.command());
+  BOOST_TEST((result_in(counting, one.output) == expected), one.command());  // with a checkpoint, not stopped
+  for (const auto& [operation, count] : calls) {
     for (int number = 1; number <= count; ++number) {
       if (!is_chosen(number, count)) continue;
       const scratch folder("stopping");
