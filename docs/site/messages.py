@@ -11,8 +11,25 @@ import sys
 from pathlib import Path
 
 root = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(root / "tests" / "docs"))
-from words import parts_of_c
+
+c_token = re.compile(
+    r"""(?P<space>\s+|//[^\n]*|/\*.*?\*/)|R"(?P<mark>\w*)\((?P<raw>.*?)\)(?P=mark)"|"(?P<text>(?:[^"\\\n]|\\.)*)"|'(?:[^'\\\n]|\\.)+'|"""
+    r"""\d[\w.']*|[A-Za-z_]\w*|.""", re.DOTALL)
+
+
+def texts_of_c(code):
+    """The string literals of C++ code; adjacent ones are one."""
+    found, is_open = [], False
+    for token in c_token.finditer(code):
+        text = token["text"] if token["raw"] is None else token["raw"]
+        if text is not None:
+            text = text.replace('\\"', '"').replace("\\n", "\n")
+            found[len(found):] = [found.pop() + text] if is_open else [text]
+            is_open = True
+        elif token["space"] is None:
+            is_open = False
+    return found
+
 
 page_name = "docs/run-time-messages.md"
 suffixes = (".hpp", ".cpp")
@@ -59,7 +76,7 @@ def thrown(code):
     code = re.sub(r"(?m)^ *//.*", "", code)
     for match in call.finditer(code):
         body = code[match.end():end_of_call(code, match.end()) - 1]
-        texts = [text for _, kind, text in parts_of_c(body) if kind == "text" and " " in text.strip()]
+        texts = [text for text in texts_of_c(body) if " " in text.strip()]
         if texts:
             found.append((code.count("\n", 0, match.start()) + 1, max(texts, key=len)))
     return found

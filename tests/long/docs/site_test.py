@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
-"""docs/site/build.sh makes a site of pages and comments, and refuses each mistake that is planted in them."""
+"""docs/site/build.sh makes a site of pages and comments, and refuses each mistake that is planted in them.
+Tier 1: tests/docs has links, quotes and citations."""
 import json
 import os
 import re
@@ -10,7 +11,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-root = Path(__file__).resolve().parents[2]
+root = Path(__file__).resolve().parents[3]
 files = {
     "README.md": "# small\n\nSee [all pages](docs/README.md) and [a part](docs/page.md#a-part).\n",
     "docs/README.md": "# All\n\n## Start\n\n- [What it is](../README.md)\n- [Page](page.md): one.\n- [Works](bibliography.md).\n"
