@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// One seed, one result: the number of threads changes no byte, another seed changes the numbers, and nothing
-// is tested where it was learned.
+// One seed, one result and one noise: the number of threads changes no byte, another seed changes each
+// number, nothing is tested where it was learned, and a trajectory depends on its number alone.
 #include <boost/test/unit_test.hpp>
 
 #include <string>
@@ -16,87 +16,99 @@ using namespace nysalt::test;
 
 namespace {
 
-/// What ends well on every machine, and runs of which some or all trajectories diverge.
-const std::vector<std::string> lines{
-    "learn --family nystrom --step 0.03 --trajectories 23",
-    "learn --family nystrom --system pendulum --step 0.5 --horizon 10 --trajectories 20",
-    "learn --family nystrom --system linear_chain --step 1 --horizon 10 --trajectories 20 --coordinates "
-    "modes",
-    "run --method srkn6b --step 0.02 --horizon 2 --trajectories 23 --sample-every 7 "
-    "--observables stiff_energy,energy,q1,p6",
-    "run --method verlet --step 0.05 --horizon 0.15 --trajectories 40",
-    "run --method verlet --step 0.05 --horizon 1 --trajectories 23",
-    "compare --methods verlet,s_aia2,learned:nystrom --steps 0.02,0.03 --trajectories 23 "
-    "--learn-trajectories 7",
-    "compare --methods verlet,verlet_2x --steps 0.0405 --horizon 0.44 --trajectories 40 --metric state",
-    "compare --system henon_heiles --methods verlet,pefrl --steps 0.3 --horizon 30 --trajectories 20 "
-    "--metric energy",
-};
+using pointer = nlohmann::ordered_json::json_pointer;
 
-std::string printed(const std::string& line) {
+const std::string bath = " --system pendulum --friction 0.5 --temperature 0.3 ";
+const std::string diverging = "run --method verlet --step 0.05 --horizon 0.15 --trajectories 40";
+const std::string diverging_in_bath =
+    "run --method baoab --step 0.05 --horizon 0.15 --trajectories 40 --start law --friction 1 --temperature "
+    "0.1";
+const std::string diverging_errors =
+    "compare --methods verlet,verlet_2x --steps 0.0405 --horizon 0.44 --trajectories 40 --metric state";
+
+/// A command, and numbers that another seed changes. Starts of all kinds, lanes that are full and not, each
+/// metric, and runs of which some or all trajectories diverge.
+struct command {
+  std::string line;
+  std::vector<const char*> numbers;
+};
+const std::vector<command> commands{
+    {"learn --family nystrom --step 0.03 --trajectories 23 --horizon 0.3 --effort quick",
+     {"/parameters/b1", "/parameters/beta1", "/loss", "/held_out_loss", "/energy_range/0"}},
+    {"learn --family bab2 --system linear_chain --step 1 --horizon 10 --trajectories 20 --coordinates modes "
+     "--effort quick",
+     {"/parameters/b1"}},
+    {"learn --family bab3 --step 0.2 --horizon 1 --trajectories 11 --start law --placement end --effort "
+     "quick" +
+         bath,
+     {"/parameters/b1", "/loss", "/held_out_loss", "/energy_range/0"}},
+    {"learn --family bab2 --step 0.2 --horizon 1 --trajectories 11 --start trajectory --effort quick" + bath,
+     {"/parameters/b1"}},
+    {"run --method srkn6b --step 0.02 --horizon 2 --trajectories 23 --sample-every 7 "
+     "--observables stiff_energy,energy,q1,p6",
+     {"/rows/0/3", "/rows/0/5", "/rows/9/6"}},
+    {"run --method bcss3@middle --step 0.2 --horizon 20 --trajectories 3" + bath, {"/rows/0/3", "/rows/5/3"}},
+    {diverging, {}},
+    {"run --method verlet --step 0.05 --horizon 1 --trajectories 23", {}},
+    {diverging_in_bath, {}},
+    {diverging_errors, {}},
+    {"compare --methods verlet,learned:nystrom --steps 0.03 --horizon 0.5 --trajectories 23 "
+     "--learn-trajectories 7 "
+     "--learn-horizon 0.3 --learn-effort quick --metric energy,path",
+     {"/rows/0/error", "/rows/1/error", "/fits/0/loss"}},
+    {"compare --methods baoab,verlet@symmetric,learned:bab3@end --steps 0.3 --horizon 2 --trajectories "
+     "23 "
+     "--learn-trajectories 11 --learn-horizon 1 --learn-effort quick" +
+         bath,
+     {"/rows/0/error", "/rows/2/error", "/references/0/error", "/fits/0/loss"}},
+    {"compare --methods baoab,verlet@end --steps 0.2,0.3 --horizon 5 --trajectories 70 --metric "
+     "distribution" +
+         bath,
+     {"/rows/0/error", "/rows/0/floor", "/rows/0/kinetic_temperature", "/references/0/mean"}},
+    {"compare --methods baoab,verlet@end --steps 0.2,0.3 --horizon 5 --trajectories 70 --metric acf" + bath,
+     {"/rows/0/error", "/rows/0/standard_error", "/rows/0/floor"}},
+    {"compare --methods verlet,bcss3 --system pendulum --steps 1 --trajectories 40 --horizon 10 --metric "
+     "acceptance",
+     {"/rows/0/acceptance"}},
+    {"sample --system linear_chain --masses 3 --method bcss3 --length 1 --chains 40 --draws 20",
+     {"/scalars/0/mean"}}};
+
+nlohmann::ordered_json document_of(const std::string& line) {
   const auto done = run(line + " --json");
   BOOST_TEST((done.code == 0 || done.code == 3), line << ": " << done.err);
-  return without_times(done.out);
+  auto document = json_of(done);
+  BOOST_TEST_REQUIRE(document.is_object());
+  erase_times(document);
+  return document;
 }
-
-std::size_t diverged(const std::string& line) { return json_of(run(line + " --json"))["diverged"].size(); }
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(threads_change_no_byte) {
-  for (const auto& line : lines) {
-    const auto one = printed(line + " --threads 1");
-    BOOST_TEST(one.size() > 500U, line);
-    for (const char* threads : {"2", "5"})
-      BOOST_TEST((printed(line + " --threads " + threads) == one), line << " --threads " << threads);
+BOOST_AUTO_TEST_CASE(threads_change_no_byte_and_another_seed_each_number) {
+  for (const auto& [line, numbers] : commands) {
+    BOOST_TEST_CONTEXT(line) {
+      const auto one = document_of(line + " --threads 1");
+      for (const char* threads : {"2", "7"})
+        BOOST_TEST((document_of(line + " --threads " + threads) == one), threads);
+      const auto other = document_of(line + " --seed 2251799813685247");  // 2^51 - 1 is the largest
+      BOOST_TEST((other != one));
+      for (const char* at : numbers) BOOST_TEST(one.at(pointer(at)) != other.at(pointer(at)), at);
+    }
   }
 }
 
 // Else the test above would not be of them.
 BOOST_AUTO_TEST_CASE(some_and_all_of_the_unstable_runs_diverge) {
-  BOOST_TEST(diverged(lines[4]) > 0U);
-  BOOST_TEST(diverged(lines[4]) < 40U);
-  BOOST_TEST(diverged(lines[5]) == 23U);
-  const auto errors = json_of(run(lines[7] + " --json"));
-  BOOST_TEST(errors["rows"][0]["diverged"] > 0);
-  BOOST_TEST(errors["rows"][0]["diverged_at"].size() == errors["rows"][0]["diverged"]);
-  BOOST_TEST(errors["rows"][0]["diverged_at"][0]["step"] > 0);
-  BOOST_TEST(errors["rows"][0]["diverged"] < 40);
-}
-
-BOOST_AUTO_TEST_CASE(files_are_the_same_bytes_by_any_number_of_threads) {
-  const scratch folder("determinism");
-  const std::string line = " --method bcss3 --step 0.02 --horizon 1 --trajectories 23 --output ";
-  for (const char* threads : {"1", "5"}) {
-    const std::string with = std::string(" --threads ") + threads;
-    BOOST_TEST(run(folder, "run" + line + threads + ".csv" + with).code == 0);
-    BOOST_TEST(run(folder, std::string("learn --family nystrom --step 0.03 --trajectories 20 --output ") +
-                               threads + ".json" + with)
-                   .code == 0);
+  for (const auto& line : {diverging, diverging_in_bath}) {
+    const auto lost = document_of(line)["diverged"].size();
+    BOOST_TEST(lost > 0U);
+    BOOST_TEST(lost < 40U);
   }
-  BOOST_TEST(contents(folder / "1.csv").size() > 10000U);
-  BOOST_TEST((contents(folder / "1.csv") == contents(folder / "5.csv")));
-  BOOST_TEST(contents(folder / "1.json").size() > 500U);
-  BOOST_TEST(contents(folder / "1.json") == contents(folder / "5.json"));
-}
-
-BOOST_AUTO_TEST_CASE(another_seed_gives_other_numbers) {
-  using pointer = nlohmann::ordered_json::json_pointer;
-  const std::vector<std::pair<std::string, std::vector<const char*>>> numbers{
-      {"learn --family nystrom --step 0.03 --trajectories 5",
-       {"/parameters/b1", "/parameters/beta1", "/loss", "/held_out_loss", "/energy_range/0"}},
-      {lines[3], {"/rows/0/3", "/rows/0/5", "/rows/9/6"}},
-      {"compare --methods verlet,learned:nystrom --steps 0.03 --trajectories 5 --learn-trajectories 5",
-       {"/rows/0/error", "/rows/1/error", "/fits/0/loss"}}};
-  for (const auto& [line, pointers] : numbers) {
-    const auto with = [&, &line = line](const char* seed) {
-      return json_of(run(line + " --json --seed " + seed));
-    };
-    const auto one = with("1");
-    for (const auto& other : {with("2"), with("2251799813685247")}) {  // 2^51 - 1 is the largest
-      for (const char* at : pointers) BOOST_TEST(one.at(pointer(at)) != other.at(pointer(at)), at);
-    }
-  }
+  const auto row = document_of(diverging_errors)["rows"][0];
+  BOOST_TEST(row["diverged"] > 0);
+  BOOST_TEST(row["diverged"] < 40);
+  BOOST_TEST(row["diverged_at"].size() == row["diverged"]);
+  BOOST_TEST(row["diverged_at"][0]["step"] > 0);
 }
 
 // Along an accurate trajectory the energy stays: it tells from which start the data are.
@@ -107,11 +119,9 @@ BOOST_AUTO_TEST_CASE(no_test_starts_where_training_did) {
   const auto energy_from = [&](role which) {
     return nysalt::energy<double>(chain, law(nysalt::program::seed_for(which, 1), 0));
   };
-  const auto training =
-      json_of(run("learn --family nystrom --step 0.02 --trajectories 1 --json"))["energy_range"]
-          .get<std::vector<double>>();
-  const auto test =
-      json_of(run("run --method verlet --step 0.02 --horizon 0.02 --observables energy --json"));
+  const auto training = document_of("learn --family nystrom --step 0.02 --trajectories 1")["energy_range"]
+                            .get<std::vector<double>>();
+  const auto test = document_of("run --method verlet --step 0.02 --horizon 0.02 --observables energy");
   // Both hold exactly: the range has the start in it, and the first sample is the start.
   BOOST_TEST(training[0] <= energy_from(role::training));
   BOOST_TEST(energy_from(role::training) <= training[1]);
@@ -119,4 +129,30 @@ BOOST_AUTO_TEST_CASE(no_test_starts_where_training_did) {
   BOOST_TEST(training[1] - training[0] < 1e-9);
   for (const auto other : {role::held_out, role::test})
     BOOST_TEST((energy_from(other) < training[0] || energy_from(other) > training[1]));
+}
+
+// A trajectory has its number's start and noise, whichever trajectories run beside it.
+BOOST_AUTO_TEST_CASE(more_trajectories_leave_the_first_as_they_are) {
+  const auto csv = [](const std::string& trajectories) {
+    return run("run --method obabo --step 0.2 --horizon 4 --trajectories " + trajectories + bath).out;
+  };
+  const auto few = csv("2");
+  BOOST_TEST(few.size() > 1000U);
+  BOOST_TEST(csv("40").starts_with(few));
+  BOOST_TEST(few.starts_with(csv("1")));
+}
+
+BOOST_AUTO_TEST_CASE(noise_alone_parts_paths_of_one_start) {
+  const auto at_end = [](const std::string& temperature) {
+    const auto all = document_of(
+        "run --system pendulum --start law --method baoab --step 0.2 --horizon 4 --observables q1 "
+        "--sample-every 20 "
+        "--friction 0.5 --temperature " +
+        temperature);
+    return std::pair{all["rows"][0][3].get<double>(), all["rows"][1][3].get<double>()};
+  };
+  const auto quiet = at_end("0");
+  const auto noisy = at_end("0.3");
+  BOOST_TEST(quiet.first == noisy.first);
+  BOOST_TEST(quiet.second != noisy.second);
 }
