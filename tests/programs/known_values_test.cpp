@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../support/document.hpp"
@@ -119,15 +120,13 @@ BOOST_AUTO_TEST_CASE(learned_parameters_are_the_known_ones) {
 // BAOAB errs along a noisy path to first order: its step must be small beside that of the method, not beside
 // the frequencies alone, which say little of a system that is not stiff.
 BOOST_AUTO_TEST_CASE(the_reference_is_fine_enough_where_nothing_is_stiff) {
-  for (const char* system : {"pendulum", "henon_heiles"}) {
-    for (const char* kt : {"0.001", "0"}) {
-      const std::string line =
-          std::string("learn --family nystrom --step 0.1 --horizon 1 --friction 0.1 --system ") + system;
-      const auto fit = document(line + " --temperature " + kt);
-      BOOST_TEST(fit["usable"] == true, system << " at kT = " << kt);
-      const auto coarse = run(line + " --fine-step 0.005 --temperature " + kt);
-      BOOST_TEST(coarse.err.find("the reference's own error") != std::string::npos, coarse.err);
-    }
+  for (const auto& [system, kt] : {std::pair{"pendulum", "0.001"}, {"henon_heiles", "0"}}) {
+    const std::string line =
+        std::string("learn --family nystrom --step 0.1 --horizon 1 --friction 0.1 --system ") + system;
+    const auto fit = document(line + " --temperature " + kt);
+    BOOST_TEST(fit["usable"] == true, system << " at kT = " << kt);
+    const auto coarse = run(line + " --fine-step 0.005 --temperature " + kt);
+    BOOST_TEST(coarse.err.find("the reference's own error") != std::string::npos, coarse.err);
   }
 }
 
