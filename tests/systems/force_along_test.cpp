@@ -9,6 +9,7 @@
 #include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/lennard_jones_cluster.hpp"
+#include "nysalt/systems/pendulum.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
 using namespace nysalt;
@@ -58,15 +59,6 @@ void check_pendulum(const S& system, double tolerance, double tolerance_of_slope
   }
 }
 
-struct smooth_pendulum {
-  static constexpr int dimension = 1;
-  template <class T>
-  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
-    using std::sin;
-    f[0] = -sin(q[0]);
-  }
-};
-
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(by_dual_numbers_it_is_the_hessians) {
@@ -82,7 +74,7 @@ BOOST_AUTO_TEST_CASE(by_dual_numbers_it_is_the_hessians) {
   check(potential_only());
   check(dynamic_potential());
   check(two_masses());
-  check_pendulum(smooth_pendulum(), 4.0 * eps, 8.0 * eps);
+  check_pendulum(pendulum(), 4.0 * eps, 8.0 * eps);
 }
 
 BOOST_AUTO_TEST_CASE(a_derivative_of_ones_own_goes_first) {
@@ -164,11 +156,8 @@ BOOST_AUTO_TEST_CASE(derivatives_by_hand_are_those_of_the_force) {
   const Eigen::VectorXd waves = Eigen::VectorXd::LinSpaced(256, 0.0, 40.0).array().sin();
   all(lennard_jones<2, 7>(), cluster_at_rest(lennard_jones<2, 7>()));
   all(lennard_jones<>(3, 13), cluster_at_rest(lennard_jones<>(3, 13)));
-  for (const double omega : {2.0, 50.0}) {
-    all(fpu_chain<1>(omega), waves.head(2));
-    all(fpu_chain<3>(omega), waves.head(6));
-    all(fpu_chain<>(100, omega), waves.head(200));
-  }
+  all(fpu_chain<3>(50.0), waves.head(6));
+  all(fpu_chain<>(100, 2.0), waves.head(200));
 }
 
 BOOST_AUTO_TEST_CASE(a_derivative_that_is_inherited_is_not_that_of_another_force) {

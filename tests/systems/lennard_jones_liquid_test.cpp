@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O1: 4.5 s at -O0, 0.6 s at -O1.
-// The liquid's forces are those of all pairs, with bits that neither lists nor threads change.
+// The liquid's forces are those of all pairs, with bits that neither lists nor threads change; sums that know
+// no order, and lists that hold for as long as they say.
 #include "nysalt/systems/lennard_jones_liquid.hpp"
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
+#include "../../src/nysalt/systems/neighbour_list.hpp"
 #include "../support/draws.hpp"
 #include "../support/liquid_by_all_pairs.hpp"
 #include "../support/refusal.hpp"
@@ -15,7 +20,6 @@
 #include "nysalt/ensembles/lennard_jones_liquid_law.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/model.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -171,17 +175,15 @@ BOOST_AUTO_TEST_CASE(bits_depend_neither_on_threads_nor_on_the_list) {
   one.force_derivative(x.q, x.p, derivative);
   const liquid fresh = one;  // of a copy, which has no list yet
   BOOST_TEST(fresh.lists_made() == 0);
-  for (const double skin : {0.3, 0.05, 0.7}) {
-    for (const int threads : {1, 2, 3, 4}) {
-      const liquid other(256, 0.8442, {.skin = skin, .threads = threads});
-      Eigen::VectorXd f(x.size());
-      other.force(x.q, f);
-      BOOST_TEST((f == with_old_list));
-      other.force_derivative(x.q, x.p, f);
-      BOOST_TEST((f == derivative));
-      BOOST_TEST(other.potential(x.q) == one.potential(x.q));
-      BOOST_TEST(other.virial(x.q) == one.virial(x.q));
-    }
+  for (const auto& [skin, threads] : {std::pair{0.3, 1}, {0.05, 2}, {0.7, 3}}) {
+    const liquid other(256, 0.8442, {.skin = skin, .threads = threads});
+    Eigen::VectorXd f(x.size());
+    other.force(x.q, f);
+    BOOST_TEST((f == with_old_list));
+    other.force_derivative(x.q, x.p, f);
+    BOOST_TEST((f == derivative));
+    BOOST_TEST(other.potential(x.q) == one.potential(x.q));
+    BOOST_TEST(other.virial(x.q) == one.virial(x.q));
   }
   // Another order of the atoms gives the same forces, to the bit, in that order.
   Eigen::VectorXd reversed(x.size());
@@ -191,34 +193,6 @@ BOOST_AUTO_TEST_CASE(bits_depend_neither_on_threads_nor_on_the_list) {
   for (Eigen::Index i = 0; i < x.size(); i += 3) {
     BOOST_TEST_REQUIRE((f.segment<3>(i) == with_old_list.segment<3>(x.size() - 3 - i)));
   }
-}
-
-BOOST_AUTO_TEST_CASE(long_runs_have_equal_bits_on_one_thread_and_two) {
-  const liquid one(256, 0.8442, {.smoothness = 2});
-  const liquid two(256, 0.8442, {.smoothness = 2, .skin = 0.4, .threads = 2});
-  const auto start = lennard_jones_liquid_law(one, 1.44)(7, 0);
-  const auto energy_of = [](const liquid& system, const auto& x) {
-    return 0.5 * x.p.squaredNorm() + system.potential(x.q);
-  };
-  const auto first = integrate(one, verlet{}, 0.004, start, 1000).finish;
-  const auto second = integrate(two, verlet{}, 0.004, start, 1000).finish;
-  BOOST_TEST(same_bits(first, second));
-  BOOST_TEST(energy_of(one, first) - energy_of(one, start) == energy_of(two, second) - energy_of(two, start));
-  // From the middle on by an object that did not see the first half, as after a restart.
-  const liquid restarted = two;
-  auto run = make_stepper(one, verlet{}, 0.004).open(start);
-  make_stepper(one, verlet{}, 0.004).advance(run, 500);
-  const auto rest = make_stepper(restarted, verlet{}, 0.004);
-  auto goes_on = rest.open(start);
-  goes_on = run;
-  rest.advance(goes_on, 500);
-  BOOST_TEST(same_bits(rest.synchronous(goes_on), first));
-  // Through the library's own type, on copies of the system.
-  BOOST_TEST(same_bits(integrate(model(two), verlet{}, 0.004, start, 1000).finish, first));
-  // Another start ends elsewhere.
-  auto other = start;
-  other.q[0] += 1e-12;
-  BOOST_TEST(!same_bits(integrate(one, verlet{}, 0.004, other, 1000).finish, first));
 }
 
 // Forces of a pair are opposite to the bit: what is left is one rounding of each atom's force, eps/2 of it.
@@ -294,4 +268,122 @@ BOOST_AUTO_TEST_CASE(bad_liquids_are_refused) {
   BOOST_TEST(liquid(500, 0.8, {.skin = 0.2, .threads = 2}).description() == good.description());
   BOOST_TEST(good.kind() == liquid(600, 0.8).kind());
   BOOST_TEST(good.kind() != liquid(500, 0.7).kind());
+}
+
+// The sums and lists beneath.
+
+namespace {
+
+double sum_of(const std::vector<double>& x) {
+  detail::exact_sum sum;
+  for (std::size_t n = 0; n < x.size(); n += detail::pairs_at_a_time) {
+    detail::reals some{};
+    for (std::size_t k = 0; k < detail::pairs_at_a_time && n + k < x.size(); ++k) some[k] = x[n + k];
+    sum.add(some);
+  }
+  return sum.total();
+}
+
+constexpr double box = 8.0;
+
+/// Pairs of atoms that are nearer than that, by the list or by all pairs.
+using pair_set = std::set<std::pair<std::int64_t, std::int64_t>>;
+double distance_of(const Eigen::VectorXd& q, std::int64_t i, std::int64_t j) {
+  Eigen::Vector3d d = q.segment<3>(3 * i) - q.segment<3>(3 * j);
+  for (double& along : d) along -= box * std::nearbyint(along / box);
+  return d.norm();
+}
+pair_set near(const Eigen::VectorXd& q, double reach) {
+  pair_set result;
+  for (std::int64_t i = 0; i < q.size() / 3; ++i) {
+    for (std::int64_t j = 0; j < q.size() / 3; ++j) {
+      if (i != j && distance_of(q, i, j) < reach) result.insert({i, j});
+    }
+  }
+  return result;
+}
+pair_set listed(const detail::neighbour_list& list, std::int64_t atoms) {
+  pair_set result;
+  for (std::int64_t slot = 0; slot < atoms; ++slot) {
+    for (const std::int32_t other : list.row(slot)) {
+      if (other < atoms) {
+        BOOST_TEST_REQUIRE(result.insert({list.atom(slot), list.atom(other)}).second);
+      }
+    }
+  }
+  return result;
+}
+bool has_all(const pair_set& some, const pair_set& wanted) {
+  return std::includes(some.begin(), some.end(), wanted.begin(), wanted.end());
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(no_order_changes_a_bit_of_a_sum) {
+  draws random;
+  std::vector<double> x;
+  for (int n = 0; n < 300; ++n) {  // from 2^-40 to 2^20, and ties: halves of 2^-19 and of 2^-60
+    const double scale = std::ldexp(1.0, static_cast<int>(random.uniform(-40.0, 20.0)));
+    x.push_back(random.uniform(-scale, scale));
+    x.push_back(std::ldexp(std::floor(random.uniform(-9.0, 9.0)) + 0.5, n % 2 == 0 ? -19 : -60));
+  }
+  const double first = sum_of(x);
+  long double expected = 0.0;
+  for (const double summand : x) expected += summand;
+  // 2^-61 each, one rounding, and 64 bits of what is compared with.
+  const double allowed = 600.0 * 0x1p-61 + std::abs(first) * 0x1p-53 + 600.0 * 0x1p20 * 0x1p-64;
+  BOOST_TEST(std::abs(static_cast<double>(first - expected)) <= allowed);
+  const auto plain = [&] {
+    double sum = 0.0;
+    for (const double summand : x) sum += summand;
+    return sum;
+  };
+  const double in_order = plain();
+  bool order_matters_to_others = false;
+  for (int n = 0; n < 200; ++n) {
+    for (std::size_t k = x.size(); k-- > 1;) std::swap(x[k], x[random.bits() % (k + 1)]);
+    BOOST_TEST_REQUIRE(sum_of(x) == first);
+    order_matters_to_others = order_matters_to_others || plain() != in_order;
+  }
+  BOOST_TEST(order_matters_to_others);
+}
+
+BOOST_AUTO_TEST_CASE(a_list_holds_until_an_atom_has_moved_by_half_the_skin) {
+  constexpr std::int64_t atoms = 300;
+  constexpr double reach = 1.5;
+  constexpr double skin = 0.4;
+  draws random;
+  Eigen::VectorXd q(3 * atoms);
+  for (double& x : q) x = random.uniform(-2.0 * box, 3.0 * box);
+  detail::neighbour_list list(atoms, box, reach, skin, 1);
+  BOOST_TEST(list.update(q));
+  BOOST_TEST((listed(list, atoms) == near(q, reach + skin)));
+
+  const auto moved_by = [&](double way) {
+    Eigen::VectorXd result = q;
+    for (std::int64_t i = 0; i < atoms; ++i) {
+      const Eigen::Vector3d d(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
+                              random.uniform(-1.0, 1.0));
+      result.segment<3>(3 * i) += d.normalized() * way;
+    }
+    return result;
+  };
+  for (int n = 0; n < 10; ++n) {
+    const Eigen::VectorXd little = moved_by(0.499 * skin);
+    BOOST_TEST(list.update(little));
+    BOOST_TEST(list.made() == 1);
+    BOOST_TEST(has_all(listed(list, atoms), near(little, reach)));
+  }
+  // Without a look at how far atoms went, pairs would be missed.
+  const Eigen::VectorXd far = moved_by(2.0 * skin);
+  BOOST_TEST((list.take(far) == detail::neighbour_list::state::outdated));
+  BOOST_TEST(!has_all(listed(list, atoms), near(far, reach)));
+  BOOST_TEST(list.update(far));
+  BOOST_TEST(list.made() == 2);
+  BOOST_TEST((listed(list, atoms) == near(far, reach + skin)));
+  // By one atom, round the whole box.
+  Eigen::VectorXd round = far;
+  round[7] += box;
+  BOOST_TEST(list.update(round));
+  BOOST_TEST(list.made() == 3);
 }
