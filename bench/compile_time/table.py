@@ -56,7 +56,7 @@ def measure(command):
 
 def what_to_compile(sources, folder):
     yield "the first program, examples/first_steps.cpp", sources / "examples/first_steps.cpp"
-    yield "a program of only core, tests/consumer/core/main.cpp", sources / "tests/consumer/core/main.cpp"
+    yield "a program of only core, tests/long/consumer/core/main.cpp", sources / "tests/long/consumer/core/main.cpp"
     for system in sorted((sources / "src/program/systems").glob("*.cpp")):
         yield f"a bundled system, {system.name}", system
     for header in ("core.hpp", "nysalt.hpp", "learn.hpp", "odeint.hpp"):

@@ -16,10 +16,10 @@ check() {
     fuzz)
       local runs=${argument:-20000}
       [[ $runs =~ ^[1-9][0-9]{0,8}$ ]] || refuse "check fuzz takes a number of inputs, got '$runs'"
-      [[ -z $target || -d tests/fuzz/corpus/$target ]] ||
-        refuse "check fuzz takes a target, one of $(cd tests/fuzz/corpus && echo *), got '$target'"
+      [[ -z $target || -d tests/long/fuzz/corpus/$target ]] ||
+        refuse "check fuzz takes a target, one of $(cd tests/long/fuzz/corpus && echo *), got '$target'"
       build_fuzz_targets
-      for target in tests/fuzz/corpus/${target:-*}; do
+      for target in tests/long/fuzz/corpus/${target:-*}; do
         recorded fuzz "${target##*/}" check_fuzz_target "${target##*/}" "$runs"
       done
       ;;
@@ -128,7 +128,7 @@ build_fuzz_targets() {
 check_fuzz_target() {
   say "$1, $2 inputs"
   mkdir -p build/check/fuzz/corpus
-  tests/fuzz/fuzz.sh "$PWD/build/check/address/tests/fuzz/fuzz_$1" "$2" "$PWD/tests/fuzz/corpus/$1" \
+  tests/long/fuzz/fuzz.sh "$PWD/build/check/address/tests/long/fuzz/fuzz_$1" "$2" "$PWD/tests/long/fuzz/corpus/$1" \
     "$PWD/build/check/fuzz/corpus/$1" | tee "$counts"
 }
 

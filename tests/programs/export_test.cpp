@@ -50,7 +50,7 @@ std::string self_test_in(const scratch& folder, const std::string& host) {
     return "python3 method." + host;
   if (host == "chroma" || host == "tmlqcd" || host == "openqcd" || host == "ordinarydiffeq" ||
       host == "julia") {
-    const auto stand_in = std::filesystem::path(__FILE__).parent_path() / "../hosts/stand_in.py";
+    const auto stand_in = std::filesystem::path(__FILE__).parent_path() / "../long/hosts/stand_in.py";
     return "python3 '" + stand_in.string() + "' " + host + " method." + host;
   }
   return "";

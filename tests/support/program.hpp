@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The program `nysalt`, or `nysalt_paper` in tests/paper (NYSALT_PROGRAM), as a shell runs it. In
+// The program `nysalt`, or `nysalt_paper` in tests/long/paper (NYSALT_PROGRAM), as a shell runs it. In
 // program.cpp, as reading JSON is long to compile.
 #pragma once
 

@@ -2,7 +2,7 @@
 // `nysalt_paper` is refused on several ranks, which say so once.
 #include <boost/test/unit_test.hpp>
 
-#include "../support/mpirun.hpp"
+#include "../../support/mpirun.hpp"
 
 using namespace nysalt::test;
 

@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "../../src/comparison/inputs.hpp"
-#include "../../src/program/command_line.hpp"
-#include "../../src/program/run_program.hpp"
-#include "../support/scratch.hpp"
+#include "../../../src/comparison/inputs.hpp"
+#include "../../../src/program/command_line.hpp"
+#include "../../../src/program/run_program.hpp"
+#include "../../support/scratch.hpp"
 
 namespace nysalt::fuzz {
 

@@ -2,7 +2,7 @@
 // What the fuzz targets hold the program to: each promise, and a run that breaks it.
 #include <boost/test/unit_test.hpp>
 
-#include "broken_promise.cpp"
+#include "program_run.hpp"
 
 using nysalt::fuzz::broken_promise;
 using nysalt::fuzz::remains;

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "../support/scratch.hpp"
+#include "../../support/scratch.hpp"
 #include "mutation.hpp"
 #include "program_run.hpp"
 

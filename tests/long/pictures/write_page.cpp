@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "../../src/report/page.hpp"
+#include "../../../src/report/page.hpp"
 
 using namespace nysalt;
 

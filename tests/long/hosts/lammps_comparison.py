@@ -102,7 +102,7 @@ def main():
     page = ["# Learned words in a host", "",
             "LAMMPS of 2022 (Debian 12), 108 atoms of Lennard and Jones in a periodic crystal (density 1.06, kT = 0.1, smooth cut-off",
             "2.1 to 2.4), each row with as many force evaluations as the others of its table.",
-            f"`tests/hosts/lammps_comparison.py` wrote this, with {asked.seeds} seeds a row.", "",
+            f"`tests/long/hosts/lammps_comparison.py` wrote this, with {asked.seeds} seeds a row.", "",
             "## Energy, without a bath", "",
             "Deviation of the energy of an atom along 12000 force evaluations after 2000 to warm up, and its drift from the first tenth to",
             "the last. `bab3 learned` and `bab6 learned` are of `nysalt learn --system lennard_jones --space 3 --atoms 13 --spread 1.5",

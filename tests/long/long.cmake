@@ -1,0 +1,64 @@
+# Tests of tier 2 that are no program of ours: each is labelled long. Included by tests/CMakeLists.txt.
+set(folder ${CMAKE_CURRENT_SOURCE_DIR}/long)
+function(add_long_test name)
+  add_test(NAME ${name} COMMAND ${ARGN})
+  set_tests_properties(${name} PROPERTIES LABELS long)
+endfunction()
+
+# Reports, rendered in Chromium: ./dev pictures.
+option(NYSALT_TEST_PICTURES "Render reports in Chromium" OFF)
+if(NYSALT_TEST_PICTURES)
+  add_subdirectory(long/pictures)
+endif()
+
+# The sentences of the other compiler.
+find_program(NYSALT_OTHER_COMPILER clang++)
+if(NYSALT_OTHER_COMPILER AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  add_long_test(long_must_not_compile_clang ${must_not_compile} ${NYSALT_OTHER_COMPILER} ${flags_of_must_not_compile})
+endif()
+
+# Every input that is large, deep, endless or strange; a program that breaks the four promises must be found.
+if(NYSALT_BUILD_PROGRAMS AND UNIX AND NOT APPLE)
+  add_long_test(long_inputs_worst ${inputs} $<TARGET_FILE:nysalt_program> ${CMAKE_CURRENT_BINARY_DIR}/inputs_all ${how})
+  add_long_test(long_inputs_unbounded_is_found
+    ${inputs} ${CMAKE_CURRENT_SOURCE_DIR}/inputs/unbounded.py ${CMAKE_CURRENT_BINARY_DIR}/inputs_unbounded --some)
+  set_tests_properties(long_inputs_unbounded_is_found PROPERTIES PASS_REGULAR_EXPRESSION "11 inputs tried, 5 wrong")
+endif()
+
+# Exported methods in other programs, where these are installed (./dev hosts).
+if(TARGET nysalt_python)
+  foreach(host IN ITEMS ase lammps openmm)
+    add_long_test(hosts_${host} ${NYSALT_MODULE_PYTHON} -B ${folder}/hosts/${host}_test.py $<TARGET_FILE:nysalt_program>)
+    set_tests_properties(hosts_${host} PROPERTIES LABELS "long;hosts" SKIP_RETURN_CODE 77
+      ENVIRONMENT "PYTHONPATH=${PROJECT_BINARY_DIR}/python")
+  endforeach()
+endif()
+
+# The documents: what a tool for documents says of them, and the whole site where the tools are.
+file(GLOB sources RELATIVE ${folder} CONFIGURE_DEPENDS ${folder}/docs/*_test.py)
+foreach(source IN LISTS sources)
+  string(REGEX REPLACE "docs/(.*)_test\\.py$" "long_docs_\\1" name ${source})
+  add_long_test(${name} Python3::Interpreter -B ${folder}/${source})
+  set_tests_properties(${name} PROPERTIES LABELS "long;docs")
+endforeach()
+find_program(NYSALT_DOXYGEN doxygen)
+find_program(NYSALT_SPHINX sphinx-build)
+set(tools /usr/lib/python3/dist-packages)
+if(NYSALT_DOXYGEN AND NYSALT_SPHINX AND EXISTS ${tools}/furo AND EXISTS ${tools}/breathe AND EXISTS ${tools}/myst_parser)
+  add_long_test(long_docs_whole_site ${PROJECT_SOURCE_DIR}/docs/site/build.sh ${CMAKE_CURRENT_BINARY_DIR}/docs_site)
+  set_tests_properties(long_docs_whole_site PROPERTIES LABELS "long;docs" COST 100)
+endif()
+
+# Projects that use nysalt from outside, and Debian packages of what is built here, where there are Debian's tools.
+if(NYSALT_INSTALL)
+  add_long_test(consumer ${CMAKE_COMMAND} -D BUILD=${PROJECT_BINARY_DIR} -D FOLDER=${CMAKE_CURRENT_BINARY_DIR}/consumer
+    -D MPI=$<TARGET_EXISTS:nysalt::mpi> -D PROCESSOR=${CMAKE_SYSTEM_PROCESSOR} -P ${folder}/consumer/check_consumer.cmake)
+  set_tests_properties(consumer PROPERTIES COST 40)
+endif()
+if(NYSALT_INSTALL AND NYSALT_BUILD_PROGRAMS)
+  include(GNUInstallDirs)
+  add_long_test(package ${CMAKE_COMMAND} -D BUILD=${PROJECT_BINARY_DIR} -D FOLDER=${CMAKE_CURRENT_BINARY_DIR}/package
+    -D VERSION=${PROJECT_VERSION} -D PYTHON=$<TARGET_EXISTS:nysalt_python> -D LIB=${CMAKE_INSTALL_LIBDIR}
+    -D CMAKE_CPACK_COMMAND=${CMAKE_CPACK_COMMAND} -P ${folder}/package/check_package.cmake)
+  set_tests_properties(package PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: there is no")
+endif()
