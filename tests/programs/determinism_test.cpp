@@ -38,12 +38,6 @@ const std::vector<command> commands{
     {"learn --family bab2 --system linear_chain --step 1 --horizon 10 --trajectories 20 --coordinates modes "
      "--effort quick",
      {"/parameters/b1"}},
-    {"learn --family bab3 --step 0.2 --horizon 1 --trajectories 11 --start law --placement end --effort "
-     "quick" +
-         bath,
-     {"/parameters/b1", "/loss", "/held_out_loss", "/energy_range/0"}},
-    {"learn --family bab2 --step 0.2 --horizon 1 --trajectories 11 --start trajectory --effort quick" + bath,
-     {"/parameters/b1"}},
     {"run --method srkn6b --step 0.02 --horizon 2 --trajectories 23 --sample-every 7 "
      "--observables stiff_energy,energy,q1,p6",
      {"/rows/0/3", "/rows/0/5", "/rows/9/6"}},
@@ -56,16 +50,16 @@ const std::vector<command> commands{
      "--learn-trajectories 7 "
      "--learn-horizon 0.3 --learn-effort quick --metric energy,path",
      {"/rows/0/error", "/rows/1/error", "/fits/0/loss"}},
-    {"compare --methods baoab,verlet@symmetric,learned:bab3@end --steps 0.3 --horizon 2 --trajectories "
+    {"compare --methods baoab,verlet@symmetric,learned:bab3@end --steps 0.2 --horizon 2 --trajectories "
      "23 "
      "--learn-trajectories 11 --learn-horizon 1 --learn-effort quick" +
          bath,
      {"/rows/0/error", "/rows/2/error", "/references/0/error", "/fits/0/loss"}},
-    {"compare --methods baoab,verlet@end --steps 0.2,0.3 --horizon 5 --trajectories 70 --metric "
+    {"compare --methods baoab,verlet@end --steps 0.2,0.3 --horizon 2 --trajectories 37 --metric "
      "distribution" +
          bath,
      {"/rows/0/error", "/rows/0/floor", "/rows/0/kinetic_temperature", "/references/0/mean"}},
-    {"compare --methods baoab,verlet@end --steps 0.2,0.3 --horizon 5 --trajectories 70 --metric acf" + bath,
+    {"compare --methods baoab,verlet@end --steps 0.2,0.3 --horizon 2 --trajectories 37 --metric acf" + bath,
      {"/rows/0/error", "/rows/0/standard_error", "/rows/0/floor"}},
     {"compare --methods verlet,bcss3 --system pendulum --steps 1 --trajectories 40 --horizon 10 --metric "
      "acceptance",
