@@ -20,7 +20,9 @@
 #include "nysalt/systems/kepler.hpp"
 #include "nysalt/systems/lennard_jones_cluster.hpp"
 
-namespace nysalt::test {
+using namespace nysalt;
+using namespace nysalt::test;
+
 namespace {
 
 using D = dual<double, 1>;
@@ -152,6 +154,5 @@ static_assert(!ReferenceFlow<never_finer, pendulum> && !ReferenceFlow<odeint_ref
 static_assert(!std::constructible_from<exact_linear, const pendulum&>);  // it has no modes
 
 }  // namespace
-}  // namespace nysalt::test
 
 BOOST_AUTO_TEST_CASE(the_concepts_hold_as_asserted) { BOOST_TEST(true); }
