@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSL-1.0
+// `mpirun -n 3` of run, compare, learn and sample has the bytes of one process, and a refusal is one line.
+// More ranks, kills and signals: tests/long/programs/on_ranks_test.cpp.
+#include <boost/test/unit_test.hpp>
+
+#include <string>
+
+#include "../support/mpirun.hpp"
+
+using namespace nysalt::test;
+
+BOOST_AUTO_TEST_CASE(three_ranks_have_the_bytes_of_one_process) {
+  for (const shared_command& one : std::initializer_list<shared_command>{
+           {"run --system henon_heiles --spread 2.5 --method verlet --step 0.3 --horizon 60 --trajectories "
+            "70 "
+            "--sample-every 7",  // some diverge
+            "o.csv",
+            {{3, 2}}},
+           {"compare --system pendulum --methods verlet,learned:fg_chin --steps 0.5 --horizon 10 "
+            "--trajectories 70 "
+            "--learn-trajectories 16 --learn-horizon 4 --learn-effort quick --metric path,distribution:q1",
+            "",
+            {{3, 1}}},
+           {"learn --family nystrom --step 0.03 --fine-step 0.001 --horizon 0.3 --trajectories 100 --effort "
+            "quick",
+            "o.json",
+            {{3, 1}}},
+           {"sample --system phi4 --masses 5 --length 1 --chains 70 --burn-in 100 --draws 20 "
+            "--diagonal-masses",
+            "o.csv",
+            {{3, 2}}}})
+    ranks_change_no_byte(one);
+}
+
+BOOST_AUTO_TEST_CASE(a_refusal_is_told_once) {
+  const scratch folder("ranks_refused");
+  const auto done = run_on(3, folder, "run --method nobody --step 0.1 --horizon 1 --output o.csv");
+  BOOST_TEST(done.code == 2);
+  BOOST_TEST(sentences_in(done.err) == 1, done.err);
+  BOOST_TEST(done.err.find("nobody") != std::string::npos, done.err);
+  BOOST_TEST(folder.files().empty());
+}
