@@ -3,12 +3,13 @@
 // covariance.
 #pragma once
 
-#include <tuple>
+#include <vector>
 
 #include "langevin_linear.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/families/thermostatted.hpp"
 #include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/in_bath.hpp"
@@ -25,18 +26,26 @@ struct bathed_verlet : thermostatted_method<P, verlet> {
   bathed_verlet() : thermostatted_method<P, verlet>(verlet()) {}
 };
 
-/// Verlet in a symmetric placement is obabo, and with O in the middle baoab.
-using langevin_methods =
-    std::tuple<baoab, obabo, aboba, baoab_2x, two_stages<placement::end>, two_stages<placement::symmetric>,
-               two_stages<placement::middle>, bathed_verlet<placement::end>>;
+/// As data, so that what follows is compiled once. Verlet in a symmetric placement is obabo, and with O in
+/// the middle baoab.
+inline std::vector<tabulated> langevin_methods() {
+  return {tabulated(baoab()),
+          tabulated(obabo()),
+          tabulated(aboba()),
+          tabulated(baoab_2x()),
+          tabulated(two_stages<placement::end>()),
+          tabulated(two_stages<placement::symmetric>()),
+          tabulated(two_stages<placement::middle>()),
+          tabulated(bathed_verlet<placement::end>())};
+}
 
 using bathed_oscillator = in_bath<harmonic_oscillator>;
 
 inline bathed_oscillator bathed_system(const damped_oscillator& x) {
   return {harmonic_oscillator(x.omega), bath::of_sigma(x.gamma, x.sigma)};
 }
-inline std::vector<spelled> spell(const Method auto& method) {
-  return spell(std::remove_cvref_t<decltype(method)>::word::letters(), method.coefficients());
+inline std::vector<spelled> spell(const tabulated& method) {
+  return spell(method.letters().letters(), method.coefficients());
 }
 
 inline phase_point<double, 1> point(double q, double p) {
@@ -55,7 +64,7 @@ struct one_at {
 };
 
 /// A step of the library's as it is: what it makes of unit states and of unit numbers, as it is linear.
-inline gaussian_step<2> library_step(const damped_oscillator& x, const Method auto& method, double h) {
+inline gaussian_step<2> library_step(const damped_oscillator& x, const tabulated& method, double h) {
   const auto system = bathed_system(x);
   gaussian_step<2> result;
   const auto stepped = [&](phase_point<double, 1> state, int flow) {
@@ -63,7 +72,7 @@ inline gaussian_step<2> library_step(const damped_oscillator& x, const Method au
     return coordinates_of(state);
   };
   result.map << stepped(point(1.0, 0.0), -1), stepped(point(0.0, 1.0), -1);
-  for (int flow = 0; flow < std::remove_cvref_t<decltype(method)>::word::stochastic_letters; ++flow) {
+  for (int flow = 0; flow < method.letters().stochastic_letters; ++flow) {
     const Eigen::Vector2d response = stepped(point(0.0, 0.0), flow);
     result.covariance += response * response.transpose();
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+// Compiled with -O1: 76 s at -O0, 0.1 s at -O1.
 // Every formula and table of docs/theory-langevin-optimum.md: where the best two-stage step of a damped
 // oscillator is, and how it moves with friction.
 #include <boost/test/unit_test.hpp>
