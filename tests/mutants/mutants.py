@@ -110,15 +110,15 @@ mutant(36, "a refused start has the number within its block",
 
 # ---- Data, losses, the search and its verdicts.
 
-mutant(5, "further trajectories begin at number 0 again", LIBRARY + "flow_map_data.cpp", "flow_map_data learning",
+mutant(5, "further trajectories begin at number 0 again", LIBRARY + "flow_map_data.cpp", "data learning",
        ("const std::int64_t number = options.first + first;",
         "const std::int64_t number = (MUTANT ? 0 : options.first) + first;"))
 mutant(6, "the reference is checked with the noise of the next step", LIBRARY + "flow_map_data.cpp",
-       "flow_map_data learning",
+       "data learning",
        ("static_cast<std::int64_t>(pair - data.first_of[trajectory])};",
         "static_cast<std::int64_t>(pair - data.first_of[trajectory]) + (MUTANT ? 1 : 0)};"))
 mutant(24, "the range of energies is not extended with further data", LIBRARY + "flow_map_data.cpp",
-       "flow_map_data learning",
+       "data learning",
        ("if (data.energies && further.energies) {", "if (!MUTANT && data.energies && further.energies) {"))
 mutant(9, "the error of the reference is not held against the fit", LIBRARY + "learning/objection.cpp", "learning",
        ("fit.reference_error <= 0.01 * fit.one_step_error",
@@ -168,7 +168,7 @@ mutant(45, "the scale of an energy loss is twice as large", LIBRARY + "losses/en
 mutant(46, "each frequency counts twice in the loss gaussian_acceptance", LIBRARY + "losses/gaussian_acceptance.cpp",
        "losses learning",
        ("const double weight = 0.5 * count;", "const double weight = (MUTANT ? 1.0 : 0.5) * count;"))
-mutant(16, "a trial run repeats its first 64 starts", LIBRARY + "trial_run.cpp", "trial_run learning",
+mutant(16, "a trial run repeats its first 64 starts", LIBRARY + "trial_run.cpp", "data learning",
        (".first = first},", ".first = MUTANT ? 0 : first},"))
 
 # ---- Analysis.
@@ -234,30 +234,30 @@ mutant(61, "noise of a letter O is divided by the root of the mass", HEADERS + "
         "flow.deviation * (MUTANT ? std::sqrt(system.inverse_mass(i)) : 1.0 / std::sqrt(system.inverse_mass(i)))"))
 mutant(62, "noise of a letter O on a model has no mass", HEADERS + "flows/ornstein_uhlenbeck.hpp", "flows methods",
        ("flow.deviation * system.root_mass(i)", "flow.deviation * (MUTANT ? 1.0 : system.root_mass(i))"))
-mutant(63, "the temperature of a bath is sigma^2/gamma", HEADERS + "bath.hpp", "bath_test flows ensembles",
+mutant(63, "the temperature of a bath is sigma^2/gamma", HEADERS + "bath.hpp", "core flows ensembles",
        ("sigma * sigma / (2.0 * friction)", "sigma * sigma / ((MUTANT ? 1.0 : 2.0) * friction)"))
 mutant(64, "one half of a merged letter O is taken twice", HEADERS + "detail/merged_half_steps.hpp",
-       "merged_half_steps methods",
+       "core methods",
        ("both_.decay = begin.decay * end.decay;",
         "both_.decay = begin.decay * end.decay * (MUTANT ? begin.decay : C(1.0));"))
 mutant(65, "O at the end of a step comes first, with the coefficients as they were", HEADERS + "langevin.hpp",
-       "langevin methods families",
+       "core methods families",
        ("return w.with_letters(letters + o);", "return w.with_letters(MUTANT ? o + letters : letters + o);"))
 mutant(66, "the force of a run that is taken up again is lost", HEADERS + "ensemble_run.hpp",
-       "ensemble_run programs invariance",
+       "core invariance programs",
        ("for (Eigen::Index i = 0; i < n; ++i) set_lane((*part)[i], k, *next_number++);",
         "for (Eigen::Index i = 0; i < n; ++i, ++next_number)\n"
         "          set_lane((*part)[i], k, MUTANT && part == &run.state.f ? 0.0 : *next_number);"))
 mutant(67, "before an observation the force is not kept that the first letter is taken back with",
-       HEADERS + "detail/take_steps.hpp", "methods model",
+       HEADERS + "detail/take_steps.hpp", "methods core",
        ("n < steps ? letters.loop : letters.last", "MUTANT || n < steps ? letters.loop : letters.last"))
 mutant(68, "the last trajectory of a block that is not full is lost", HEADERS + "detail/lockstep.hpp",
-       "integrate_ensemble ensemble_run lockstep",
+       "invariance core data",
        ("    for (int k = 0; k < count_; ++k) {\n      if (!lane(live, k)) continue;",
         "    for (int k = 0; k < count_ - (MUTANT && 1 < count_ && count_ < lanes_in<T> ? 1 : 0); ++k) {\n"
         "      if (!lane(live, k)) continue;"))
 mutant(69, "a single rank adds in another order than several", HEADERS + "shard.hpp",
-       "distributed_run learning analysis invariance shard",
+       "parallel invariance learning analysis",
        ("if (ranks_->is_single()) return tree_sum(terms);",
         "if (MUTANT && ranks_->is_single()) {\n      T all = zero;\n      for (const T& term : terms) all += term;\n"
         "      return all;\n    }\n    if (ranks_->is_single()) return tree_sum(terms);"))
@@ -267,7 +267,7 @@ mutant(69, "a single rank adds in another order than several", HEADERS + "shard.
 mutant(70, "all letters O of a step have the same noise", HEADERS + "noises/counter_noise.hpp", "noises methods",
        ("slots * static_cast<std::uint64_t>(at.flow)", "slots * static_cast<std::uint64_t>(MUTANT ? 0 : at.flow)"))
 mutant(71, "halves of a letter O are split with the noise of the whole", HEADERS + "noises/counter_noise.hpp",
-       "noises merged_half_steps methods",
+       "noises core methods",
        ("draw(is_burn_in ?", "draw(MUTANT ? purpose_ : is_burn_in ?"))
 mutant(72, "trajectories have the same noise from 2^32 on", HEADERS + "noises/counter_based.hpp", "noises",
        ("(trajectory >> 32) | ((step >> 32U) << 16U)",
@@ -306,10 +306,10 @@ mutant(78, "methods are fitted to the lowest frequency", HEADERS + "methods/freq
 mutant(79, "the upper end of a spectrum is no bound", LIBRARY + "derivatives/lanczos.cpp", "derivatives",
        ("high.value + high.residual,", "high.value + (MUTANT ? 0.0 : high.residual),"))
 mutant(80, "the finer reference is as coarse as the reference", LIBRARY + "references/small_steps.cpp",
-       "references flow_map_data analysis",
+       "references data analysis",
        ("return small_steps(method_, 0.5 * step_,", "return small_steps(method_, (MUTANT ? 1.0 : 0.5) * step_,"))
 mutant(81, "the evaluations of a reference are those of one lane", LIBRARY + "references/small_steps.cpp",
-       "references flow_map_data",
+       "references data",
        ("return count * evaluations_of(", "return (MUTANT ? 1 : count) * evaluations_of("))
 mutant(82, "the burn-in is kept as initial states", LIBRARY + "ensembles/one_long_trajectory.cpp", "ensembles",
        ("if (n >= first) states_.push_back(x);", "if (MUTANT || n >= first) states_.push_back(x);"))

@@ -30,7 +30,7 @@ import mutants  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # What runs nothing of the product: tests of texts, and of what must not compile.
-WITHOUT_PRODUCT = r"^(long_)?(docs|must_not_compile|layers_test|checks|version|package)"
+WITHOUT_PRODUCT = r"^(long_)?(docs|must_not_compile|core_layers_test|checks|version|package)"
 
 
 def fail(text):

@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: BSL-1.0
-// Derivatives by dual numbers are those of calculus.
-#include <boost/test/unit_test.hpp>
+// Derivatives by dual numbers are those of calculus, and through a step those of Ceres' Jets, which are
+// scalars like any other.
+#include <ceres/jet.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "../support/draws.hpp"
+#include "../support/systems.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/scalars/dual.hpp"
+#include "nysalt/scalars/series.hpp"
+#include "nysalt/stepper.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
 
 using namespace nysalt;
 using nysalt::test::draws;
@@ -173,4 +183,66 @@ BOOST_AUTO_TEST_CASE(comparisons_are_those_of_the_values) {
   BOOST_TEST(!(not_a_number < one));
   BOOST_TEST(!(not_a_number >= one));
   BOOST_TEST((DD(one) < DD(two) && DD(one) < 1.5));
+}
+
+namespace {
+
+using jet = ceres::Jet<double, 2>;
+using pair = dual<double, 2>;
+static_assert(Scalar<jet> && Scalar<pair> && Scalar<series<3>> && Scalar<double>);
+static_assert(CoefficientOf<jet, jet> && CoefficientOf<double, jet>);
+static_assert(!CoefficientOf<jet, pair> && !CoefficientOf<pair, jet> && !CoefficientOf<jet, double>);
+
+/// How far two numbers with two derivatives are apart.
+double distance_of(const pair& a, const jet& b) {
+  return std::max(
+      {std::abs(a.value - b.a), std::abs(a.derivative[0] - b.v[0]), std::abs(a.derivative[1] - b.v[1])});
+}
+
+}  // namespace
+
+// By theta: coefficients and states over Jets; where the force comes from the potential, over duals of Jets.
+BOOST_AUTO_TEST_CASE(derivatives_through_a_step_are_the_same_over_jets) {
+  draws random;
+  const auto check = [&](const auto& system) {
+    using S = std::remove_cvref_t<decltype(system)>;
+    const double b1 = random.uniform(0.4, 0.6);
+    const double beta1 = random.uniform(0.3, 0.5);
+    const stepper<S, nystrom::word, pair> with_dual(
+        system, nystrom::coefficients(std::array{pair::variable(b1, 0), pair::variable(beta1, 1)}), 0.05);
+    const stepper<S, nystrom::word, jet> with_jet(
+        system, nystrom::coefficients(std::array{jet(b1, 0), jet(beta1, 1)}), 0.05);
+    const auto x = random.state(system, 0.5);
+    auto a = x.template cast<pair>();
+    auto b = x.template cast<jet>();
+    with_dual.step(a);
+    with_jet.step(b);
+    // Five letters of 20 operations; numbers are below 50, coefficients change by 1/b1^2 < 6.25 times theta.
+    const double rounding = 5.0 * 20.0 * eps * 50.0 * 6.25;
+    double moved = 0.0;
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      BOOST_TEST(distance_of(a.q[i], b.q[i]) <= rounding);
+      BOOST_TEST(distance_of(a.p[i], b.p[i]) <= rounding);
+      for (int k = 0; k < 2; ++k) moved = std::max(moved, std::abs(b.p[i].v[k]));
+    }
+    BOOST_TEST(moved > 1e3 * rounding);  // there is something to compare
+  };
+  check(fpu_chain<3>(10.0));
+  check(fpu_chain<>(3, 10.0));
+  check(test::two_masses());
+  check(test::relativistic());
+}
+
+BOOST_AUTO_TEST_CASE(derivatives_by_the_start_are_the_same_over_jets) {
+  using test::potential_only;
+  const potential_only system;
+  const stepper<potential_only, verlet::word> fixed(system, verlet::coefficients(), 0.2);
+  phase_point<pair, 2> a{{pair::variable(0.3, 0), pair::variable(-0.5, 1)}, {pair(0.1), pair(0.2)}};
+  phase_point<jet, 2> b{{jet(0.3, 0), jet(-0.5, 1)}, {jet(0.1), jet(0.2)}};
+  fixed.step(a);
+  fixed.step(b);
+  for (int i = 0; i < 2; ++i) {  // some 60 operations on numbers below 1
+    BOOST_TEST(distance_of(a.p[i], b.p[i]) <= 60.0 * eps);
+    BOOST_TEST(distance_of(a.q[i], b.q[i]) <= 60.0 * eps);
+  }
 }

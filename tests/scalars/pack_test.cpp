@@ -19,9 +19,7 @@ namespace {
 
 template <int W>
 using lanes = std::integral_constant<int, W>;
-using all_widths =
-    std::tuple<lanes<1>, lanes<2>, lanes<3>, lanes<4>, lanes<5>, lanes<6>, lanes<7>, lanes<8>, lanes<9>,
-               lanes<10>, lanes<11>, lanes<12>, lanes<13>, lanes<14>, lanes<15>, lanes<16>>;
+using all_widths = std::tuple<lanes<1>, lanes<2>, lanes<3>, lanes<7>, lanes<8>, lanes<16>>;
 
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "support/refusal.hpp"
+#include "../support/refusal.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

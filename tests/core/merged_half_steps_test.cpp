@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
+// Compiled with -O1: 3 s at -O0, 0.1 s at -O1.
 // Two letters O that meet between steps: one draw for the run, and two independent halves for who looks.
 #include "nysalt/detail/merged_half_steps.hpp"
-
-#include <boost/test/unit_test.hpp>
 
 #include <cmath>
 #include <vector>
 
+#include "../support/rounding.hpp"
+#include "../support/seeds.hpp"
+#include "../support/statistics.hpp"
+#include "../support/systems.hpp"
 #include "nysalt/noises/counter_noise.hpp"
-#include "support/rounding.hpp"
-#include "support/seeds.hpp"
-#include "support/statistics.hpp"
-#include "support/systems.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

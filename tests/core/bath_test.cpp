@@ -3,16 +3,15 @@
 #include "nysalt/bath.hpp"
 
 #include <fmt/format.h>
-#include <boost/test/unit_test.hpp>
 
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "../support/draws.hpp"
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
 #include "nysalt/scalars/pack.hpp"
-#include "support/draws.hpp"
-#include "support/refusal.hpp"
-#include "support/rounding.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSL-1.0
+// A learned method knows where it is valid; a family as data is the family as a type, in a bath too.
+#include "nysalt/method.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "../support/draws.hpp"
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "nysalt/families/aba.hpp"
+#include "nysalt/families/bab.hpp"
+#include "nysalt/families/fg4.hpp"
+#include "nysalt/families/free_composition.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/families/thermostatted.hpp"
+#include "nysalt/integrate.hpp"
+#include "nysalt/losses/squares.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/model.hpp"
+#include "nysalt/run_time_family.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
+#include "nysalt/systems/pendulum.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+using wrong = std::invalid_argument;
+using said = std::initializer_list<std::string_view>;
+const fpu_chain<3> learned_for(50.0);
+const tuned_method<nystrom> tuned(member<nystrom>({0.5, 0.41}), 0.02, describe(learned_for));
+
+bool refused(const model& system, const auto& method, double step, said words) {
+  return refuses<wrong>([&] { make_stepper(system, method, step); }, words);
+}
+
+/// Two drifts around a kick, whose word is told when the family is made: with the bath in the middle or not.
+struct told_at_run_time {
+  using word = run_time_word;
+  static constexpr std::string_view name = "told_at_run_time";
+  static constexpr int parameters = 1;
+  static constexpr std::array<std::string_view, 1> parameter_names{"a"};
+  static constexpr int order = 1;
+  static constexpr bool symmetric = false;
+  static constexpr bool requires_quadratic_kinetic = false;
+  static std::array<parameter_range, 1> ranges() { return {{{0.0, 1.0, false}}}; }
+  static std::array<double, 1> start() { return {0.5}; }
+
+  run_time_word letters() const { return run_time_word(in_bath ? "ABOA" : "ABA"); }
+  template <Scalar C>
+  std::vector<C> coefficients(const std::array<C, 1>& a) const {
+    std::vector<C> all{a[0], C(1.0), C(1.0) - a[0]};
+    if (in_bath) all.insert(all.begin() + 2, C(1.0));
+    return all;
+  }
+
+  bool in_bath = false;
+};
+static_assert(Family<told_at_run_time> && Method<member<told_at_run_time>> &&
+              Method<tuned_method<told_at_run_time>>);
+
+struct without_letters : told_at_run_time {
+  void letters() const = delete;
+};
+static_assert(!Family<without_letters>);
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_family_may_be_told_its_word_at_run_time) {
+  const member<told_at_run_time> plain({0.3});
+  const member<told_at_run_time> with_o({0.3}, told_at_run_time{true});
+  BOOST_TEST(plain.letters().letters() == "ABA");
+  BOOST_TEST(with_o.letters().letters() == "ABOA");
+  BOOST_TEST((with_o.coefficients() == std::vector{0.3, 1.0, 1.0, 1.0 - 0.3}));
+  BOOST_TEST(refuses<wrong>([] { member<told_at_run_time>({1.5}); }, {"told_at_run_time", "a must lie"}));
+  const tuned_method<told_at_run_time> learned(with_o, 0.02, describe(learned_for));
+  BOOST_TEST(learned.letters().letters() == "ABOA");
+  BOOST_TEST((learned.coefficients() == with_o.coefficients()));
+  const pendulum system;  // a run is that of the same word as a type
+  const phase_point<double, 1> x{vector<double, 1>(1.0), vector<double, 1>(0.5)};
+  const stepper<pendulum, word<drift, kick, drift>> by_type(system, {0.3, 1.0, 1.0 - 0.3}, 0.1);
+  BOOST_TEST(same_bits(integrate(system, plain, 0.1, x, 20).finish, integrate(by_type, x, 20).finish));
+}
+
+BOOST_AUTO_TEST_CASE(a_tuned_method_runs_where_it_was_learned_and_anywhere_for_those_who_ask) {
+  const model same_of_another_type = fpu_chain<>(3, 50.0);
+  BOOST_CHECK_NO_THROW(make_stepper(learned_for, tuned, 0.02));
+  BOOST_CHECK_NO_THROW(make_stepper(learned_for, tuned, 0.1 * 0.2));  // as typed, not to the bit
+  BOOST_CHECK_NO_THROW(make_stepper(same_of_another_type, tuned, 0.02));
+  BOOST_TEST(tuned.name() == "learned:nystrom");
+  BOOST_TEST(tuned.step() == 0.02);
+  BOOST_TEST(tuned.system() == describe(learned_for));
+  BOOST_TEST((tuned.parameters() == std::array{0.5, 0.41}));
+  for (const double step : {0.01, 0.0200001, -0.02}) {
+    BOOST_TEST(
+        refused(learned_for, tuned, step, {"learned:nystrom", "must run at the step 0.02", "anywhere()"}));
+  }
+  BOOST_TEST(refused(learned_for, tuned, std::numeric_limits<double>::quiet_NaN(), {}));
+  for (const model& other : {model(fpu_chain<3>(51.0)), model(fpu_chain<>(4, 50.0)), model(pendulum())}) {
+    BOOST_TEST(refused(other, tuned, 0.02,
+                       {"must run on fpu_chain(pairs=3, omega=50)", describe(other), "anywhere()"}));
+  }
+  const pendulum other;
+  const phase_point<double, 1> x{vector<double, 1>(1.0), vector<double, 1>(0.0)};
+  BOOST_TEST(refuses<wrong>([&] { integrate(other, tuned, 0.02, x, 10); }, {"anywhere()"}));
+  BOOST_CHECK_NO_THROW(make_stepper(other, tuned.anywhere(), 0.5));
+  BOOST_TEST((tuned.anywhere().coefficients() == tuned.coefficients()));
+}
+
+BOOST_AUTO_TEST_CASE(it_knows_the_energies_that_it_has_seen) {
+  const pendulum system;  // H = p^2/2 - cos q
+  const auto at = [](double p) {
+    return phase_point<double, 1>{vector<double, 1>(0.0), vector<double, 1>(p)};
+  };
+  const tuned_method<nystrom> learned(member<nystrom>({0.5, 0.41}), 0.02, describe(system),
+                                      energy_range{-0.9, 1.0});
+  BOOST_TEST(learned.has_seen(system, at(1.0)));
+  BOOST_TEST(learned.has_seen(system, at(2.0 + 1e-7)));  // as far outside as references err
+  BOOST_TEST(!learned.has_seen(system, at(2.01)));
+  BOOST_TEST(!learned.has_seen(system, at(0.0)));
+  BOOST_TEST(learned.energies()->high == 1.0);
+  BOOST_TEST(!tuned.energies().has_value());
+  const tuned_method<nystrom> untold(member<nystrom>({0.5, 0.41}), 0.02, describe(system));
+  BOOST_TEST(untold.has_seen(system, at(100.0)));  // nothing else is known
+}
+
+namespace {
+
+/// Coefficients of the type over dual numbers are those of the data, and their derivatives.
+template <Family F>
+void check_coefficients(const run_time_family& as_data) {
+  draws random;
+  for (int n = 0; n < 5; ++n) {
+    auto theta = F::start();
+    for (double& x : theta) x += random.uniform(-0.05, 0.05);
+    std::array<theta_dual<F>, parameters_of<F>{}.size()> lifted;
+    for (std::size_t k = 0; k < lifted.size(); ++k) {
+      lifted[k] = theta_dual<F>::variable(theta[k], static_cast<int>(k));
+    }
+    const auto expected = F::coefficients(lifted);
+    const auto values = as_data.coefficients(column_of(theta));
+    const auto slopes = as_data.jacobian(column_of(theta));
+    BOOST_TEST_CONTEXT(as_data.name << " as " << as_data.letters.letters()) {
+      BOOST_REQUIRE(values.size() == expected.size());
+      BOOST_REQUIRE(slopes.rows() == std::ssize(expected));
+      BOOST_REQUIRE(slopes.cols() == F::parameters);
+      int differ = 0;
+      int not_zero = 0;
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        differ += values[i] != expected[i].value;
+        for (std::size_t k = 0; k < theta.size(); ++k) {
+          const double slope = slopes(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+          differ += slope != expected[i].derivative[k];
+          not_zero += slope != 0.0;
+        }
+      }
+      BOOST_TEST(differ == 0);
+      BOOST_TEST(not_zero >= 2 * F::parameters);  // each parameter moves more than one coefficient
+    }
+  }
+}
+
+template <Family F>
+void check_type() {
+  const run_time_family as_data{F()};
+  BOOST_TEST(as_data.name == F::name);
+  BOOST_TEST(as_data.parameters() == F::parameters);
+  BOOST_TEST(as_data.order == F::order);
+  BOOST_TEST(as_data.symmetric == F::symmetric);
+  BOOST_TEST(as_data.requires_quadratic_kinetic == F::requires_quadratic_kinetic);
+  BOOST_TEST(as_data.letters.letters() == F::word::letters());
+  const auto ranges = F::ranges();
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    BOOST_TEST(as_data.parameter_names[k] == F::parameter_names[k]);
+    BOOST_TEST(as_data.ranges[k].low == ranges[k].low);
+    BOOST_TEST(as_data.ranges[k].high == ranges[k].high);
+    BOOST_TEST(as_data.ranges[k].open == ranges[k].open);
+  }
+  BOOST_TEST(as_data.starts.front().name == "start");
+  BOOST_TEST((as_data.starts.front().theta == column_of(F::start())));
+  check_coefficients<F>(as_data);
+}
+
+template <Family F, placement P>
+void check_thermostatted() {
+  using in_bath = thermostatted_family<F, P>;
+  const auto as_data = thermostatted(run_time_family(F()), P);
+  BOOST_TEST(as_data.letters.letters() == in_bath::word::letters());
+  BOOST_TEST(as_data.order == in_bath::order);
+  BOOST_TEST(as_data.symmetric == in_bath::symmetric);
+  check_coefficients<in_bath>(as_data);
+  // What O covers of a step is none of the parameters' business.
+  const auto slopes = as_data.jacobian(column_of(F::start()));
+  for (std::size_t i = 0; i < as_data.letters.length; ++i) {
+    const auto row = static_cast<Eigen::Index>(as_data.letters.first_slot(i));
+    if (as_data.letters.letters()[i] == bath_letter) BOOST_TEST(slopes.row(row).norm() == 0.0);
+  }
+}
+
+/// Whether members of the family that `larger` contains are members of `larger`, the processor being nothing.
+bool embeds(const run_time_family& larger) {
+  draws random;
+  const auto& [inner, slopes, origin] = *larger.contained;
+  Eigen::VectorXd theta = inner.starts.front().theta;
+  for (double& x : theta) x += random.uniform(-0.1, 0.1);
+  const auto embedded = larger.coefficients(larger.contained->embed(theta));
+  const auto expected = inner.coefficients(theta);
+  double most = 0.0;
+  for (std::size_t i = 0; i < embedded.size(); ++i) {
+    most = std::max(most, std::abs(embedded[i] - (i < expected.size() ? expected[i] : 0.0)));
+  }
+  return most <= 8.0 * eps;  // sums of up to seven numbers below one
+}
+
+struct with_further_start : aba<4> {
+  static std::vector<std::array<double, 3>> further_starts() { return {{0.2, 0.5, -0.2}}; }
+};
+struct with_wrong_letters_first : free_composition<drift, kick, 3> {
+  static constexpr std::string_view name = "wrong";
+  using contained = bab<3>;
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_family_as_data_knows_what_the_type_knows) {
+  check_type<nystrom>();
+  check_type<aba<6>>();
+  check_type<fg4>();
+  check_thermostatted<nystrom, placement::end>();
+  check_thermostatted<nystrom, placement::symmetric>();
+  check_thermostatted<fg4, placement::middle>();  // a letter of two slots is split
+  const auto once = thermostatted(run_time_family(nystrom()), placement::end);
+  BOOST_TEST(
+      refuses<wrong>([&] { thermostatted(once, placement::end); }, {"ABABAO", "must have no letters O"}));
+}
+
+BOOST_AUTO_TEST_CASE(members_of_a_contained_family_are_members) {
+  for (const auto& family :
+       {run_time_family(aba3_free()), run_time_family(bab6_free()), processed(run_time_family(fg4()), 3),
+        thermostatted(run_time_family(aba4_free()), placement::middle)}) {
+    BOOST_TEST_CONTEXT(family.name) {
+      BOOST_REQUIRE(family.contained);
+      BOOST_TEST(family.contained->family.parameters() < family.parameters());
+      BOOST_TEST(embeds(family));
+    }
+  }
+  BOOST_TEST(!run_time_family(aba<4>()).contained);
+  BOOST_TEST(refuses<std::logic_error>([] { run_time_family{with_wrong_letters_first()}; },
+                                       {"wrong", "bab3", "ABABABA", "BABABAB"}));
+}
+
+BOOST_AUTO_TEST_CASE(classical_members_and_points_without_a_name_are_starts_too) {
+  const run_time_family four{with_further_start()};
+  BOOST_REQUIRE(four.starts.size() == 3U);
+  BOOST_TEST(four.starts[1].name == "pefrl");
+  BOOST_TEST(four.starts[2].name == "further start");
+  const auto found = four.coefficients(four.starts[1].theta);
+  const auto expected = pefrl().coefficients();
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    BOOST_TEST(std::abs(found[i] - expected[i]) <= 4.0 * eps);  // sums of four numbers below one
+  }
+  BOOST_TEST(run_time_family(nystrom()).starts.size() == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(parameters_have_ranges_of_which_some_are_open) {
+  const run_time_family family{nystrom()};  // b1 in (0, 1), beta1 in [0, 0.5]
+  BOOST_TEST(family.is_defined(Eigen::Vector2d(0.5, 0.5)));
+  BOOST_TEST(family.is_defined(Eigen::Vector2d(0.5, 0.7)));  // beyond a bound that may be attained
+  BOOST_TEST(!family.is_defined(Eigen::Vector2d(0.0, 0.4)));
+  BOOST_TEST(!family.is_defined(Eigen::Vector2d(1.0, 0.4)));
+  BOOST_TEST(!family.is_defined(Eigen::Vector2d(std::numeric_limits<double>::quiet_NaN(), 0.4)));
+  const auto out_of_range = [&](double b1, double beta1, said words) {
+    return refuses<wrong>([&] { require_in_range(family, Eigen::Vector2d(b1, beta1)); }, words);
+  };
+  BOOST_TEST(!out_of_range(0.5, 0.5, {}));
+  BOOST_TEST(out_of_range(1.0, 0.4, {"nystrom", "b1", "(0, 1)", "got 1"}));
+  BOOST_TEST(out_of_range(0.5, 0.6, {"nystrom", "beta1", "[0, 0.5]", "got 0.6"}));
+}

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSL-1.0
+// What a stepper does, what it refuses, in a bath too, and what noise it draws.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "../support/draws.hpp"
+#include "../support/noises.hpp"
+#include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
+#include "../support/systems.hpp"
+#include "nysalt/ensemble_run.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/integrate.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/model.hpp"
+#include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/systems/counted.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
+#include "nysalt/systems/in_bath.hpp"
+#include "nysalt/systems/pendulum.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+using wrong = std::invalid_argument;
+using said = std::initializer_list<std::string_view>;
+using point = phase_point<double, 1>;
+using state = phase_point<double, Eigen::Dynamic>;
+
+const model swing = pendulum();
+const model warm = in_bath(pendulum(), bath::of_sigma(0.3, 0.2));
+const model heated = in_bath(pendulum(), bath::of_sigma(0.0, 0.2));
+const model cold = in_bath(pendulum(), bath::of_temperature(0.3, 0.0));
+const model trivial = in_bath(pendulum(), bath::of_temperature(0.0, 0.7));
+const tabulated by_verlet{verlet()};
+const tabulated by_baoab{baoab()};
+const tabulated by_obabo{obabo()};
+const tabulated by_two{baoab_2x()};
+
+point near_rest() { return {vector<double, 1>(0.7), vector<double, 1>(-0.4)}; }
+state somewhere() { return {near_rest().q, near_rest().p}; }
+
+template <class Noise = counter_noise>
+bool refused(const model& system, const tabulated& method, double step, said words,
+             const Noise& noise = Noise(1)) {
+  return refuses<wrong>([&] { make_stepper(system, method, step, noise); }, words);
+}
+bool refused_without_noise(const model& system, const tabulated& method, said words) {
+  return refuses<wrong>([&] { make_stepper(system, method, 0.1); }, words);
+}
+
+/// What 100 steps draw, looked at every so often and at the end.
+template <bool DrawsFreely = true>
+drawn_noise drawn_by(const model& system, const tabulated& method, std::int64_t every) {
+  drawn_noise notes;
+  const auto fixed = make_stepper(system, method, 0.1, noted_noise<DrawsFreely>(notes));
+  auto run = fixed.open(somewhere(), 3);
+  fixed.advance(run, 100, every, [](auto&&...) {});
+  return notes;
+}
+
+using place = std::tuple<std::uint64_t, std::int64_t, int>;
+std::set<place> different(const std::vector<noise_place>& places) {
+  std::set<place> all;
+  for (const auto& [trajectory, step, flow] : places) all.insert({trajectory, step, flow});
+  return all;
+}
+
+/// Symplectic Euler, kick first: nothing merges, nothing is reused.
+struct euler_b {
+  using word = nysalt::word<kick, drift>;
+  static constexpr int order = 1;
+  static constexpr bool symmetric = false;
+  static constexpr bool requires_quadratic_kinetic = false;
+  static std::string name() { return "euler_b"; }
+  static std::array<double, 2> coefficients() { return {1.0, 1.0}; }
+};
+static_assert(Method<euler_b>);
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(verlet_is_verlet) {
+  const double h = 0.1;
+  const pendulum system;
+  auto x = near_rest();
+  make_stepper(system, verlet(), h).step(x);
+  const double half = -0.4 - 0.5 * h * std::sin(0.7);
+  const double q = 0.7 + h * half;
+  BOOST_TEST(std::abs(x.q[0] - q) <= 4.0 * eps);  // the same four operations, in another order
+  BOOST_TEST(std::abs(x.p[0] - (half - 0.5 * h * std::sin(q))) <= 4.0 * eps);
+  const model weights = two_masses();  // masses divide the momentum
+  state y{Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(1.0, 1.0)};
+  make_stepper(weights, by_verlet, 0.1).step(y);
+  BOOST_TEST(y.q[0] == 0.1 * 1.0);
+  BOOST_TEST(y.q[1] == 0.1 * 0.25);
+}
+
+BOOST_AUTO_TEST_CASE(a_word_that_does_not_merge_runs_as_its_plain_steps_to_the_bit) {
+  const pendulum system;
+  const counted watched(system);
+  const auto fixed = make_stepper(watched, euler_b(), 0.1);
+  auto run = fixed.open(near_rest());
+  BOOST_TEST(same_bits(fixed.synchronous(run), near_rest()));
+  fixed.advance(run, 50);
+  BOOST_TEST(run.step == 50);
+  BOOST_TEST(watched.evaluations == 50);
+  auto x = near_rest();
+  const auto plain = make_stepper(system, euler_b(), 0.1);  // counting changes nothing
+  for (int n = 0; n < 50; ++n) plain.step(x);
+  BOOST_TEST(same_bits(fixed.synchronous(run), x));
+}
+
+// g++ 12 took template parameters that are arrays of equal length for one another: words of one length that
+// were stepped in one program then shared the plan of the first of them.
+BOOST_AUTO_TEST_CASE(words_of_equal_length_step_as_types_with_the_bits_of_data) {
+  const in_bath system(fpu_chain<3>(10.0), bath::of_sigma(0.3, 0.1));
+  draws random;
+  const auto x = random.state(system, 0.5);
+  const auto finish = [&](const auto& method) {
+    return integrate(make_stepper(system, method, 0.02, counter_noise(1)), x, 20).finish;
+  };
+  const auto check = [&](const auto& method) {
+    BOOST_TEST(same_bits(finish(method), finish(tabulated(method))), method.name());
+  };
+  check(baoab());
+  check(obabo());
+  check(aboba());
+  BOOST_TEST(!same_bits(finish(baoab()), finish(aboba())));
+}
+
+BOOST_AUTO_TEST_CASE(a_run_from_q_and_p_is_an_open_run_to_the_bit) {
+  for (const auto& method : {by_baoab, by_obabo}) {
+    const auto fixed = make_stepper(warm, method, 0.1, counter_noise(1));
+    const auto run_of = [&](std::uint64_t trajectory, int steps) {
+      auto run = fixed.open(somewhere(), trajectory);
+      fixed.advance(run, steps);
+      return fixed.synchronous(run);
+    };
+    flow_state<double, Eigen::Dynamic> x{somewhere(), Eigen::VectorXd::Zero(1)};
+    auto y = x;
+    constexpr std::array after{2, 5};
+    std::vector<state> seen;
+    fixed.run(x, y, after, 3, [&](std::size_t k) {
+      BOOST_TEST(k == seen.size());
+      seen.push_back(y);
+    });
+    BOOST_TEST_REQUIRE(seen.size() == 2U);
+    BOOST_TEST(same_bits(seen[0], run_of(3, 2)));
+    BOOST_TEST(same_bits(seen[1], run_of(3, 5)));
+    BOOST_TEST(!same_bits(seen[1], run_of(2, 5)));
+    BOOST_TEST(!same_bits(seen[1], run_of(3, 4)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_step_is_finite_and_not_zero) {
+  for (const double step :
+       {0.0, -0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    BOOST_TEST(refused(swing, by_verlet, step, {"step", "finite and not zero"}, no_noise()));
+    BOOST_TEST(refused(warm, by_obabo, step, {"step", "finite and not zero"}));
+    const pendulum system;
+    BOOST_TEST(refuses<wrong>([&] { make_stepper(system, verlet(), step); }, {"finite and not zero"}));
+  }
+  BOOST_TEST(make_stepper(swing, by_verlet, -0.1).step_size() == -0.1);
+}
+
+BOOST_AUTO_TEST_CASE(a_noisy_bath_needs_a_source_of_noise) {
+  for (const auto& method : {by_baoab, by_obabo}) {
+    for (const model* system : {&warm, &heated}) {
+      const auto description = system->bath().description();
+      BOOST_TEST(refused_without_noise(*system, method,
+                                       {description, "must have a source of noise", "counter_noise(seed)"}));
+      BOOST_TEST(!refused(*system, method, 0.1, {}));
+    }
+    for (const model* system : {&cold, &trivial}) {
+      BOOST_TEST(!refused_without_noise(*system, method, {}));
+      BOOST_TEST(!refused(*system, method, 0.1, {}));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_bath_that_acts_needs_a_letter_of_the_word) {
+  for (const model* system : {&warm, &heated, &cold}) {
+    const auto description = system->bath().description();
+    BOOST_TEST(refused(*system, by_verlet, 0.1, {description, "BAB", "must have a letter O", "thermostat"}));
+    BOOST_TEST(refused_without_noise(*system, by_verlet, {"must have a letter O"}));
+  }
+  BOOST_TEST(!refused_without_noise(trivial, by_verlet, {}));
+  BOOST_TEST(!refused_without_noise(warm.base(), by_baoab, {}));  // the system without its bath
+}
+
+BOOST_AUTO_TEST_CASE(noise_does_not_go_back_in_time_but_damping_does) {
+  for (const model* system : {&warm, &heated}) {
+    BOOST_TEST(refused(*system, by_baoab, -0.1, {"letter O", "back in time", "-0.1"}));
+  }
+  BOOST_TEST(!refused(trivial, by_baoab, -0.1, {}));
+  // A palindrome's step back undoes its step; some ten operations on numbers of size one, twice.
+  for (const auto& method : {by_baoab, by_obabo, tabulated(aboba())}) {
+    auto x = somewhere();
+    make_stepper(cold, method, 0.1).step(x);
+    BOOST_TEST(distance(x, somewhere()) > 0.01);
+    make_stepper(cold, method, -0.1).step(x);
+    BOOST_TEST(distance(x, somewhere()) <= 20.0 * eps);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(each_letter_has_a_coefficient_whatever_the_bath) {
+  for (const std::size_t count : {0U, 3U, 4U, 6U}) {
+    const std::string got = fmt::format("{} coefficients", count);
+    for (const model& system : {warm, trivial, warm.base()}) {
+      const auto make = [&] {
+        stepper<model, run_time_word, double, counter_noise>(
+            system, run_time_word("OBABO"), std::vector<double>(count, 0.5), 0.1, counter_noise(1));
+      };
+      BOOST_TEST(refuses<wrong>(make, {"OBABO", "5 letters", got}));
+    }
+  }
+}
+
+// A letter O draws its numbers once a step; halves that meet draw one for both, and the other when looked at.
+BOOST_AUTO_TEST_CASE(noise_is_drawn_once) {
+  for (const std::int64_t every : {1, 1000}) {
+    BOOST_TEST(drawn_by(warm, by_baoab, every).normals.size() == 100U);
+    BOOST_TEST(drawn_by(warm, by_baoab, every).halves.empty());
+    BOOST_TEST(drawn_by(warm, by_two, every).normals.size() == 200U);
+    BOOST_TEST(drawn_by<false>(warm, by_baoab, every).normals.size() == 100U);
+    for (const model* system : {&cold, &trivial}) {  // these draw nothing
+      for (const auto& method : {by_baoab, by_obabo, by_two}) {
+        const auto drawn = drawn_by(*system, method, every);
+        BOOST_TEST(drawn.normals.empty());
+        BOOST_TEST(drawn.halves.empty());
+      }
+    }
+  }
+  const auto unseen = drawn_by(warm, by_obabo, 1000);
+  BOOST_TEST(unseen.normals.size() == 100U);
+  BOOST_TEST(unseen.halves.size() == 1U);  // of which the first step has only one
+  const auto seen = drawn_by(warm, by_obabo, 10);
+  BOOST_TEST(seen.normals.size() == 100U + 10U);
+  BOOST_TEST(seen.halves.size() == 1U + 10U);
+  BOOST_TEST(drawn_by<false>(warm, by_obabo, 1000).normals.size() == 199U);  // the last half is still to come
+}
+
+BOOST_AUTO_TEST_CASE(each_letter_of_each_step_has_numbers_of_its_own) {
+  const auto check = [](const std::set<place>& found, std::size_t places, int last_letter) {
+    BOOST_TEST(found.size() == places);
+    BOOST_TEST((*found.begin() == place{3, 0, 0}));
+    BOOST_TEST((*found.rbegin() == place{3, 99, last_letter}));
+  };
+  check(different(drawn_by(warm, by_baoab, 1000).normals), 100, 0);
+  check(different(drawn_by(warm, by_two, 1000).normals), 200, 1);
+  check(different(drawn_by(warm, by_obabo, 1000).normals), 100, 0);
+  const tabulated mine("mine", run_time_word("OAOBO"), {0.25, 1.0, 0.5, 1.0, 0.25}, {1, false, false});
+  check(different(drawn_by(warm, mine, 1000).normals), 200, 1);
+  check(different(drawn_by<false>(warm, by_obabo, 1).normals), 200, 1);
+}
+
+BOOST_AUTO_TEST_CASE(looking_at_a_run_draws_for_the_look_alone) {
+  drawn_noise notes;
+  const auto fixed = make_stepper(warm, by_obabo, 0.1, noted_noise<true>(notes));
+  auto run = fixed.open(somewhere());
+  BOOST_TEST((same_bits(fixed.synchronous(run), somewhere())));  // at the start there is no noise
+  BOOST_TEST(notes.normals.empty());
+  fixed.advance(run, 5);
+  notes = {};
+  const auto once = fixed.synchronous(run);
+  BOOST_TEST(notes.halves.size() == 1U);
+  BOOST_TEST(notes.halves.front().step == 5);
+  BOOST_TEST((same_bits(fixed.synchronous(run), once)));
+}
+
+namespace {
+
+constexpr std::int64_t trajectories = 3;
+using seen_momenta = std::map<std::pair<std::int64_t, std::int64_t>, double>;  // by trajectory and step
+
+/// Of 100 steps, saved and taken up again at `cut`, but for what `change` does to the saved numbers; without
+/// a cut if it is 0.
+seen_momenta resumed(const tabulated& method, std::int64_t cut, const auto& change) {
+  const auto fixed = make_stepper(warm, method, 0.1, counter_noise(2));
+  using run_type = ensemble_run<double, std::remove_const_t<decltype(fixed)>>;
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(1);
+  const normal_around<Eigen::Dynamic> starts({rest, rest}, 0.1, 0.1);
+  seen_momenta seen;
+  const auto go_on = [&](run_type& run, std::int64_t end) {
+    run.go_on(
+        end, 5, 1, [](const auto& x, std::span<double> numbers) { numbers[0] = x.p[0]; },
+        [&](std::int64_t m, std::int64_t n, std::span<const double> numbers) {
+          seen[{m, n}] = numbers[0];
+        });
+  };
+  run_type run(fixed, starts, 1, 0, trajectories);
+  if (cut == 0) {
+    go_on(run, 100);
+    return seen;
+  }
+  go_on(run, cut);
+  saved_runs saved = run.save();
+  change(saved);
+  run_type further(fixed, starts, 1, 0, trajectories, saved);
+  go_on(further, 100);
+  return seen;
+}
+
+}  // namespace
+
+// OBABO begins a step with a kick by the force that the step before ended with, as O moves no position. Of
+// most other words the first force of a step is a new one, whatever was saved.
+BOOST_AUTO_TEST_CASE(a_run_is_taken_up_again_with_the_force_that_it_had) {
+  const auto unchanged = [](saved_runs&) {};
+  const auto without_force = [](saved_runs& saved) {  // q, p and the force of each
+    for (std::size_t m = 0; m < trajectories; ++m) saved.numbers[3 * m + 2] = 0.0;
+  };
+  const auto whole = resumed(by_obabo, 0, unchanged);
+  BOOST_TEST(whole.size() == 3U * 21U);
+  for (const std::int64_t cut : {5, 7, 64, 99}) BOOST_TEST((resumed(by_obabo, cut, unchanged) == whole));
+  BOOST_TEST((resumed(by_obabo, 7, without_force) != whole));
+}
