@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+// Compiled with -O1: 15 s at -O0, 2.5 s at -O1.
 // Comparisons, recommendations and pages of systems that callers of the library bring.
 #include <boost/test/unit_test.hpp>
 
@@ -85,15 +86,14 @@ BOOST_AUTO_TEST_CASE(every_method_has_a_row_at_every_step_by_every_metric) {
   BOOST_TEST(has(found.json(), "\"rows\""));
 }
 
-BOOST_AUTO_TEST_CASE(errors_are_the_same_bits_for_any_number_of_threads) {
+BOOST_AUTO_TEST_CASE(the_seed_decides_the_starts) {
   auto classical = quick();
-  classical.methods = {"verlet", "pefrl"};  // of what is learned other tests say so, and that takes seconds
-  const auto one = compare(morse(), classical).rows();
-  const auto three = compare(morse(), classical, {.threads = 3}).rows();
-  BOOST_TEST(one.size() == three.size());
-  for (std::size_t i = 0; i < one.size(); ++i) BOOST_TEST(one[i].value.mean == three[i].value.mean);
-  const auto other = compare(morse(), classical, {.seed = 2}).rows();
-  BOOST_TEST(one[0].value.mean != other[0].value.mean);
+  classical.methods = {"verlet"};
+  const auto error_with = [&](std::uint64_t seed) {
+    return compare(morse(), classical, {.seed = seed}).rows().front().value.mean;
+  };
+  BOOST_TEST(error_with(1) == error_with(1));
+  BOOST_TEST(error_with(1) != error_with(2));
 }
 
 BOOST_AUTO_TEST_CASE(a_report_is_a_folder_with_a_page) {
