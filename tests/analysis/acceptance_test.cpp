@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+// Compiled with -O1: 1.0 s at -O0, 0.2 s at -O1.
 // The acceptance of proposals of Hybrid Monte Carlo: in closed form, and along trajectories.
 #include "nysalt/analysis/acceptance.hpp"
 

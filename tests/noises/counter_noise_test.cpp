@@ -1,17 +1,177 @@
 // SPDX-License-Identifier: BSL-1.0
-// Fresh noise: every place has its own numbers, and no two uses share one.
-#include "nysalt/noises/counter_noise.hpp"
-
+// A normal number is a function of seed and counter alone: of neither lanes, nor lengths, nor compiler; every
+// place has numbers of its own.
 #include <boost/test/unit_test.hpp>
 
+#include <Random123/philox.h>
+
+#include <bit>
+#include <numbers>
 #include <set>
 #include <vector>
 
 #include "../support/refusal.hpp"
+#include "nysalt/noises/counter_based.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/noises/none.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
+
+namespace {
+
+using wrong = std::invalid_argument;
+constexpr auto purpose = noise_purpose::initial_state;
+constexpr std::int64_t last_step = (std::int64_t{1} << 48U) - 1;
+constexpr std::uint64_t last_trajectory = (std::uint64_t{1} << 48U) - 1;
+constexpr std::uint64_t last_slot = (std::uint64_t{1} << 24U) - 1;
+
+std::vector<double> numbers(std::uint64_t seed, const noise_counter& first, std::size_t count) {
+  std::vector<double> result(count);
+  standard_normals<double>(seed, first, result);
+  return result;
+}
+
+using pair = std::array<double, 2>;
+pair one_pair(std::uint64_t seed, const noise_counter& at) {
+  pair result;
+  standard_normals<double>(seed, at, result);
+  return result;
+}
+
+/// The same by Random123 and libm, from what the docstrings say.
+pair by_others(std::uint64_t seed, const noise_counter& at) {
+  const auto word = [](std::uint64_t x) { return static_cast<std::uint32_t>(x & 0xffffffffU); };
+  const auto step = static_cast<std::uint64_t>(at.step);
+  const std::uint64_t use = std::uint64_t{static_cast<std::uint8_t>(at.purpose)} << 24U;
+  const auto w = r123::Philox4x32()({{word(at.trajectory), word(at.trajectory >> 32U | step >> 32U << 16U),
+                                      word(step), word(at.slot | use)}},
+                                    {{word(seed), word(seed >> 32U)}});
+  const std::uint64_t first = (std::uint64_t{w[0]} << 32U) + w[1];
+  const std::uint64_t second = (std::uint64_t{w[2]} << 32U) + w[3];
+  const double r = std::sqrt(-2.0 * std::log((static_cast<double>(first >> 12U) + 0.5) * 0x1p-52));
+  const double t = static_cast<double>((second >> 12U) | 1U) * 0x1p-52 - 0.5;
+  const double half_turn = (second & 1U) != 0 ? -1.0 : 1.0;
+  const double x = half_turn * r * std::cos(std::numbers::pi / 2.0 * t);
+  const double y = half_turn * r * std::sin(std::numbers::pi / 2.0 * t);
+  return (second & 2U) != 0 ? pair{y, x} : pair{x, y};
+}
+
+/// Lane l has the bits of trajectory first + l alone, for every number of a step.
+template <int W>
+bool lanes_are_trajectories(std::uint64_t seed, noise_counter at, std::size_t count) {
+  std::vector<pack<double, W>> packs(count);
+  standard_normals<pack<double, W>>(seed, at, packs);
+  bool same = true;
+  for (int lane = 0; lane < W; ++lane, ++at.trajectory) {
+    const auto alone = numbers(seed, at, count);
+    for (std::size_t i = 0; i < count; ++i) same = same && packs[i][lane] == alone[i];
+  }
+  return same;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_numbers_are_those_of_random123_and_libm) {
+  for (const noise_counter& at :
+       {noise_counter{0, 0, 0, {}}, noise_counter{1, 2, 3, purpose},
+        noise_counter{9876543210, 12345678901, 54321},
+        noise_counter{last_trajectory, last_step, last_slot, static_cast<noise_purpose>(255)}}) {
+    for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{7}, ~std::uint64_t{0}}) {
+      const pair ours = one_pair(seed, at);
+      const pair theirs = by_others(seed, at);
+      for (std::size_t k = 0; k < 2; ++k) {  // a root of a logarithm of 4 units of 2^-53, and a sine of 4
+        BOOST_TEST(std::abs(ours[k] / theirs[k] - 1.0) <= 16.0 * 0x1p-53);
+      }
+      BOOST_TEST((one_pair(seed + 1, at) != ours));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_lane_has_the_bits_of_its_trajectory_alone) {
+  for (const std::size_t count : {1U, 2U, 6U, 7U, 51U}) {  // a pair broken, and more than is done in one go
+    const noise_counter at = {41, 7, 3, purpose};
+    BOOST_TEST(lanes_are_trajectories<1>(5, at, count));
+    BOOST_TEST(lanes_are_trajectories<2>(5, at, count));
+    BOOST_TEST(lanes_are_trajectories<3>(5, at, count));
+    BOOST_TEST(lanes_are_trajectories<5>(5, at, count));
+    BOOST_TEST(lanes_are_trajectories<8>(5, at, count));
+    BOOST_TEST(lanes_are_trajectories<12>(5, at, count));
+    BOOST_TEST(lanes_are_trajectories<16>(5, at, count));
+  }
+  // Lanes carry into the upper word of the trajectory.
+  BOOST_TEST(lanes_are_trajectories<16>(5, {0xfffffff9U, 7, 3, purpose}, 6));
+  BOOST_TEST(lanes_are_trajectories<16>(5, {last_trajectory - 15, last_step, last_slot, purpose}, 2));
+}
+
+BOOST_AUTO_TEST_CASE(numbers_know_neither_how_many_they_are_nor_where_a_call_began) {
+  const auto all = numbers(3, {1, 2, 0, purpose}, 400);
+  for (const std::size_t slot : {0U, 1U, 7U, 128U}) {
+    for (const std::size_t count : {0U, 1U, 2U, 31U, 33U, 100U}) {
+      const auto some = numbers(3, {1, 2, slot, purpose}, count);
+      BOOST_TEST(std::equal(some.begin(), some.end(), all.begin() + static_cast<std::ptrdiff_t>(2 * slot)));
+    }
+  }
+  static_assert(slots_for(0) == 0 && slots_for(1) == 1 && slots_for(2) == 1 && slots_for(3) == 2);
+}
+
+// Every compiler and processor must come to the same bits: Fowler, Noll and Vo's hash of them, FNV-1a.
+BOOST_AUTO_TEST_CASE(the_bits_are_the_same_everywhere) {
+  const auto hash = [](std::uint64_t seed) {
+    constexpr std::uint64_t offset = 0xcbf29ce484222325U;  // both constants are the hash's own
+    constexpr std::uint64_t prime = 0x100000001b3U;
+    std::uint64_t result = offset;
+    for (std::int64_t step = 0; step < 10; ++step) {
+      for (const double x : numbers(seed, {1, step << 40U, 2, purpose}, 500)) {
+        for (int shift = 0; shift < 64; shift += 8) {
+          result = (result ^ (std::bit_cast<std::uint64_t>(x) >> shift & 0xffU)) * prime;
+        }
+      }
+    }
+    return result;
+  };
+  BOOST_TEST(hash(1) == 14220582941546545394U);
+  BOOST_TEST(hash(2) != hash(1));
+}
+
+// The counter has 128 bits, and each has its own place: no two of them can be taken for each other.
+BOOST_AUTO_TEST_CASE(every_bit_of_every_field_counts_and_no_fields_overlap) {
+  const noise_counter zero;
+  std::set<pair> seen = {one_pair(0, zero)};
+  std::size_t flips = 0;
+  const auto flip = [&](std::uint64_t seed, const noise_counter& at) {
+    seen.insert(one_pair(seed, at));
+    ++flips;
+  };
+  for (int bit = 0; bit < 48; ++bit) flip(0, {.trajectory = std::uint64_t{1} << bit});
+  for (int bit = 0; bit < 48; ++bit) flip(0, {.step = std::int64_t{1} << bit});
+  for (int bit = 0; bit < 24; ++bit) flip(0, {.slot = std::uint64_t{1} << bit});
+  for (int bit = 0; bit < 8; ++bit) flip(0, {.purpose = static_cast<noise_purpose>(1U << bit)});
+  BOOST_TEST(flips == 128U);
+  for (int bit = 0; bit < 64; ++bit) flip(std::uint64_t{1} << bit, zero);
+  BOOST_TEST(seen.size() == flips + 1);
+  flip(0, {.slot = 1});  // a counter for the second time: it is found
+  BOOST_TEST(seen.size() == flips);
+}
+
+BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
+  const auto refused = [](const noise_counter& at, std::size_t count, std::string_view word) {
+    return refuses<wrong>([&] { numbers(1, at, count); }, {"standard_normals", word});
+  };
+  BOOST_TEST(
+      refused({.trajectory = last_trajectory + 1}, 2, "trajectory must be < 2^48, got 281474976710656"));
+  BOOST_TEST(refused({.trajectory = ~std::uint64_t{0}}, 2, "trajectory"));
+  BOOST_TEST(refused({.step = last_step + 1}, 2, "< 2^48, got 281474976710656"));
+  BOOST_TEST(refused({.step = -1}, 2, "step must be >= 0"));
+  BOOST_TEST(refused({.slot = last_slot + 1}, 1, "slot 16777216"));
+  BOOST_TEST(refused({.slot = last_slot}, 3, "2 slots from slot 16777215"));
+  BOOST_TEST(refused({.slot = ~std::uint64_t{0}}, 2, "slot"));
+  BOOST_TEST(!refused({last_trajectory, last_step, last_slot, purpose}, 2, ""));
+  std::array<pack<double, 2>, 2> two_trajectories;  // the second lane would be beyond the last trajectory
+  BOOST_TEST(refuses<wrong>(
+      [&] { standard_normals<pack<double, 2>>(1, {.trajectory = last_trajectory}, two_trajectories); },
+      {"trajectory"}));
+}
 
 namespace {
 
@@ -32,13 +192,6 @@ std::vector<double> halves(const counter_noise& source, const noise_place& at) {
 
 static_assert(NoiseSource<counter_noise> && NoiseSource<no_noise>);
 static_assert(counter_noise::is_memoryless && !no_noise::is_memoryless);
-
-BOOST_AUTO_TEST_CASE(the_numbers_of_a_place_are_a_function_of_it) {
-  const noise_place here{5, 7, 1};
-  BOOST_TEST(normals<3>(counter_noise(1), here) == normals<3>(counter_noise(1), here));
-  const counter_noise burn_in(1, noise_purpose::burn_in);
-  BOOST_TEST(normals<3>(burn_in, here) == normals<3>(burn_in, here));
-}
 
 // Trajectories, steps, letters, seeds, purposes, halves: among all their numbers there are no two alike.
 // 53 bits collide among 2000 numbers with a probability of 2e-10.
@@ -66,25 +219,7 @@ BOOST_AUTO_TEST_CASE(no_two_places_share_a_number) {
   BOOST_TEST(seen.size() + 3 == drawn);
 }
 
-BOOST_AUTO_TEST_CASE(a_lane_sees_the_noise_of_its_trajectory) {
-  const counter_noise source(3);
-  vector<pack<double, 5>, 3> xi;
-  vector<pack<double, 5>, 3> zeta;
-  source.normals({11, 4, 1}, xi);
-  source.halving({11, 4, 0}, zeta);
-  for (int k = 0; k < 5; ++k) {
-    const auto trajectory = static_cast<std::uint64_t>(11 + k);
-    const auto alone = normals<3>(source, {trajectory, 4, 1});
-    const auto halves_alone = halves<3>(source, {trajectory, 4, 0});
-    for (int i = 0; i < 3; ++i) {
-      BOOST_TEST(xi[i][k] == alone[static_cast<std::size_t>(i)]);
-      BOOST_TEST(zeta[i][k] == halves_alone[static_cast<std::size_t>(i)]);
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(what_cannot_be_counted_is_refused) {
-  using wrong = std::invalid_argument;
+BOOST_AUTO_TEST_CASE(what_is_no_place_is_refused) {
   const counter_noise source(3);
   BOOST_TEST(refuses<wrong>([&] { normals<1>(source, {0, -1, 0}); }, {"step must be", "got -1"}));
   BOOST_TEST(refuses<wrong>([&] { normals<1>(source, {std::uint64_t{1} << 48U, 0, 0}); }, {"trajectory"}));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+// Compiled with -O1: 7 s at -O0, 0.3 s at -O1.
 // The noise has the normal law, out to its tails, and neighbours in every field of the counter know nothing
 // of each other.
 #include <boost/test/unit_test.hpp>
