@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The least systems with each of their optional members: what docs/concepts shows, and that they do their
-// work.
-#include <boost/test/unit_test.hpp>
-
+// The least scalar, systems with each of their optional members, bath and noise: what docs/concepts shows,
+// and that they do their work.
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -13,6 +11,8 @@
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
+#include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/systems/in_bath.hpp"
 #include "quartic_well.hpp"
 
 using namespace nysalt::test;
@@ -20,6 +20,27 @@ using namespace nysalt::test;
 namespace {
 
 constexpr double eps = 0x1p-52;
+
+// [scalar]
+/// What does a step do where every operation rounds to 24 bits?
+struct single {
+  float value = 0.0F;
+
+  single() = default;
+  single(double x) : value(static_cast<float>(x)) {}
+
+  friend single operator+(const single& a, const single& b) { return double(a.value + b.value); }
+  friend single operator-(const single& a, const single& b) { return double(a.value - b.value); }
+  friend single operator*(const single& a, const single& b) { return double(a.value * b.value); }
+  friend single operator/(const single& a, const single& b) { return double(a.value / b.value); }
+  friend single operator-(const single& a) { return double(-a.value); }
+  single& operator+=(const single& b) { return *this = *this + b; }
+  single& operator-=(const single& b) { return *this = *this - b; }
+};
+static_assert(nysalt::Scalar<single>);
+// [/scalar]
+static_assert(!nysalt::Scalar<float>);  // a double times it is a double
+static_assert(nysalt::CoefficientOf<double, single> && !nysalt::CoefficientOf<single, double>);
 
 // [kinetic_energy]
 struct relativistic_well : quartic_well {
@@ -87,7 +108,47 @@ static_assert(nysalt::HasQuadraticPart<stiff_well> && nysalt::HasFrequencyBands<
 // [/quadratic_part]
 static_assert(!nysalt::HasQuadraticPart<quartic_well>);
 
+// [bath]
+struct warm_well : quartic_well {
+  nysalt::bath bath() const { return nysalt::bath::of_temperature(0.1, 1.0); }  // friction, kT
+};
+static_assert(nysalt::HasBath<warm_well>);
+static_assert(nysalt::HasBath<nysalt::in_bath<quartic_well>>);  // the same, of any system
+// [/bath]
+
+// [noise]
+/// The mirror image of another noise. Means over both paths of a pair err less than over two others.
+struct antithetic {
+  static constexpr bool is_memoryless = true;
+  nysalt::counter_noise plain;
+
+  template <class T, int N>
+  void normals(const nysalt::noise_place& at, nysalt::vector<T, N>& xi) const {
+    plain.normals(at, xi);
+    for (T& x : xi) x = -x;
+  }
+  template <class T, int N>
+  void halving(const nysalt::noise_place& at, nysalt::vector<T, N>& zeta) const {
+    plain.halving(at, zeta);
+    for (T& x : zeta) x = -x;
+  }
+};
+static_assert(nysalt::NoiseSource<antithetic>);
+// [/noise]
+
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(a_step_in_single_precision_is_that_of_doubles_to_24_bits) {
+  const quartic_well system;
+  auto x = at(1.0, 0.5).cast<single>();
+  auto y = at(1.0, 0.5);
+  const auto stepper = nysalt::make_stepper(system, nysalt::verlet(), 0.1);
+  stepper.step(x);
+  stepper.step(y);
+  const double error = std::abs(double(x.q[0].value) - y.q[0]) + std::abs(double(x.p[0].value) - y.p[0]);
+  BOOST_TEST(error > 0.0);           // the digits are others
+  BOOST_TEST(error < 16 * 0x1p-23);  // of eight operations on each coordinate, both below 1.1
+}
 
 BOOST_AUTO_TEST_CASE(systems_and_their_optional_members_step) {
   // [ask]
@@ -147,4 +208,18 @@ BOOST_AUTO_TEST_CASE(a_model_is_the_system_as_a_value) {
   BOOST_TEST(end.q[0] == same.q[0]);
   BOOST_TEST(end.p[0] == same.p[0]);
   BOOST_TEST(end.q[0] != 1.0);  // it moved
+}
+
+BOOST_AUTO_TEST_CASE(mirrored_noise_makes_a_mirrored_path) {
+  const warm_well system;
+  const nysalt::counter_noise plain(1);
+  const auto walk = [&](const auto& noise) {
+    return nysalt::integrate(nysalt::make_stepper(system, nysalt::baoab(), 0.1, noise), at(0.0, 0.0), 100)
+        .finish;
+  };
+  const auto x = walk(plain);
+  const auto y = walk(antithetic{plain});
+  BOOST_TEST(x.q[0] != 0.0);
+  BOOST_TEST(x.q[0] == -y.q[0]);
+  BOOST_TEST(x.p[0] == -y.p[0]);
 }
