@@ -25,9 +25,9 @@ def program(tmp_path):
 def without_times(document):
     """What two computers, or one twice, agree on."""
     if isinstance(document, dict):
-        return {name: without_times(its) for name, its in document.items()
+        return {name: without_times(value) for name, value in document.items()
                 if "seconds" not in name and name != "peak_memory"}
-    return [without_times(its) for its in document] if isinstance(document, list) else document
+    return [without_times(value) for value in document] if isinstance(document, list) else document
 
 
 def henon_heiles_by_functions(name="henon_heiles by functions", cubic=1.0, force=None, **more):

@@ -20,8 +20,8 @@ def test_what_there_is_is_what_list_prints(program):
 
 def test_a_fit_is_that_of_the_program(program):
     chain = nysalt.system("fpu", omega=30, friction=0.01, sigma=0.05)
-    scheme = nysalt.learn(chain, "nystrom", step=0.02, trajectories=20, horizon=0.2, placement="end", fix={"b1": 0.5})
-    asked = ["learn", "--family", "nystrom", "--omega", "30", *BATH, "--step", "0.02", "--trajectories", "20", "--horizon", "0.2",
+    scheme = nysalt.learn(chain, "nystrom", step=0.02, trajectories=10, horizon=0.2, placement="end", fix={"b1": 0.5})
+    asked = ["learn", "--family", "nystrom", "--omega", "30", *BATH, "--step", "0.02", "--trajectories", "10", "--horizon", "0.2",
              "--placement", "end", "--fix", "b1=0.5"]
     of_program = program(*asked)
     of_program.pop("output")
@@ -57,9 +57,9 @@ def test_a_comparison_is_the_document_of_the_program(program):
 
 
 def test_a_recommendation_is_the_document_of_the_program(program):
-    found, scheme = nysalt.recommend(nysalt.system("pendulum"), 5, budget=4, families="nystrom",
+    found, scheme = nysalt.recommend(nysalt.system("pendulum"), 2, budget=4, families="nystrom",
                                      trajectories=8, learn_trajectories=5)
-    of_program = program("recommend", "--system", "pendulum", "--horizon", "5", "--budget", "4", "--families",
+    of_program = program("recommend", "--system", "pendulum", "--horizon", "2", "--budget", "4", "--families",
                          "nystrom", "--trajectories", "8", "--learn-trajectories", "5")
     of_program.pop("output")
     for one in (found, of_program):
