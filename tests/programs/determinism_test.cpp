@@ -82,8 +82,7 @@ BOOST_AUTO_TEST_CASE(threads_change_no_byte_and_another_seed_each_number) {
   for (const auto& [line, numbers] : commands) {
     BOOST_TEST_CONTEXT(line) {
       const auto one = document_of(line + " --threads 1");
-      for (const char* threads : {"2", "7"})
-        BOOST_TEST((document_of(line + " --threads " + threads) == one), threads);
+      BOOST_TEST((document_of(line + " --threads 3") == one));
       const auto other = document_of(line + " --seed 2251799813685247");  // 2^51 - 1 is the largest
       BOOST_TEST((other != one));
       for (const char* at : numbers) BOOST_TEST(one.at(pointer(at)) != other.at(pointer(at)), at);

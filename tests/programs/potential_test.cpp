@@ -1,53 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
-// Potentials as text: what they mean, and texts that are none.
+// Texts that are no potentials. What potentials mean: tests/smoke/own_systems_test.cpp and, of more of them,
+// tests/long/programs/plugin_test.cpp.
 #include <fmt/format.h>
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "../support/document.hpp"
 
 using namespace nysalt::test;
-
-namespace {
-
-/// The potential energy at a point, as run prints it of starts without deviations.
-double value_of(const std::string& potential, const std::string& options) {
-  const auto done = run("run --potential '" + potential + "' " + options +
-                        " --parameter deviation_q=0,deviation_p=0 --method verlet --step 1e-3 --horizon 1e-3 "
-                        "--observables potential_energy");
-  BOOST_REQUIRE_MESSAGE(done.code == 0, potential << ": " << done.err);
-  const auto line = done.out.find("\n0,0,0,");
-  return std::strtod(done.out.c_str() + line + 7, nullptr);
-}
-
-}  // namespace
-
-// Each is compiled: they stand in one text, a power of ten apart, each with three digits.
-BOOST_AUTO_TEST_CASE(formulas_have_their_usual_meaning) {
-  const double x = 0.5;
-  const double y = 2.0;
-  const double k = 3.0;
-  const double value = value_of(
-      "-x^2 + 2*3 - 4/2/2 + k*y^-1 + 2^3^2*x + (x - y)^3 + sqrt(y)*exp(-x) + sin(pi*x) + abs(-y)^1.5 + x^0",
-      "--variables x,y --parameter k=3 --around x=0.5,y=2");
-  const double expected = -x * x + 6.0 - 1.0 + k / y + 512.0 * x + std::pow(x - y, 3) +
-                          std::sqrt(y) * std::exp(-x) + 1.0 + std::pow(y, 1.5) + 1.0;
-  BOOST_TEST(std::abs(value - expected) <=
-             1e-9 * std::abs(expected));  // printed with its digits, and a step on
-}
-
-BOOST_AUTO_TEST_CASE(sums_go_over_lists_of_coordinates) {
-  const double value = value_of("sum(i, 1, 9, k*(q[i+1] - q[i])^2) + sum(i, 1, 3, sum(j, i, 3, i*q[j]))",
-                                "--variables 'q[10]' --parameter k=0.5 --around 'q[2]=1,q[3]=3'");
-  const double expected = 0.5 * (1.0 + 4.0 + 9.0) + (1.0 * (1.0 + 3.0) + 2.0 * (1.0 + 3.0) + 3.0 * 3.0);
-  BOOST_TEST(std::abs(value - expected) <= 1e-9 * expected);
-}
 
 BOOST_AUTO_TEST_CASE(texts_that_are_no_potential_are_refused) {
   struct refused_text {

@@ -24,12 +24,17 @@ namespace nysalt::test {
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
+std::string& program() {
+  static std::string path = NYSALT_PROGRAM;
+  return path;
+}
+
 finished shell(const scratch& folder, const std::string& line, int limit) {
   const scratch streams(folder.path().filename().string() + "_streams");
   const std::string out = streams / "out";
   const std::string err = streams / "err";
   std::string whole = "cd '" + folder.path().string();
-  whole += "' && export nysalt='" NYSALT_PROGRAM "' source='" NYSALT_SOURCE_DIR "/tests/programs' && { ";
+  whole += "' && export nysalt='" + program() + "' source='" NYSALT_SOURCE_DIR "/tests/programs' && { ";
   whole += line + "\n} </dev/null >'";
   whole += out + "' 2>'";
   whole += err + "'";

@@ -17,7 +17,10 @@ struct finished {
   std::string err;
 };
 
-/// One line of the shell in the folder, where "$nysalt" is the program, with no input and a time limit in
+/// What "$nysalt" is: NYSALT_PROGRAM, unless a test takes a copy of it.
+std::string& program();
+
+/// One line of the shell in the folder, where "$nysalt" is program(), with no input and a time limit in
 /// seconds that only a program which hangs can reach.
 finished shell(const scratch& folder, const std::string& line, int limit = 600);
 

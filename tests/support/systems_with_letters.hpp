@@ -93,6 +93,7 @@ struct planets : nysalt::solar_system<5> {
 
 /// The new q goes into the new p.
 struct slipped_turn : turn {
+  static constexpr char letter = 's';
   template <nysalt::System S, class State, class C>
   static void apply(const S&, const C& t, State& x, auto&) {
     using std::cos, std::sin;
@@ -104,6 +105,7 @@ struct slipped_turn : turn {
 };
 /// Symplectic, but -c does not take it back: it turns by an angle that is even in the time.
 struct even_turn : turn {
+  static constexpr char letter = 'e';
   template <nysalt::System S, class State, class C>
   static void apply(const S& system, const C& t, State& x, auto& room) {
     turn::apply(system, C(t + t * t * 0.3), x, room);
@@ -111,6 +113,7 @@ struct even_turn : turn {
 };
 /// It says that it leaves q alone, and does not.
 struct moving_kick : cubic_kick {
+  static constexpr char letter = 'm';
   template <nysalt::System S, class State, class C>
   static void apply(const S& system, const C& t, State& x, auto& room) {
     turn::apply(system, t, x, room);
@@ -118,6 +121,7 @@ struct moving_kick : cubic_kick {
 };
 /// A part of another H.
 struct weak_kick : cubic_kick {
+  static constexpr char letter = '9';
   template <nysalt::System S, class State, class C>
   static void apply(const S& system, const C& t, State& x, auto& room) {
     cubic_kick::apply(system, C(t * 0.9), x, room);
@@ -128,9 +132,6 @@ struct turn_named_a : nysalt::exact_flow<'A'> {
   static void apply(const S& system, const C& t, State& x, auto& room) {
     turn::apply(system, t, x, room);
   }
-};
-struct one_way_turn : turn {
-  static constexpr bool reversible = false;
 };
 /// Without an inverse of its own: not what a declared letter may be.
 struct turn_without_back : turn {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
-// Systems of users: sources that are compiled and loaded, and what a user may get wrong.
+// Systems of users: sources that are compiled and loaded, and what a user may get wrong. In tier 1:
+// tests/smoke/own_systems_test.cpp.
 #include <fmt/format.h>
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,9 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "../support/document.hpp"
-#include "../support/sanitizers.hpp"
-#include "../support/without_times.hpp"
+#include "../../support/document.hpp"
+#include "../../support/sanitizers.hpp"
+#include "../../support/unoptimised_plugins.hpp"
+#include "../../support/without_times.hpp"
 
 using namespace nysalt::test;
 using json = nlohmann::ordered_json;
@@ -153,6 +157,7 @@ BOOST_AUTO_TEST_CASE(a_plugin_has_the_numbers_of_the_bundled_system) {
 
 // What was begun or learned with one source is not gone on with by another of the same description.
 BOOST_AUTO_TEST_CASE(another_source_is_another_system) {
+  const unoptimised_plugins plugins;
   const scratch folder("plugin_sources");
   write(folder, "tried.hpp",
         oscillator_source("#include \"factor.hpp\"\n" + potential_that("return FACTOR * k * q[0] * q[0];")));
@@ -192,6 +197,7 @@ std::uintmax_t end_of_segments(const scratch& folder, const std::string& library
 // is not. Of a library that is cut off the loader maps also what is missing, and the first use of that is a
 // signal.
 BOOST_AUTO_TEST_CASE(a_damaged_library_in_the_cache_is_compiled_again) {
+  const unoptimised_plugins plugins;
   const scratch folder("plugin_damaged");
   write(folder, "well.hpp", oscillator_source(potential_that("")));
   const std::string use =
@@ -253,6 +259,7 @@ BOOST_AUTO_TEST_CASE(a_plugin_is_compiled_with_the_options_of_the_program) {
 }
 
 BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
+  const unoptimised_plugins plugins;
   const scratch folder("plugin_mistakes");
   const auto must_say = [&](const std::string& source, const std::string& options, const std::string& said) {
     write(folder, "tried.hpp", source);
@@ -317,4 +324,18 @@ BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
   const auto no_library = run(folder, "run --system ./text.so --method verlet --step 0.1 --horizon 1");
   BOOST_TEST(no_library.code == 2);
   BOOST_TEST(no_library.err.find("cannot load ./text.so as a library") != std::string::npos, no_library.err);
+}
+
+// What else a formula may have: tests/smoke/own_systems_test.cpp.
+BOOST_AUTO_TEST_CASE(sums_go_over_lists_of_coordinates) {
+  const unoptimised_plugins plugins;
+  const auto done = run(
+      "run --potential 'sum(i, 1, 9, k*(q[i+1] - q[i])^2) + sum(i, 1, 3, sum(j, i, 3, i*q[j]))' --variables "
+      "'q[10]' "
+      "--parameter k=0.5 --around 'q[2]=1,q[3]=3' --parameter deviation_q=0,deviation_p=0 --method verlet "
+      "--step 1e-3 --horizon 1e-3 --observables potential_energy");
+  BOOST_TEST_REQUIRE(done.code == 0, done.err);
+  const double value = std::strtod(done.out.c_str() + done.out.find("\n0,0,0,") + 7, nullptr);
+  const double expected = 0.5 * (1.0 + 4.0 + 9.0) + (1.0 * (1.0 + 3.0) + 2.0 * (1.0 + 3.0) + 3.0 * 3.0);
+  BOOST_TEST(std::abs(value - expected) <= 1e-14 * expected);  // printed with all its digits
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Letters of one's own by name: words of them that the program steps, learns, keeps in files and goes on with
 // have the bits of the words as types, and letters that are not what they state, or not there, are refused.
+// In tier 1: tests/smoke/own_systems_test.cpp, and of their declaration
+// tests/parts_of_program/own_letters_test.cpp.
 #include <fmt/format.h>
 #include <boost/test/unit_test.hpp>
 
@@ -17,10 +19,11 @@
 #include <utility>
 #include <vector>
 
-#include "../support/document.hpp"
-#include "../support/forged.hpp"
-#include "../support/killed.hpp"
-#include "../support/systems_with_letters.hpp"
+#include "../../support/document.hpp"
+#include "../../support/forged.hpp"
+#include "../../support/stopping.hpp"
+#include "../../support/systems_with_letters.hpp"
+#include "../../support/unoptimised_plugins.hpp"
 #include "nysalt/run_time_family.hpp"
 #include "nysalt/stepper.hpp"
 
@@ -47,8 +50,10 @@ std::string source_of(const std::string& system, const std::string& letters, con
          starts + ");\n}));\n";
 }
 
+/// With letters that are not what they state beside those that are.
 const std::string turning =
-    source_of("turning", "turn, cubic_kick", "frequency([](const auto&) { return 1.8; }), ");
+    source_of("turning", "turn, cubic_kick, slipped_turn, even_turn, moving_kick, weak_kick",
+              "frequency([](const auto&) { return 1.8; }), ");
 const std::string walls = source_of("walls", "wall_flow, spring_kick",
                                     "parameter(\"particles\", &walls::particles, \"how many\").size(), "
                                     "parameter(\"stiffness\", &walls::stiffness, \"of the springs\"), ");
@@ -275,52 +280,51 @@ BOOST_AUTO_TEST_CASE(threads_and_a_stop_change_no_byte) {
   write(folder, "mine.hpp", turning);
   for (const std::string bath : {"", " --friction 0.1 --temperature 0.005"}) {
     const std::string line =
-        "run --system ./mine.hpp --method word:tctct --step 0.5 --horizon 20000 "
-        "--trajectories 37 --sample-every 70 --observables energy,q1" +
+        "run --system ./mine.hpp --method word:tctct --step 0.5 --horizon 400 --trajectories 37 "
+        "--sample-every 70 "
+        "--observables energy,q1" +
         bath + " ";
-    BOOST_TEST_REQUIRE(run(folder, line + "--output whole.csv").code == 0);
+    BOOST_TEST_REQUIRE(run(folder, line + "--threads 2 --output whole.csv").code == 0);
     const std::string whole = contents(folder / "whole.csv");
-    BOOST_TEST_REQUIRE(run(folder, line + "--threads 2 --output two.csv").code == 0);
-    BOOST_TEST((contents(folder / "two.csv") == whole));
-    const std::string cut = line + "--output cut.csv --checkpoint cut.checkpoint --every 100 ";
-    BOOST_TEST(killed_at(folder, cut, "cut.checkpoint", 500));
-    const auto done = run(folder, cut + "--resume");
-    BOOST_TEST_REQUIRE(done.code == 0, done.err);
-    BOOST_TEST((contents(folder / "cut.csv") == whole));
+    const std::string cut = line + "--output cut.csv --checkpoint cut.checkpoint --every 100 --threads 1 ";
+    BOOST_TEST(is_killed_at(folder, "rename:4", cut));
     // Of another word the checkpoint is refused.
-    BOOST_TEST(killed_at(folder, cut, "cut.checkpoint", 500));
     auto other = cut;
     other.replace(other.find("tctct"), 5, "ctctc");
     refused(folder, other + "--resume", {"cut.checkpoint"});
-    BOOST_TEST(run(folder, cut + "--resume").code == 0);
+    const auto done = run(folder, cut + "--resume");
+    BOOST_TEST_REQUIRE(done.code == 0, done.err);
+    BOOST_TEST((contents(folder / "cut.csv") == whole));
   }
 }
 
 BOOST_AUTO_TEST_CASE(letters_that_are_not_what_they_state_are_refused_by_name) {
   const scratch folder("letters_wrong");
-  for (const auto& [letters, said] : std::vector<std::pair<std::string, std::string>>{
-           {"slipped_turn, cubic_kick", "the letter t is not symplectic"},
-           {"even_turn, cubic_kick", "the letter t"},
-           {"turn, moving_kick", "the letter c"},
-           {"turn, weak_kick", "must add up to H of henon_heiles()"}}) {
-    write(folder, "mine.hpp", source_of("turning", letters));
-    for (const char* command :
-         {"run --method word:tct --horizon 1 --step 0.5", "learn --family word:tctct --step 0.5",
-          "compare --methods word:tct,verlet --steps 0.5", "stability --method word:tct --step 0.5"}) {
-      refused(folder, fmt::format("{} --system ./mine.hpp", command), {"word:tct", said});
-    }
-    // Words without the letter are not concerned.
-    BOOST_TEST(run(folder, "run --system ./mine.hpp --method verlet --step 0.1 --horizon 1").code == 0);
+  write(folder, "mine.hpp", turning);
+  for (const auto& [word, said] :
+       std::vector<std::pair<std::string, std::string>>{{"scs", "the letter s is not symplectic"},
+                                                        {"ece", "the letter e"},
+                                                        {"tmt", "the letter m"},
+                                                        {"t9t", "must add up to H of henon_heiles()"}}) {
+    for (const std::string& command :
+         {"run --horizon 1 --step 0.5 --method word:" + word,
+          "learn --step 0.5 --family word:" + word + word.substr(1),
+          "compare --steps 0.5 --methods verlet,word:" + word, "stability --step 0.5 --method word:" + word})
+      refused(folder, command + " --system ./mine.hpp", {"word:" + word, said});
   }
+  // Words without such letters are not concerned.
+  for (const char* method : {"verlet", "word:tct"})
+    BOOST_TEST(
+        run(folder, fmt::format("run --system ./mine.hpp --method {} --step 0.1 --horizon 1", method)).code ==
+        0);
+  const unoptimised_plugins plugins;
   for (const auto& [letters, said] : std::vector<std::pair<std::string, std::string>>{
            {"turn_named_a, cubic_kick", "takes a character that no known letter has"},
-           {"one_way_turn, cubic_kick", "must be invertible and reversible"},
-           {"turn_without_back, cubic_kick", "must be invertible and reversible"},
-           {"nysalt::kick_of_part<0>", "a kick of parts needs a system that declares them"}}) {
+           {"turn_without_back, cubic_kick", "must be invertible and reversible"}}) {
     write(folder, "mine.hpp", source_of("turning", letters));
     refused(folder, "build mine.hpp", {"cannot compile mine.hpp: ", said});
   }
-  write(folder, "mine.hpp", source_of("turning", "turn, slipped_turn"));
+  write(folder, "mine.hpp", source_of("turning", "turn, turn"));
   refused(folder, "build mine.hpp", {"mine.hpp: letters must have different names, got 't' twice"});
 }
 
@@ -515,7 +519,8 @@ BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
   const std::string here = " --system ./mine.hpp --step 0.5 --horizon 1";
   for (const auto& [word, said] : std::vector<std::pair<std::string, std::string>>{
            {"word:tzt",
-            "each letter must be A, B, R, S or one that the system declares, here the letters t, c, got z; "
+            "each letter must be A, B, R, S or one that the system declares, here the letters t, c, s, e, m, "
+            "9, got z; "
             "take one of those"},
            {"word:tOt", "got O; write a table"},
            {"word:tctt", "must read the same from both ends"},
@@ -589,5 +594,6 @@ BOOST_AUTO_TEST_CASE(names_that_are_not_there_are_refused) {
   refused(folder, "cite --methods odd.json", {"neither a scheme nor a table"});
   // A source with the same letters is another system.
   write(folder, "mine.hpp", turning + "// edited\n");
+  const unoptimised_plugins plugins;
   refused(folder, "run --method s.json" + here, {"s.json", "must run on the source and the parameters"});
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Shared objects with the functions of nysalt/c_force.h are systems, and what a user may get wrong in them.
+// In tier 1: tests/smoke/own_systems_test.cpp.
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
@@ -7,8 +8,8 @@
 #include <fstream>
 #include <string>
 
-#include "../support/program.hpp"
-#include "../support/without_times.hpp"
+#include "../../support/program.hpp"
+#include "../../support/without_times.hpp"
 
 using namespace nysalt::test;
 using json = nlohmann::ordered_json;
@@ -36,9 +37,9 @@ void nysalt_start(int64_t n, const double* normals, double* q, double* p, void* 
 /// `./NAME.so` of the source; the text of the compiler where it fails.
 std::string built(const scratch& folder, const std::string& name, const std::string& text) {
   std::ofstream(folder / (name + ".c")) << "#include \"nysalt/c_force.h\"\n#include <stdlib.h>\n" << text;
-  const auto include = std::filesystem::path(__FILE__).parent_path() / "../../include";
-  return shell(folder, "gcc -O2 -Wall -Wextra -Werror -shared -fPIC -I '" + include.string() + "' " + name +
-                           ".c -o " + name + ".so")
+  const std::string include = NYSALT_SOURCE_DIR "/include";
+  return shell(folder, "gcc -O2 -Wall -Wextra -Werror -shared -fPIC -I '" + include + "' " + name + ".c -o " +
+                           name + ".so")
       .err;
 }
 
