@@ -52,7 +52,7 @@ const std::vector<command> commands{
      {"/rows/0/error", "/rows/1/error", "/fits/0/loss"}},
     {"compare --methods baoab,verlet@symmetric,learned:bab3@end --steps 0.2 --horizon 2 --trajectories "
      "23 "
-     "--learn-trajectories 11 --learn-horizon 1 --learn-effort quick" +
+     "--learn-trajectories 5 --learn-horizon 0.4 --learn-effort quick" +
          bath,
      {"/rows/0/error", "/rows/2/error", "/references/0/error", "/fits/0/loss"}},
     {"compare --methods baoab,verlet@end --steps 0.2,0.3 --horizon 2 --trajectories 37 --metric "

@@ -98,9 +98,10 @@ inline std::vector<stoppable> stoppable_commands() {
 }
 
 /// Kills a command before each of the chosen calls, and what goes on once more before one of its first calls;
-/// what then goes on by other numbers of threads comes to the bytes of a run that nothing happened to.
+/// what then goes on by other numbers of threads comes to the bytes of a run that nothing happened to, which
+/// are returned.
 template <class Chosen>
-void all_stops_come_to_the_same_bytes(const stoppable& one, Chosen is_chosen) {
+std::string all_stops_come_to_the_same_bytes(const stoppable& one, Chosen is_chosen) {
   const scratch whole("stopping_whole");
   const auto undisturbed = quietly(whole, one.line + " --output " + one.output + " --json");
   BOOST_TEST_REQUIRE(undisturbed.code == 0, one.line << ": " << undisturbed.err);
@@ -134,6 +135,7 @@ void all_stops_come_to_the_same_bytes(const stoppable& one, Chosen is_chosen) {
     }
   }
   BOOST_TEST(kills > 2, one.line);
+  return expected;
 }
 
 }  // namespace nysalt::test
