@@ -7,4 +7,3 @@
 
 #include "../cmake/precompiled.hpp"
 #include "laws/compiled_models.hpp"
-#include "laws/models.hpp"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "../laws/models.hpp"
 #include "../support/draws.hpp"
 #include "../support/in_lanes.hpp"
 #include "../support/noises.hpp"

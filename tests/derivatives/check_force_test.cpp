@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../laws/laws.hpp"
+#include "../laws/models.hpp"
 #include "../support/local_systems.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"

@@ -45,7 +45,6 @@ Eigen::MatrixXd derivative_of(const auto& map, const Eigen::VectorXd& x) {
   return all;
 }
 
-using method_over_slopes = std::vector<slopes>;
 
 /// f(stepper), of double or of slopes.
 template <Scalar C, class Noise>

@@ -64,23 +64,10 @@ struct within_a_quarter {
 };
 
 // clang-format off
-struct a_free_chain : within_one { static auto make() { return free_chain(); } };
-struct an_fpu_chain : within_a_half { static auto make() { return fpu_chain<3>(10.0); } };
 struct a_dynamic_fpu : within_a_half { static auto make() { return fpu_chain<>(2, 7.0); } };
-struct a_pendulum : within_one { static auto make() { return pendulum(); } };
 struct a_galaxy : within_a_quarter { static auto make() { return henon_heiles(); } };
 struct a_black_box : within_one { static auto make() { return black_box(); } };
-struct a_differentiable_box : within_one { static auto make() { return black_box_with_derivative(); } };
-struct two_weights : within_one { static auto make() { return two_masses(); } };
-struct two_split_weights : within_one { static auto make() { return split_masses(); } };
-struct a_split_ring : within_one { static auto make() { return split_ring(); } };
-struct a_fast_one : within_one { static auto make() { return relativistic(); } };
-struct a_faster_one : within_one { static auto make() { return relativistic_with_velocity(); } };
 // clang-format on
-
-/// Of a fixed and of a dynamic dimension with masses, with a quadratic part split off, by a force over double
-/// alone, and with another K.
-using various_systems = std::tuple<a_galaxy, a_free_chain, a_split_ring, a_differentiable_box, a_fast_one>;
 
 template <class... List>
 using joined = decltype(std::tuple_cat(std::declval<List>()...));
@@ -113,16 +100,6 @@ parameters_of<F> random_theta(draws& random) {
   return theta;
 }
 
-/// The method itself, or a random member of its family.
-template <Method M>
-M any_method(draws& random) {
-  if constexpr (requires { typename M::family; }) {
-    return M(random_theta<typename M::family>(random));
-  } else {
-    return M{};
-  }
-}
-
 /// Calls f.operator()<Model>() for each model in a list.
 template <class List>
 void for_each(auto&& f) {
@@ -130,8 +107,5 @@ void for_each(auto&& f) {
     (f.template operator()<Model>(), ...);
   }(static_cast<List*>(nullptr));
 }
-
-template <class Model>
-using system_of = decltype(Model::make());
 
 }  // namespace nysalt::test
