@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
-// Systems of several cases.
+// What several cases use.
 #pragma once
 
 #include <cmath>
 
 #include "nysalt/system.hpp"
+
+#ifdef NYSALT_CONTROL
+template <class Right, class Wrong>
+using either = Right;
+#else
+template <class Right, class Wrong>
+using either = Wrong;
+#endif
 
 /// V = q^2.
 struct well {

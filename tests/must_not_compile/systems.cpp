@@ -1,43 +1,45 @@
 // SPDX-License-Identifier: BSL-1.0
-// Systems that offer too little, or not in the required form. The comments are explained in check.py.
+// Systems that offer too little, or not in the required form, losses of one's own, systems declared for the
+// program, and sentences. The comments are explained in check.py.
 #include "common.hpp"
 #include "nysalt/derivatives/symplecticity.hpp"
 #include "nysalt/detail/lockstep.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/flows/exact_flow.hpp"
+#include "nysalt/losses/own_loss.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
+#include "nysalt/plugin.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/pendulum.hpp"
 
 // expect: nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a
 //   template or over double, const all of them; see nysalt/system.hpp
 namespace system_without_force {
-#ifdef NYSALT_CONTROL
-using incomplete = well;
-#else
 struct incomplete {
   static constexpr int dimension = 1;
 };
-#endif
-inline void use(const incomplete& system) { nysalt::make_stepper(system, nysalt::verlet(), 0.1); }
+inline void use(const either<well, incomplete>& system) {
+  nysalt::make_stepper(system, nysalt::verlet(), 0.1);
+}
 }  // namespace system_without_force
 
 // expect: nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a
 //   template or over double, const all of them; see nysalt/system.hpp
 namespace potential_over_double_alone {
-#ifdef NYSALT_CONTROL
-using not_differentiable = well;
-#else
 struct not_differentiable {
   static constexpr int dimension = 1;
   // [potential_over_double_alone]
   double potential(const nysalt::vector<double, 1>& q) const { return q[0] * q[0]; }
   // [/potential_over_double_alone]
 };
-#endif
-inline void use(const not_differentiable& system) { nysalt::make_stepper(system, nysalt::verlet(), 0.1); }
+inline void use(const either<well, not_differentiable>& system) {
+  nysalt::make_stepper(system, nysalt::verlet(), 0.1);
+}
 }  // namespace potential_over_double_alone
 
 // expect GNU: required for the satisfaction of 'System<S>' [with S = of_unknown_size]
@@ -46,16 +48,26 @@ inline void use(const not_differentiable& system) { nysalt::make_stepper(system,
 // expect Clang: no member named 'dimension' in 'of_unknown_size'
 namespace system_without_dimension {
 struct of_unknown_size {
-#ifdef NYSALT_CONTROL
-  static constexpr int dimension = 1;
-#endif
   template <class T>
   T potential(const nysalt::vector<T, 1>& q) const {
     return q[0] * q[0];
   }
 };
-inline void use(const of_unknown_size& system) { nysalt::make_stepper(system, nysalt::verlet(), 0.1); }
+inline void use(const either<well, of_unknown_size>& system) {
+  nysalt::make_stepper(system, nysalt::verlet(), 0.1);
+}
 }  // namespace system_without_dimension
+
+// expect GNU: required for the satisfaction of 'SeparableSystem<S>' [with S = incomplete]
+// expect Clang: because 'incomplete' does not satisfy 'SeparableSystem'
+namespace reference_of_a_system_without_force {
+struct incomplete {
+  static constexpr int dimension = 1;
+};
+inline void use(const nysalt::phase_point<double, 1>& x) {
+  nysalt::reference_error(either<well, incomplete>(), nysalt::fine_steps<>(0.01), x, 0.1);
+}
+}  // namespace reference_of_a_system_without_force
 
 // std::cos is for double alone; an unqualified cos finds that of dual numbers too.
 // expect GNU: no matching function for call to 'cos(const nysalt::dual<double, 1>&)'
@@ -110,102 +122,59 @@ inline void use(const wall& system) {
 }  // namespace branch_between_lanes
 
 // expect: nysalt: inverse_mass is not of the form `double inverse_mass(Eigen::Index i) const`
-namespace inverse_mass_not_const {
-struct misdeclared : well {
-#ifndef NYSALT_CONTROL
+// expect: nysalt: kinetic_energy is not of the form `template <class T> T kinetic_energy(p) const`
+// expect: nysalt: kick is not of the form `template <class T, class C> void kick(q, p, c) const`
+// expect: nysalt: frequency_bands is not of the form `std::vector<nysalt::frequency_band> frequency_bands()
+//   const`
+// expect: nysalt: bath is not of the form `const nysalt::bath& bath() const`; see systems/in_bath.hpp
+// expect: nysalt: velocity(p, v) must be differentiable, and takes double only; make it a template
+namespace members_of_another_form {
+struct mass : well {
   // [inverse_mass_not_const]
   double inverse_mass(Eigen::Index) { return 0.5; }
   // [/inverse_mass_not_const]
-#endif
 };
-inline void use(const misdeclared& system) { nysalt::make_stepper(system, nysalt::verlet(), 0.1); }
-}  // namespace inverse_mass_not_const
-
-// expect: nysalt: kinetic_energy is not of the form `template <class T> T kinetic_energy(p) const`
-namespace kinetic_energy_not_const {
-struct misdeclared : well {
-#ifndef NYSALT_CONTROL
+struct kinetic : well {
   // [kinetic_energy_not_const]
   template <class T>
   T kinetic_energy(const nysalt::vector<T, 1>& p) {
     return p[0] * p[0];
   }
   // [/kinetic_energy_not_const]
-#endif
 };
-inline void use(const misdeclared& system) { nysalt::make_stepper(system, nysalt::verlet(), 0.1); }
-}  // namespace kinetic_energy_not_const
-
-// expect: nysalt: kick is not of the form `template <class T, class C> void kick(q, p, c) const`
-namespace kick_not_const {
-struct misdeclared : well {
-#ifndef NYSALT_CONTROL
+struct kicked : well {
   // [kick_not_const]
   template <class T, class C>
   void kick(const nysalt::vector<T, 1>& q, nysalt::vector<T, 1>& p, const C& c) {
     p[0] -= q[0] * 2.0 * c;
   }
   // [/kick_not_const]
-#endif
 };
-inline void use(const misdeclared& system) { nysalt::make_stepper(system, nysalt::verlet(), 0.1); }
-}  // namespace kick_not_const
-
-// expect: nysalt: frequency_bands is not of the form `std::vector<nysalt::frequency_band> frequency_bands()
-//   const`
-namespace frequency_bands_of_another_type {
-struct misdeclared : well {
-#ifndef NYSALT_CONTROL
+struct banded : well {
   // [frequency_bands_of_another_type]
   std::vector<double> frequency_bands() const { return {1.0}; }
   // [/frequency_bands_of_another_type]
-#endif
 };
-inline void use(const misdeclared& system) { nysalt::make_stepper(system, nysalt::verlet(), 0.1); }
-}  // namespace frequency_bands_of_another_type
-
-// expect: nysalt: bath is not of the form `const nysalt::bath& bath() const`; see systems/in_bath.hpp
-namespace bath_of_another_type {
-struct misdeclared : well {
-#ifndef NYSALT_CONTROL
+struct in_a_bath : well {
   // [bath_of_another_type]
   double bath() const { return 0.1; }
   // [/bath_of_another_type]
-#endif
 };
-inline void use(const misdeclared& system) { nysalt::make_stepper(system, nysalt::baoab(), 0.1); }
-}  // namespace bath_of_another_type
-
-// expect: nysalt: velocity(p, v) must be differentiable, and takes double only; make it a template
-namespace velocity_over_double_alone {
 struct half_differentiable : well {
-#ifndef NYSALT_CONTROL
   // [velocity_over_double_alone]
   void velocity(const nysalt::vector<double, 1>& p, nysalt::vector<double, 1>& v) const { v[0] = p[0] * 2.0; }
   // [/velocity_over_double_alone]
-#endif
 };
-inline void use() {
-  const nysalt::phase_point<double, 1> x{nysalt::vector<double, 1>(1.0), nysalt::vector<double, 1>(0.0)};
-  nysalt::symplecticity_defect(half_differentiable(), nysalt::verlet(), 0.1, x);
+template <class... Systems>
+void step_all() {
+  const auto step = [](const auto& system) { nysalt::make_stepper(system, nysalt::verlet(), 0.1); };
+  (step(either<well, Systems>()), ...);
 }
-}  // namespace velocity_over_double_alone
-
-// expect GNU: required for the satisfaction of 'SeparableSystem<S>' [with S = incomplete]
-// expect Clang: because 'incomplete' does not satisfy 'SeparableSystem'
-namespace reference_of_a_system_without_force {
-#ifdef NYSALT_CONTROL
-using incomplete = well;
-#else
-struct incomplete {
-  static constexpr int dimension = 1;
-};
-#endif
-inline void use() {
-  const nysalt::phase_point<double, 1> x{nysalt::vector<double, 1>(1.0), nysalt::vector<double, 1>(0.0)};
-  nysalt::reference_error(incomplete(), nysalt::fine_steps<>(0.01), x, 0.1);
+inline void use(const nysalt::phase_point<double, 1>& x) {
+  step_all<mass, kinetic, kicked, banded, in_a_bath>();
+  nysalt::symplecticity_defect(either<well, half_differentiable>(), nysalt::verlet(), 0.1, x);
 }
-}  // namespace reference_of_a_system_without_force
+}  // namespace members_of_another_form
 
 // What models nothing is refused by the name of the concept, wherever it is handed over.
 // expect: Scalar
@@ -218,15 +187,6 @@ inline void use() {
 // expect: ReferenceFlow
 namespace concepts_by_name {
 struct nothing {};
-
-#ifdef NYSALT_CONTROL
-template <class Model, class Nothing>
-using either = Model;
-#else
-template <class Model, class Nothing>
-using either = Nothing;
-#endif
-
 using state = nysalt::phase_point<either<double, float>, 1>;
 using letters = nysalt::word<either<nysalt::drift, nothing>, nysalt::kick>;
 using family = nysalt::member<either<nysalt::nystrom, nothing>>;
@@ -244,3 +204,76 @@ inline void everything(const nysalt::pendulum& system, const either<nysalt::pend
   nysalt::reference_error(system, reference, x, 0.1);
 }
 }  // namespace concepts_by_name
+
+// expect: nysalt: an own loss returns its residuals over the T of its states, at least one: a `T`, a
+//   `std::array<T, n>` or a `vector<T, n>`; of an expression, say `-> vector<T, n>`
+// expect: nysalt: an own loss is a function of (start, finish, wanted), each a `phase_point<T, N>` of the
+//   system's dimension N, and const, for any scalar T
+namespace own_losses {
+#ifdef NYSALT_CONTROL
+using nysalt::phase_point;
+using nysalt::vector;
+auto place = []<class T>(const phase_point<T, 2>&, const phase_point<T, 2>& finish,
+                         const phase_point<T, 2>& wanted) -> vector<T, 2> { return finish.q - wanted.q; };
+auto over_double = place;
+#else
+// [own_loss_of_an_expression]
+auto place = [](const auto&, const auto& finish, const auto& wanted) { return finish.q - wanted.q; };
+// [/own_loss_of_an_expression]
+namespace alone {
+// [own_loss_over_double_alone]
+using state = nysalt::phase_point<double, 2>;
+auto place = [](const state&, const state& finish, const state& wanted) { return finish.q[0] - wanted.q[0]; };
+// [/own_loss_over_double_alone]
+}  // namespace alone
+auto over_double = alone::place;
+#endif
+inline void use(const nysalt::henon_heiles& system) {
+  nysalt::own_error(system, place);
+  nysalt::own_error(system, over_double);
+}
+}  // namespace own_losses
+
+// expect: nysalt: NYSALT_SYSTEM needs starts(...), once
+namespace declaration_without_starts {
+struct well : ::well {
+  double depth = 1.0;
+};
+nysalt::normal_around<1> starts_of_well(const well&);
+#ifdef NYSALT_CONTROL
+NYSALT_SYSTEM(well, "depth q^2", starts(starts_of_well), parameter("depth", &well::depth, "of the well"));
+#else
+// [declaration_without_starts]
+NYSALT_SYSTEM(well, "depth q^2", parameter("depth", &well::depth, "of the well"));
+// [/declaration_without_starts]
+#endif
+}  // namespace declaration_without_starts
+
+// expect: nysalt: a letter that a system declares must be invertible and reversible, as exact_flow states;
+//   step the word by its type
+namespace declared_letter_that_is_one_way {
+struct own_drift : nysalt::exact_flow<'a'> {
+  static void apply(const auto&, const auto&, auto&, auto&) {}
+#ifndef NYSALT_CONTROL
+  // [declared_letter_that_is_one_way]
+  static constexpr bool reversible = false;
+  // [/declared_letter_that_is_one_way]
+#endif
+};
+inline void use(const nysalt::normal_around<1>& around) {
+  nysalt::declare_system<nysalt::pendulum>("swing", "a pendulum", nysalt::letters<own_drift>(),
+                                           nysalt::starts([&](const nysalt::pendulum&) { return around; }));
+}
+}  // namespace declared_letter_that_is_one_way
+
+// expect: there must be as many pieces as holes
+// expect: a hole is {}, without a format
+namespace sentences {
+#ifdef NYSALT_CONTROL
+const auto whole = nysalt::sentence("{} of {}", 1, 2);
+const auto plain = nysalt::sentence("step {}", 0.1);
+#else
+const auto whole = nysalt::sentence("{} of {}", 1);
+const auto plain = nysalt::sentence("step {:.3}", 0.1);
+#endif
+}  // namespace sentences

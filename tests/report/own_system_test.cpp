@@ -7,7 +7,11 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "../support/refusal.hpp"
+#include "../support/scratch.hpp"
 #include "nysalt/compare.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/recommend.hpp"
@@ -53,12 +57,14 @@ comparison_options quick() {
           .learning = {.trajectories = 8, .horizon = 4.0}};
 }
 
-std::string refused(const initial_value_problem& problem, const comparison_options& options,
-                    const execution_options& execution = {}) {
+/// What the refusal of a comparison says.
+std::string refused(const initial_value_problem& problem, const auto& change) {
+  auto options = quick();
+  change(options);
   try {
-    compare(problem, options, execution);
-  } catch (const std::invalid_argument& problem_told) {
-    return problem_told.what();
+    compare(problem, options);
+  } catch (const std::invalid_argument& told) {
+    return told.what();
   }
   return {};
 }
@@ -82,23 +88,19 @@ BOOST_AUTO_TEST_CASE(every_method_has_a_row_at_every_step_by_every_metric) {
       BOOST_TEST(row.is_learned == row.method.starts_with("learned:"));
     }
   }
+  const auto first_with = [](std::uint64_t seed) {
+    auto classical = quick();
+    classical.methods = {"verlet"};
+    return compare(morse(), classical, {.seed = seed}).rows().front().value.mean;
+  };
+  BOOST_TEST(first_with(1) == first_with(1));
+  BOOST_TEST(first_with(1) != first_with(2));
   BOOST_TEST(has(found.text(), "learned:nystrom"));
   BOOST_TEST(has(found.json(), "\"rows\""));
 }
 
-BOOST_AUTO_TEST_CASE(the_seed_decides_the_starts) {
-  auto classical = quick();
-  classical.methods = {"verlet"};
-  const auto error_with = [&](std::uint64_t seed) {
-    return compare(morse(), classical, {.seed = seed}).rows().front().value.mean;
-  };
-  BOOST_TEST(error_with(1) == error_with(1));
-  BOOST_TEST(error_with(1) != error_with(2));
-}
-
 BOOST_AUTO_TEST_CASE(a_report_is_a_folder_with_a_page) {
-  const auto folder = std::filesystem::temp_directory_path() / "nysalt_own_system_report";
-  std::filesystem::remove_all(folder);
+  const test::scratch folder("own_system_report");
   auto options = quick();
   options.steps = {0.2};
   options.methods = {"verlet", "pefrl"};
@@ -109,26 +111,25 @@ BOOST_AUTO_TEST_CASE(a_report_is_a_folder_with_a_page) {
   for (const auto& entry : std::filesystem::directory_iterator(folder / "page")) {
     BOOST_TEST(!has(entry.path().string(), "manifest"));  // there is no command that made it
   }
-  std::filesystem::remove_all(folder);
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_in_terms_of_the_options) {
-  BOOST_TEST(has(refused(morse(-1.0), quick()), "force"));
-  const auto changed = [](const auto& change) {
-    auto options = quick();
-    change(options);
-    return refused(morse(), options);
-  };
-  BOOST_TEST(has(changed([](auto& o) { o.methods = {"verlett"}; }), "verlett"));
-  BOOST_TEST(has(changed([](auto& o) { o.steps = {-0.1}; }), "steps must be"));
-  BOOST_TEST(has(changed([](auto& o) { o.learning.trajectories = 0; }), "learning.trajectories must be"));
-  BOOST_TEST(has(changed([](auto& o) { o.metrics = {"exchange"}; }), "exchange"));
-  BOOST_TEST(has(refused(morse(), quick(), {.threads = 0}), "threads must be"));
-  for (const auto& text : {changed([](auto& o) { o.steps = {}; }), changed([](auto& o) { o.horizon = 0.01; }),
-                           changed([](auto& o) { o.levels = {0.0}; })}) {
-    BOOST_TEST(text != "");
-    BOOST_TEST(!has(text, "--"));
+  BOOST_TEST(has(refused(morse(-1.0), [](auto&) {}), "force"));
+  using change = void (*)(comparison_options&);
+  for (const auto& [changed, words] : std::vector<std::pair<change, std::string>>{
+           {[](auto& o) { o.methods = {"verlett"}; }, "verlett"},
+           {[](auto& o) { o.steps = {-0.1}; }, "steps must be"},
+           {[](auto& o) { o.learning.trajectories = 0; }, "learning.trajectories must be"},
+           {[](auto& o) { o.metrics = {"exchange"}; }, "exchange"},
+           {[](auto& o) { o.steps = {}; }, "steps"},
+           {[](auto& o) { o.horizon = 0.01; }, "horizon"},
+           {[](auto& o) { o.levels = {0.0}; }, "levels"}}) {
+    const auto text = refused(morse(), changed);
+    BOOST_TEST(has(text, words), text);
+    BOOST_TEST(!has(text, "--"), text);
   }
+  BOOST_TEST(test::refuses<std::invalid_argument>([] { compare(morse(), quick(), {.threads = 0}); },
+                                                  {"threads must be"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_recommendation_names_a_method_and_its_step) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <limits>
 #include <set>
@@ -13,7 +14,6 @@
 #include "../../src/report/plot.hpp"
 #include "../../src/report/plot_range.hpp"
 #include "../../src/report/plot_script.hpp"
-#include "../../src/report/svg.hpp"
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
 
@@ -24,6 +24,21 @@ namespace {
 
 const bool has_gnuplot = std::system("gnuplot --version >/dev/null 2>&1") == 0;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+void has_all(const std::string& text, std::initializer_list<const char*> words) {
+  for (const char* one : words) BOOST_TEST(text.find(one) != std::string::npos, "missing: " << one);
+}
+
+/// Titles are what a reader of a picture sees as the value of a point.
+std::multiset<std::string> titles_in(const std::string& svg) {
+  std::multiset<std::string> result;
+  const std::string begin = "<title>";
+  for (std::size_t at = svg.find(begin); at != std::string::npos; at = svg.find(begin, at)) {
+    at += begin.size();
+    result.insert(svg.substr(at, svg.find("</title>", at) - at));
+  }
+  return result;
+}
 
 figure two_panels() {
   const panel lines{
@@ -53,36 +68,21 @@ BOOST_AUTO_TEST_CASE(a_label_stays_on_its_line) {
 BOOST_AUTO_TEST_CASE(data_and_script_are_written_and_pictures_drawn) {
   const scratch folder("plot it's");
   BOOST_TEST(draw(two_panels(), folder.path()) == has_gnuplot);
-  const auto data = contents(folder / "picture.dat");
-  BOOST_TEST(data.find("# it's a title: a\n0 1 0\n1 2 0\n2 1 0\n\n\n") != std::string::npos);
-  BOOST_TEST(data.find("# errors: b\n1 0.01 0.001\n10 0.0001 0\n\n\n") != std::string::npos);
-  BOOST_TEST(data.find("# errors: c\n") != std::string::npos);
-  const auto script = contents(folder / "picture.gp");
-  for (const char* words : {"'picture.dat' index 0", "'picture.dat' index 1", "'picture.dat' index 2",
-                            "logscale xy", "title 'it''s a title'", "multiplot"}) {
-    BOOST_TEST(script.find(words) != std::string::npos, "missing: " << words);
-  }
+  has_all(contents(folder / "picture.dat"),
+          {"# it's a title: a\n0 1 0\n1 2 0\n2 1 0\n\n\n", "# errors: b\n1 0.01 0.001\n10 0.0001 0\n\n\n",
+           "# errors: c\n"});
+  has_all(contents(folder / "picture.gp"),
+          {"'picture.dat' index 0", "'picture.dat' index 1", "'picture.dat' index 2", "logscale xy",
+           "title 'it''s a title'", "multiplot"});
   if (has_gnuplot) {
-    BOOST_TEST(contents(folder / "picture.svg").find("<svg") != std::string::npos);
+    has_all(contents(folder / "picture.svg"), {"<svg"});
     BOOST_TEST(contents(folder / "picture.png").starts_with("\x89PNG"));
     BOOST_TEST(
         (folder.files() == std::set<std::string>{"picture.dat", "picture.gp", "picture.svg", "picture.png"}));
   }
+  BOOST_TEST(refuses<std::runtime_error>([&] { draw(two_panels(), folder / "nowhere"); },
+                                         {"cannot write", "picture.dat"}));
 }
-
-namespace {
-
-std::multiset<std::string> titles_in(const std::string& svg) {
-  std::multiset<std::string> result;
-  const std::string begin = "<title>";
-  for (std::size_t at = svg.find(begin); at != std::string::npos; at = svg.find(begin, at)) {
-    at += begin.size();
-    result.insert(svg.substr(at, svg.find("</title>", at) - at));
-  }
-  return result;
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(points_say_their_values) {
   if (!has_gnuplot) return;
@@ -121,28 +121,13 @@ BOOST_AUTO_TEST_CASE(of_many_points_some_say_their_values_and_these_are_theirs) 
   }
 }
 
-// Ids are those of one file, and pictures of one page are many.
-BOOST_AUTO_TEST_CASE(ids_begin_with_the_name_and_texts_stay) {
-  const std::string svg =
-      "<svg><defs><path id='gpPt1'/></defs><use xlink:href='#gpPt1' id='x'/><text> id='y' "
-      "url(#z)</text></svg>";
-  BOOST_TEST(finished_svg(svg, {"p", {}}) ==
-             "<svg><defs><path id='p-gpPt1'/></defs><use xlink:href='#p-gpPt1' id='p-x'/><text> id='y' "
-             "url(#z)</text></svg>");
-}
-
 BOOST_AUTO_TEST_CASE(points_that_are_not_finite_leave_a_gap) {
-  const scratch folder("plot");
   const double infinite = std::numeric_limits<double>::infinity();
   panel one;
   one.curves.push_back({"a", {0, 1, 2, 3, nothing, 5}, {1, nothing, 3, infinite, 4, 5}});
-  draw({"gaps", {one}}, folder.path());
-  std::istringstream lines(contents(folder / "gaps.dat"));
-  std::vector<std::string> read;
-  for (std::string line; std::getline(lines, line);) read.push_back(line);
-  const std::string gap = "NaN NaN NaN";  // where gnuplot breaks the line; a missing one would be bridged
-  BOOST_TEST(read == (std::vector<std::string>{"# : a", "0 1 0", gap, "2 3 0", gap, gap, "5 5 0", "", ""}),
-             boost::test_tools::per_element());
+  const std::string gap = "NaN NaN NaN\n";  // where gnuplot breaks the line; a missing one would be bridged
+  BOOST_TEST(detail::plot_data({"gaps", {one}}) ==
+             "# : a\n0 1 0\n" + gap + "2 3 0\n" + gap + gap + "5 5 0\n\n\n");
 }
 
 BOOST_AUTO_TEST_CASE(points_that_do_not_count_are_hollow_and_only_they) {
@@ -207,28 +192,11 @@ BOOST_AUTO_TEST_CASE(everything_that_a_curve_can_be_is_drawn) {
   const figure picture{"all", {plot, log_x, log_xy}};
   BOOST_TEST(draw(picture, folder.path()) == has_gnuplot);
   const auto script = contents(folder / "all.gp");
-  for (const char* words :
-       {"set key outside right", "with steps", "nohead", "'it''s'", "keyentry with points"}) {
-    BOOST_TEST(script.find(words) != std::string::npos, "missing: " << words);
-  }
+  has_all(script, {"set key outside right", "with steps", "nohead", "'it''s'", "keyentry with points"});
+  // Points of size 0 are a matrix without an inverse, at which librsvg gives up.
+  if (has_gnuplot) BOOST_TEST(contents(folder / "all.svg").find("scale(0.00)") == std::string::npos);
   plot.curves.resize(6);
   BOOST_TEST(detail::plot_script({"few", {plot}}).find("set key outside right") == std::string::npos);
-}
-
-BOOST_AUTO_TEST_CASE(a_folder_that_is_not_there_is_told) {
-  const scratch folder("plot");
-  BOOST_TEST(refuses<std::runtime_error>([&] { draw(two_panels(), folder / "nowhere"); },
-                                         {"cannot write", "picture.dat"}));
-  BOOST_TEST(folder.files().empty());
-}
-
-BOOST_AUTO_TEST_CASE(what_gnuplot_cannot_draw_leaves_no_half_picture) {
-  const scratch folder("plot");
-  panel bad;
-  bad.curves.push_back({"a", {0, 1}, {0, 1}});
-  bad.y_range = "nonsense";
-  BOOST_TEST(!draw({"bad", {bad}}, folder.path()));
-  BOOST_TEST((folder.files() == std::set<std::string>{"bad.dat", "bad.gp"}));
 }
 
 BOOST_AUTO_TEST_CASE(no_old_picture_stays_beside_new_data) {
@@ -268,30 +236,23 @@ BOOST_AUTO_TEST_CASE(intervals_are_shaded_behind_the_curves) {
   other.curves.push_back({"b", {0, 1}, {1, 2}});
   BOOST_TEST(draw({"shaded", {one, other}}, folder.path()) == has_gnuplot);
   const auto script = contents(folder / "shaded.gp");
-  for (const char* words : {"set object 1 rectangle from first 0, graph 0 to first 0.5, graph 1 behind",
-                            "set object 3 rectangle from first 0.25,", "title 'it''s wild'"}) {
-    BOOST_TEST(script.find(words) != std::string::npos, "missing: " << words);
-  }
+  has_all(script, {"set object 1 rectangle from first 0, graph 0 to first 0.5, graph 1 behind",
+                   "set object 3 rectangle from first 0.25,", "title 'it''s wild'"});
   // A label has one entry in the key, and the next panel has none of it.
   BOOST_TEST(script.find("title 'calm'") == script.rfind("title 'calm'"));
   BOOST_TEST(script.find("unset object", script.find("set object 3")) != std::string::npos);
   BOOST_TEST(script.find("set object 4") == std::string::npos);
 }
 
-// Points of size 0 are a matrix without an inverse, at which librsvg gives up.
-BOOST_AUTO_TEST_CASE(levels_are_drawn_as_all_can_read_them) {
-  const scratch folder("plot");
-  panel one;
-  one.curves.push_back({"a", {0, 1, 2}, {1, 2, 1}});
-  one.levels = {{"high", 3.0}};
-  draw({"levels", {one}}, folder.path());
-  if (has_gnuplot) BOOST_TEST(contents(folder / "levels.svg").find("scale(0.00)") == std::string::npos);
-}
-
 namespace {
 
-/// Numbers that are told beside an axis; empty where gnuplot chooses.
-std::vector<double> ticks_in(const std::string& script, const std::string& axis) {
+/// Numbers that are told beside an axis, 'x' or 'y'; empty where gnuplot chooses.
+std::vector<double> ticks_of(const std::string& axis, const std::vector<double>& costs,
+                             const std::vector<double>& errors, bool log_log = true) {
+  panel plot;
+  plot.log_log = log_log;
+  plot.curves.push_back({"a", costs, errors});
+  const auto script = detail::plot_script({"picture", {plot}});
   const auto from = script.find("set " + axis + "tics (");
   if (from == std::string::npos) return {};
   const auto open = script.find('(', from);
@@ -301,41 +262,24 @@ std::vector<double> ticks_in(const std::string& script, const std::string& axis)
   return result;
 }
 
-std::string script_of(const std::vector<double>& costs, const std::vector<double>& errors,
-                      bool log_log = true) {
-  panel plot{.title = "",
-             .x_label = "cost",
-             .y_label = "error",
-             .log_log = log_log,
-             .curves = {{"a", costs, errors}}};
-  return detail::plot_script({.name = "picture", .panels = {plot}});
-}
-
 }  // namespace
 
 // gnuplot writes numbers beside powers of ten alone, and there may be none.
-BOOST_AUTO_TEST_CASE(an_axis_of_costs_always_has_numbers) {
+BOOST_AUTO_TEST_CASE(a_logarithmic_axis_always_has_numbers) {
   for (const double low : {1.0, 1.4, 2.3, 3.7, 5.5, 8.9, 23.0, 0.0061}) {
     for (const double ratio : {1.0, 1.01, 1.5, 2.9, 9.0, 60.0}) {
-      const auto script = script_of({low, low * ratio}, {1e-3, 1e-7});
-      const auto ticks = ticks_in(script, "x");
-      BOOST_TEST_CONTEXT(low << " to " << low * ratio << "\n" << script) {
+      const auto ticks = ticks_of("x", {low, low * ratio}, {1e-3, 1e-7});
+      BOOST_TEST_CONTEXT(low << " to " << low * ratio) {
         BOOST_REQUIRE(!ticks.empty());
         BOOST_TEST((ratio < 3.0 || ticks.size() >= 2U));  // 1, 2, 5: never more than 2.5 apart
-        const double most = std::max(ratio, 3.0) * low * 1.25;
-        for (const double tick : ticks) {
-          BOOST_TEST(tick <= most);
-          BOOST_TEST(tick >= low / 2.0);
-        }
+        BOOST_TEST(std::ranges::max(ticks) <= std::max(ratio, 3.0) * low * 1.25);
+        BOOST_TEST(std::ranges::min(ticks) >= low / 2.0);
       }
     }
   }
-}
-
-BOOST_AUTO_TEST_CASE(decades_are_numbers_enough) {
-  BOOST_TEST(ticks_in(script_of({1.0, 1e3}, {1e-3, 1e-7}), "x").empty());
-  BOOST_TEST(ticks_in(script_of({1.0, 1e3}, {1e-3, 1e-7}), "y").empty());
-  BOOST_TEST(ticks_in(script_of({1.0, 1e3}, {2e-3, 2.1e-3}), "y").size() >= 1U);
-  // An axis that is not logarithmic is gnuplot's own matter.
-  BOOST_TEST(ticks_in(script_of({3.0, 4.0}, {1.0, 2.0}, false), "x").empty());
+  // Decades are numbers enough, and an axis that is not logarithmic is gnuplot's own matter.
+  BOOST_TEST(ticks_of("x", {1.0, 1e3}, {1e-3, 1e-7}).empty());
+  BOOST_TEST(ticks_of("y", {1.0, 1e3}, {1e-3, 1e-7}).empty());
+  BOOST_TEST(ticks_of("y", {1.0, 1e3}, {2e-3, 2.1e-3}).size() >= 1U);
+  BOOST_TEST(ticks_of("x", {3.0, 4.0}, {1.0, 2.0}, false).empty());
 }

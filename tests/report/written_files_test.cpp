@@ -28,6 +28,28 @@ using namespace nysalt::test;
 using names = std::set<std::string>;
 using namespace nysalt::program;
 
+namespace {
+
+bool not_written(const std::filesystem::path& path, std::initializer_list<std::string_view> why) {
+  return refuses<std::runtime_error>([&] { write_file(path, "text"); }, why);
+}
+
+common_settings made_by(const std::string& command) {
+  common_settings common;
+  common.command = command;
+  common.options = "run.step=0.1\n";
+  return common;
+}
+
+json entries(const scratch& folder) { return entries_in(folder / "manifest.json"); }
+
+/// What an earlier version wrote beside each file.
+std::string earlier(const std::string& file) {
+  return json{{"file", file}, {"command", "old"}, {"options", ""}, {"versions", {}}}.dump();
+}
+
+}  // namespace
+
 BOOST_AUTO_TEST_CASE(what_is_written_can_be_read) {
   const scratch folder("write_file");
   const std::string bytes("line\r\n\0\xff end", 13);
@@ -43,8 +65,7 @@ BOOST_AUTO_TEST_CASE(where_it_cannot_be_written_nothing_is_left) {
   const scratch folder("write_file");
   write_file(folder / "file", "here");
   const auto refused = [&](const std::filesystem::path& path) {
-    return refuses<std::runtime_error>([&] { write_file(path, "text"); },
-                                       {"cannot write", path.string(), "folder"});
+    return not_written(path, {"cannot write", path.string(), "folder"});
   };
   BOOST_TEST(refused(folder / "nowhere" / "a.txt"));
   BOOST_TEST(refused(folder / "file" / "a.txt"));
@@ -76,13 +97,11 @@ BOOST_AUTO_TEST_CASE(what_is_in_the_way_is_not_followed) {
   const scratch folder("write_file_way");
   write_file(folder / "precious", "kept");
   std::filesystem::create_symlink("precious", folder / "a.txt.new.part");
-  BOOST_TEST(
-      refuses<std::runtime_error>([&] { write_file(folder / "a.txt", "text"); }, {"is not a regular file"}));
+  BOOST_TEST(not_written(folder / "a.txt", {"is not a regular file"}));
   BOOST_TEST(contents(folder / "precious") == "kept");
   std::filesystem::remove(folder / "a.txt.new.part");
   BOOST_TEST(mkfifo((folder / "a.txt.new.part").c_str(), 0600) == 0);
-  BOOST_TEST(
-      refuses<std::runtime_error>([&] { write_file(folder / "a.txt", "text"); }, {"is not a regular file"}));
+  BOOST_TEST(not_written(folder / "a.txt", {"is not a regular file"}));
   std::filesystem::remove(folder / "a.txt.new.part");
   std::ofstream(folder / "a.txt.new.part") << "left by a process that was stopped";
   write_file(folder / "a.txt", "text");
@@ -92,15 +111,14 @@ BOOST_AUTO_TEST_CASE(what_is_in_the_way_is_not_followed) {
 
 BOOST_AUTO_TEST_CASE(what_is_no_regular_file_is_not_replaced) {
   const scratch folder("write_file_node");
-  const auto refused = [&](const std::string& name, const std::string& why) {
-    return refuses<std::runtime_error>([&] { write_file(folder / name, "text"); }, {"cannot write", why});
-  };
   BOOST_TEST(mkfifo((folder / "fifo").c_str(), 0600) == 0);
   std::filesystem::create_symlink("fifo", folder / "link");
   std::filesystem::create_symlink("loop", folder / "loop");
-  for (const char* name : {"fifo", "link"}) BOOST_TEST(refused(name, "is not a regular file"));
-  BOOST_TEST(refused("loop", "leads back to itself"));
-  BOOST_TEST(refused(std::string("a\0b", 3), "no zero byte"));
+  for (const char* name : {"fifo", "link"}) {
+    BOOST_TEST(not_written(folder / name, {"cannot write", "is not a regular file"}));
+  }
+  BOOST_TEST(not_written(folder / "loop", {"leads back to itself"}));
+  BOOST_TEST(not_written(folder / std::string("a\0b", 3), {"no zero byte"}));
   BOOST_TEST(std::filesystem::is_fifo(folder / "fifo"));
   // What was made while the file was written.
   atomic_file late(folder / "late");
@@ -126,8 +144,7 @@ BOOST_AUTO_TEST_CASE(of_two_writers_the_second_is_refused) {
   const scratch folder("write_file_two");
   atomic_file first(folder / "a.txt");
   first.write("first");
-  BOOST_TEST(refuses<std::runtime_error>([&] { write_file(folder / "a.txt", "second"); },
-                                         {"another process writes it"}));
+  BOOST_TEST(not_written(folder / "a.txt", {"another process writes it"}));
   first.commit();
   BOOST_TEST(contents(folder / "a.txt") == "first");
   write_file(folder / "a.txt", "second");
@@ -136,32 +153,16 @@ BOOST_AUTO_TEST_CASE(of_two_writers_the_second_is_refused) {
 
 BOOST_AUTO_TEST_CASE(what_took_the_place_of_the_part_stays) {
   const scratch folder("write_file_place");
-  const auto replace = [&] {
-    std::ofstream(folder / "x") << "other";
-    std::filesystem::rename(folder / "x", folder / "a.txt.new.part");
-  };
   {
     atomic_file file(folder / "a.txt");
     file.write("text");
-    replace();
+    std::ofstream(folder / "x") << "other";
+    std::filesystem::rename(folder / "x", folder / "a.txt.new.part");
     BOOST_TEST(refuses<detail::write_failure>([&] { file.commit(); }, {"removed or replaced"}));
   }
   BOOST_TEST(contents(folder / "a.txt.new.part") == "other");
   BOOST_TEST((folder.files() == names{"a.txt.new.part"}));
 }
-
-namespace {
-
-common_settings made_by(const std::string& command) {
-  common_settings common;
-  common.command = command;
-  common.options = "run.step=0.1\n";
-  return common;
-}
-
-json entries(const scratch& folder) { return entries_in(folder / "manifest.json"); }
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(entries_of_other_files_stay_and_its_own_is_replaced) {
   const scratch folder("manifest_entries");
@@ -177,13 +178,10 @@ BOOST_AUTO_TEST_CASE(entries_of_other_files_stay_and_its_own_is_replaced) {
   record_results({folder / "b.csv", folder / "c.npy"}, made_by("fourth"), {{"axes", 3}});
   BOOST_TEST(entries(folder)["c.npy"]["axes"] == 3);
   BOOST_TEST(entries(folder).size() == 3U);
-  BOOST_TEST((folder.files() == std::set<std::string>{"a.csv", "b.csv", "manifest.json"}));
-}
-
-BOOST_AUTO_TEST_CASE(without_a_command_there_is_no_manifest) {
-  const scratch folder("manifest_none");
-  write_result(folder / "a.csv", "1\n", {});
-  BOOST_TEST((folder.files() == std::set<std::string>{"a.csv"}));
+  BOOST_TEST((folder.files() == names{"a.csv", "b.csv", "manifest.json"}));
+  const scratch no_command("manifest_none");
+  write_result(no_command / "a.csv", "1\n", {});
+  BOOST_TEST((no_command.files() == names{"a.csv"}));
 }
 
 BOOST_AUTO_TEST_CASE(many_that_write_at_once_lose_nothing) {
@@ -253,14 +251,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_ours_is_never_replaced) {
   write_result(folder / "a.csv", "1\n", made_by("first"));
   require_manifest(folder / "b.csv");
   BOOST_TEST(refuses<refusal>([&] { require_manifest(folder / "manifest.json"); }, {"manifest.json"}));
-  std::filesystem::create_directories(folder / "c" / "manifest.json");
-  BOOST_TEST(refuses<refusal>([&] { require_manifest(folder / "c" / "a.csv"); }, {"folder"}));
-}
-
-// What is written to a link goes to where the link leads.
-BOOST_AUTO_TEST_CASE(a_link_to_a_manifest_is_refused) {
-  const scratch folder("manifest_link");
-  write_result(folder / "a.csv", "1\n", made_by("first"));
+  // What is written to a link goes to where the link leads.
   std::filesystem::create_symlink("manifest.json", folder / "link");
   std::filesystem::create_symlink("link", folder / "link_to_link");
   std::filesystem::create_symlink("a.csv", folder / "to_a");
@@ -268,13 +259,12 @@ BOOST_AUTO_TEST_CASE(a_link_to_a_manifest_is_refused) {
     BOOST_TEST(refuses<refusal>([&] { require_manifest(folder / name); }, {"cannot write", name}));
   }
   require_manifest(folder / "to_a");
+  std::filesystem::create_directories(folder / "c" / "manifest.json");
+  BOOST_TEST(refuses<refusal>([&] { require_manifest(folder / "c" / "a.csv"); }, {"folder"}));
 }
 
 BOOST_AUTO_TEST_CASE(earlier_pictures_that_were_made_here_go) {
   const scratch folder("manifest_pictures");
-  const auto earlier = [](const std::string& file) {
-    return json{{"file", file}, {"command", "old"}, {"options", ""}, {"versions", {}}}.dump();
-  };
   for (const char* name : {"p.svg", "p.gp", "q.svg"}) {
     write_file(folder / name, "x");
     write_file(folder / (std::string(name) + ".manifest.json"), earlier(name));
@@ -284,21 +274,17 @@ BOOST_AUTO_TEST_CASE(earlier_pictures_that_were_made_here_go) {
   write_file(folder / "p.dat.manifest.json", earlier("p.dat"));
   note_input(folder / "p.dat");
   remove_earlier_pictures({"p", {}}, folder.path());
-  BOOST_TEST((folder.files() == std::set<std::string>{"p.dat", "p.png", "q.svg", "q.svg.manifest.json"}));
+  BOOST_TEST((folder.files() == names{"p.dat", "p.png", "q.svg", "q.svg.manifest.json"}));
 }
 
 BOOST_AUTO_TEST_CASE(an_earlier_manifest_of_the_same_file_goes_and_others_stay) {
   const scratch folder("manifest_earlier");
-  const auto earlier = [](const std::string& file) {
-    return json{{"file", file}, {"command", "old"}, {"options", ""}, {"versions", {}}}.dump();
-  };
   write_file(folder / "a.csv.manifest.json", earlier("a.csv"));
   write_file(folder / "b.csv.manifest.json", earlier("b.csv"));
   write_file(folder / "c.csv.manifest.json", "{\"mine\": true}");
   write_file(folder / "d.csv.manifest.json", earlier("d.csv"));
   note_input(folder / "d.csv.manifest.json");
   for (const char* name : {"a.csv", "c.csv", "d.csv"}) write_result(folder / name, "1\n", made_by("new"));
-  BOOST_TEST(
-      (folder.files() == std::set<std::string>{"a.csv", "b.csv.manifest.json", "c.csv", "c.csv.manifest.json",
-                                               "d.csv", "d.csv.manifest.json", "manifest.json"}));
+  BOOST_TEST((folder.files() == names{"a.csv", "b.csv.manifest.json", "c.csv", "c.csv.manifest.json", "d.csv",
+                                      "d.csv.manifest.json", "manifest.json"}));
 }
