@@ -78,6 +78,10 @@ CASES = [
     (lambda: nysalt.compare(PENDULUM, ["verlet", "verlet"], 0.1), "methods must be different, got verlet twice"),
     (lambda: nysalt.compare(PENDULUM, "verlet", 0.1, metric="paths"), "unknown metric 'paths'"),
     (lambda: nysalt.compare(PENDULUM, "verlet", 0.1, bins=10), "bins must come with metric distribution, got path"),
+    (lambda: nysalt.compare(PENDULUM, [], 0.1), "methods must be one or more, got none"),
+    (lambda: nysalt.compare(PENDULUM, "verlet", 0.1, metric=[]), "metric must be one or more, got none"),
+    (lambda: nysalt.compare(PENDULUM, "verlet", 0.1, metric=()), "metric must be one or more, got none"),
+    (lambda: nysalt.learn(PENDULUM, "nystrom", steps=[]), "step or steps must be given"),
     (lambda: nysalt.recommend(PENDULUM, 5), "budget"),
     (lambda: PENDULUM.energy([1.0], "p"), "p must hold real numbers, got text"),
     (lambda: PENDULUM.force([1j]), "q must hold real numbers, got complex ones"),
@@ -123,6 +127,11 @@ def test_what_is_sound_is_not_refused():
     assert run(force=np.bool_(True), threads=np.int32(1)).diverged.tolist() == [-1, -1]
     rows = nysalt.compare(PENDULUM, (name for name in ["verlet", "srkn6b"]), np.array(0.1), trajectories=2)["rows"]
     assert [row["method"] for row in rows] == ["verlet", "srkn6b"]
+    assert run(observables=[]).observables == run().observables
+    found = nysalt.compare(PENDULUM, ["verlet"], 0.1, trajectories=4, horizon=1, levels=[], prices=[])
+    assert len(found["rows"]) == 1
+    one, other = run(), run()
+    assert one == one and one != other and len({one, other}) == 2
 
 
 @pytest.mark.parametrize("change", [dict(method="verlett"), dict(step=-1), dict(q=np.full((2, 6), np.nan)),
@@ -136,66 +145,31 @@ def test_what_is_refused_leaves_arrays_as_they_were(change):
     assert (q == 0).all() and (p == 0).all()  # at rest
 
 
-def test_runs_are_compared_as_objects():
-    one, other = run(), run()
-    assert one == one and one != other and len({one, other}) == 2
-
-
 def test_files_that_cannot_be(tmp_path):
-    with pytest.raises(FileNotFoundError):
-        nysalt.load(tmp_path / "none.json")
-    (tmp_path / "half.json").write_text('{"format": "nysalt scheme", ')
-    with pytest.raises(ValueError, match="half.json must be whole JSON"):
-        nysalt.load(tmp_path / "half.json")
-    scheme = nysalt.learn(PENDULUM, "nystrom", step=0.2, trajectories=5, horizon=2)
-    with pytest.raises(OSError):
-        scheme.save(tmp_path / "nowhere" / "scheme.json", force=True)
-    with pytest.raises(OSError, match="must hold no zero byte"):
-        scheme.save(str(tmp_path / "a\0b"), force=True)
-    os.mkfifo(tmp_path / "fifo")
-    with pytest.raises(OSError, match="is not a regular file"):
-        scheme.save(tmp_path / "fifo", force=True)
-    assert (tmp_path / "fifo").is_fifo()
-    assert sorted(os.listdir(tmp_path)) == ["fifo", "half.json"]
-    path = tmp_path / "edited.json"
-    scheme.save(path, force=True)
-    path.write_text(path.read_text().replace('"seed": 1', '"seed": 2'))
-    with pytest.raises(ValueError, match='"checksum" must fit the contents'):
-        nysalt.load(path)
-
-
-@pytest.mark.parametrize("metric", [[], ()])
-def test_no_metrics(metric):
-    with pytest.raises(ValueError, match="metric must be one or more, got none"):
-        nysalt.compare(PENDULUM, ["verlet"], 0.1, metric=metric, trajectories=4)
-
-
-def test_empty_lists_are_refused_or_as_if_left_out():
-    with pytest.raises(ValueError, match="methods must be one or more, got none"):
-        nysalt.compare(PENDULUM, [], 0.1, trajectories=4)
-    with pytest.raises(ValueError, match="steps must be one or more, got none"):
-        nysalt.compare(PENDULUM, ["verlet"], [], trajectories=4)
-    with pytest.raises(ValueError, match="step or steps must be given"):
-        nysalt.learn(PENDULUM, "nystrom", steps=[])
-    assert run(observables=[]).observables == run().observables
-    found = nysalt.compare(PENDULUM, ["verlet"], 0.1, trajectories=4, horizon=1, levels=[], prices=[])
-    assert len(found["rows"]) == 1
-
-
-def test_files_without_end(tmp_path):
     """Private nodes and links, which nothing writes to."""
+    (tmp_path / "half.json").write_text('{"format": "nysalt scheme", ')
     (tmp_path / "zero").symlink_to("/dev/zero")
     os.mkfifo(tmp_path / "fifo")
-    for name in ("zero", "fifo"):
-        with pytest.raises(ValueError, match=f"cannot read .*{name}: it is not a regular file"):
-            nysalt.load(tmp_path / name)
     with open(tmp_path / "long", "wb") as file:
         file.truncate(2**33)
-    with pytest.raises(ValueError, match="at most 1048576 bytes long"):
-        nysalt.load(tmp_path / "long")
     (tmp_path / "deep").write_text("[" * 400_000 + "]" * 400_000)
-    with pytest.raises(ValueError, match="nested at most"):
-        nysalt.load(tmp_path / "deep")
+    scheme = nysalt.learn(PENDULUM, "nystrom", step=0.2, trajectories=5, horizon=2)
+    scheme.save(tmp_path / "edited.json", force=True)
+    (tmp_path / "edited.json").write_text((tmp_path / "edited.json").read_text().replace('"seed": 1', '"seed": 2'))
+    files = sorted(os.listdir(tmp_path))
+    for name, sentence in (("half.json", "half.json must be whole JSON"), ("long", "at most 1048576 bytes long"),
+                           ("zero", "cannot read .*zero: it is not a regular file"), ("deep", "nested at most"),
+                           ("fifo", "cannot read .*fifo: it is not a regular file"),
+                           ("edited.json", '"checksum" must fit the contents')):
+        with pytest.raises(ValueError, match=sentence):
+            nysalt.load(tmp_path / name)
+    with pytest.raises(FileNotFoundError):
+        nysalt.load(tmp_path / "none.json")
+    for name, sentence in (("nowhere/scheme.json", ""), ("a\0b", "must hold no zero byte"),
+                           ("fifo", "is not a regular file")):
+        with pytest.raises(OSError, match=sentence):
+            scheme.save(f"{tmp_path}/{name}", force=True)
+    assert (tmp_path / "fifo").is_fifo() and sorted(os.listdir(tmp_path)) == files
 
 
 def test_two_methods_of_one_name_are_told_apart():
@@ -207,17 +181,9 @@ def test_two_methods_of_one_name_are_told_apart():
     assert [row["method"] for row in found["rows"]] == ["scheme:nystrom", "the second"]
 
 
-def test_unknown_arguments_are_type_errors():
+def test_other_exceptions_are_as_without_this_package():
     with pytest.raises(TypeError):
         nysalt.learn(CHAIN, "nystrom", stpe=0.1)
-
-
-def test_unknown_parameters_are_refused_with_the_known_ones():
-    with pytest.raises(ValueError, match="unknown parameter 'omgea' of the system fpu: it takes pairs, omega, spread"):
-        nysalt.system("fpu", omgea=3)
-
-
-def test_exceptions_of_other_modules_are_as_without_this_package():
     with pytest.raises(OverflowError, match="^--too-large was given$"):
         neighbour.overflow()
     with pytest.raises(ValueError, match="^give --force$"):

@@ -16,36 +16,27 @@ from conftest import henon_heiles_by_functions
 CHAIN = nysalt.system("fpu")
 
 
-def long_run():
-    nysalt.run(CHAIN, "verlet", 1e-3, 1e8, sample_every=10**9)  # hours, of one trajectory
-
-
 def long_integration():
     q, p = CHAIN.starts(40)
     nysalt.integrate(CHAIN, "srkn6b", 1e-3, q, p, 10**12, out=(q, p))
 
 
-def long_learning():
-    nysalt.learn(CHAIN, "nystrom", step=0.02, trajectories=10**4)  # tests/long/python has the search
+LONG = dict(
+    run=lambda: nysalt.run(CHAIN, "verlet", 1e-3, 1e8, sample_every=10**9),  # hours, of one trajectory
+    integrate=long_integration,
+    learn=lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, trajectories=10**4),  # tests/long/python has the search
+    compare=lambda: nysalt.compare(CHAIN, ["verlet", "srkn6b"], [0.01, 0.02], trajectories=10**6, horizon=5),
+    slow_path=lambda: nysalt.learn(henon_heiles_by_functions(), "nystrom", step=0.4, horizon=40, trajectories=100))
 
 
-def long_comparison():
-    nysalt.compare(CHAIN, ["verlet", "srkn6b"], [0.01, 0.02], trajectories=10**6, horizon=5)
-
-
-def slow_path():
-    nysalt.learn(henon_heiles_by_functions(), "nystrom", step=0.4, horizon=40, trajectories=100)
-
-
-@pytest.mark.parametrize("call", [long_run, long_integration, long_learning, long_comparison, slow_path])
+@pytest.mark.parametrize("call", LONG)
 def test_a_long_call_ends(call):
     began = time.monotonic()
     timer = threading.Timer(0.4, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        call()
-    taken = time.monotonic() - began
-    assert taken < 60  # alone it would take minutes at least; a block or a pass is done before it ends
+        LONG[call]()
+    assert time.monotonic() - began < 60  # alone it would take minutes; a block or a pass is done before it ends
     timer.join()
 
 

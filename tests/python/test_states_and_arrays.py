@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""States are stepped as run steps them; arrays are filled where they lie."""
+"""States are stepped as run steps them; arrays are filled where they lie; arguments are used, not only taken."""
 import tracemalloc
 
 import numpy as np
@@ -96,3 +96,19 @@ def test_facts_of_a_system():
     assert chain.default_observable == "stiff_energy" and "q1..q4" in chain.observables
     assert chain.parameters == {"name": "fpu", "pairs": 2, "omega": 30.0} and not chain.calls_python
     assert chain.frequency_bands[-1][1] >= 30 and nysalt.system("kepler").frequency_bands == []
+
+
+def test_the_fine_step_is_that_of_the_reference():
+    spring = nysalt.system("oscillator", omega=1.0)
+    asked = dict(family="nystrom", step=0.5, horizon=2, trajectories=4, random_starts=0, loss="state:1")
+    fit = nysalt.learn(spring, fine_step=0.05, **asked).fit
+    assert "0.05" in fit["reference"]
+    with pytest.raises(ValueError, match="fine_step"):  # a step must be a multiple of it
+        nysalt.learn(spring, fine_step=0.3, **asked)
+
+
+def test_each_role_has_starts_of_its_own():
+    spring = nysalt.system("oscillator", omega=1.0)
+    starts = {role: spring.starts(3, role=role)[0].tolist() for role in ("training", "held_out", "test")}
+    assert starts["training"] != starts["held_out"] != starts["test"] != starts["training"]
+    assert spring.starts(3)[0].tolist() == starts["test"]
