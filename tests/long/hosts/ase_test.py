@@ -4,9 +4,6 @@
 
 usage: ase_test.py PROGRAM. Exit code 77 where there is no ASE.
 """
-import importlib.util
-import os
-import subprocess
 import sys
 import tempfile
 
@@ -19,18 +16,10 @@ try:
     from ase.calculators.lj import LennardJones
     from ase.md.velocitydistribution import MaxwellBoltzmannDistribution
     from ase.md.verlet import VelocityVerlet
+    from common import exported_module
 except ImportError as problem:
     print(f"skipped: {problem}")
     sys.exit(77)
-
-
-def exported(method, folder):
-    file = os.path.join(folder, method + ".py")
-    subprocess.run([sys.argv[1], "export", method, "--to", "ase", "--output", file], check=True, stdout=subprocess.DEVNULL)
-    spec = importlib.util.spec_from_file_location(method, file)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def run(dynamics, timestep, steps):
@@ -86,7 +75,7 @@ def test_a_calculator_is_a_system(folder):
     there = nysalt.integrate(system, "srkn6b", h, q, p, 20)
     atoms = four_atoms()
     atoms.set_momenta(p.reshape(-1, 3))
-    moving = exported("srkn6b", folder).srkn6b_dynamics(atoms, timestep=h)
+    moving = exported_module("srkn6b", "ase", folder).srkn6b_dynamics(atoms, timestep=h)
     moving.run(20)
     off = np.abs(atoms.get_positions().ravel() - there[0]).max()
     print(f"a calculator as a system: off by {off:.1e} A, moved by {np.abs(there[0] - q).max():.1e}")
@@ -99,14 +88,14 @@ def test_a_constraint_and_a_bath(folder):
     MaxwellBoltzmannDistribution(atoms, temperature_K=30, rng=np.random.default_rng(2))
     apart = atoms.get_distance(0, 1)
     energy = atoms.get_total_energy()
-    exported("srkn6b", folder).srkn6b_dynamics(atoms, timestep=12 * units.fs).run(100)
+    exported_module("srkn6b", "ase", folder).srkn6b_dynamics(atoms, timestep=12 * units.fs).run(100)
     print(f"constrained: {atoms.get_distance(0, 1) - apart:.1e} A, {atoms.get_total_energy() - energy:.1e} eV")
     assert abs(atoms.get_distance(0, 1) - apart) < 1e-8  # RATTLE in ASE stops at 1e-13 of squares
     assert abs(atoms.get_total_energy() - energy) < 1e-6
     # Free atoms in a bath have its temperature; 600 momenta, looked at 50 times some relaxation times apart.
     free = Atoms("Ar200", positions=np.random.default_rng(1).uniform(0, 1e4, (200, 3)))
     free.calc = LennardJones(sigma=3.4, epsilon=0.0104, rc=5.0)
-    moving = exported("baoab", folder).baoab_dynamics(free, timestep=100 * units.fs, temperature_K=90,
+    moving = exported_module("baoab", "ase", folder).baoab_dynamics(free, timestep=100 * units.fs, temperature_K=90,
                                                       friction=0.02 / units.fs, rng=np.random.default_rng(7))
     found = []
     for _ in range(50):
@@ -122,7 +111,7 @@ def main():
         test_a_calculator_is_a_system(folder)
         test_a_constraint_and_a_bath(folder)
     with tempfile.TemporaryDirectory() as folder:
-        module = exported("srkn6b", folder)
+        module = exported_module("srkn6b", "ase", folder)
     assert module.self_test() < 1e-13
     h = 10 * units.fs
     calls, verlet = run(VelocityVerlet, h, 60)

@@ -13,6 +13,7 @@ import math
 import os
 import subprocess
 
+import common
 import lammps_test as host
 
 CRYSTAL = """units lj
@@ -86,7 +87,6 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--seeds", type=int, default=8)
     asked = parser.parse_args()
-    host.PROGRAM = os.path.abspath(asked.program)
     folder = os.path.abspath(asked.folder)
     os.makedirs(folder, exist_ok=True)
     drivers = {}
@@ -110,7 +110,7 @@ def main():
             "| time a force | method | deviation | drift |", "|---|---|---|---|"]
     for timestep in (0.005, 0.0075, 0.01):
         words = [(f"{family} learned", learned(
-            host.PROGRAM, folder, f"{family}_{timestep}", "--system", "lennard_jones", "--space", "3", "--atoms", "13",
+            common.PROGRAM, folder, f"{family}_{timestep}", "--system", "lennard_jones", "--space", "3", "--atoms", "13",
             "--spread", "1.5", "--family", family, "--step", repr(round(stages * timestep, 6)), "--loss", "energy",
             "--trajectories", "16"), stages) for family, stages in (("bab3", 3), ("bab6", 6))]
         for name, method, stages in (("fix nve", None, 1), ("bcss3 exported", "bcss3", 3), ("srkn6b exported", "srkn6b", 6),
@@ -134,7 +134,7 @@ def main():
     page.append(f"| 0.002 | baoab exported | {truth:.5f} ± {truth_off:.0e} itself |")
     print(page[-1], flush=True)
     for timestep in (0.01, 0.02, 0.03, 0.04):
-        word = learned(host.PROGRAM, folder, f"bath_{timestep}", "--system", "linear_chain", "--masses", "8", "--spring", "225",
+        word = learned(common.PROGRAM, folder, f"bath_{timestep}", "--system", "linear_chain", "--masses", "8", "--spring", "225",
                        "--friction", "1", "--temperature", str(TEMPERATURE), "--placement", "middle", "--family", "bab3",
                        "--step", repr(3 * timestep), "--loss", "covariance")
         langevin = f"fix 2 all langevin {TEMPERATURE} {TEMPERATURE} 1.0 {{seed}}"

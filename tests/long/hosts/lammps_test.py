@@ -4,40 +4,25 @@
 
 usage: lammps_test.py PROGRAM. Exit code 77 where there is no LAMMPS with its headers.
 """
-import csv
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
 
-PROGRAM = os.path.abspath(sys.argv[1])
-HERE = os.path.dirname(os.path.abspath(__file__))
-ATOMS = 7
+from common import ATOMS, HERE, export, of_nysalt, off
 
 
 def compiled(method, folder):
     """A program that runs scripts with the fix nysalt/exported."""
     text = os.path.join(folder, "exported.hpp")
-    subprocess.run([PROGRAM, "export", method, "--to", "lammps", "--name", "exported", "--output", text], check=True,
-                   stdout=subprocess.DEVNULL)
+    export(method, "lammps", text, "--name", "exported")
     driver = os.path.join(folder, "driver")
     flags = subprocess.run(["mpicxx", "--showme:compile"], check=True, capture_output=True, text=True).stdout.split()
     links = subprocess.run(["mpicxx", "--showme:link"], check=True, capture_output=True, text=True).stdout.split()
     subprocess.run(["g++", "-O1", "-std=c++17", *flags, "-I/usr/include/lammps", f'-DEXPORTED="{text}"',
                     os.path.join(HERE, "lammps_driver.cpp"), "-o", driver, *links, "-llammps"], check=True)
     return driver
-
-
-def of_nysalt(method, h, steps, folder):
-    """Start and end of a trajectory, positions before momenta."""
-    names = [f"{x}{i + 1}" for x in "qp" for i in range(3 * ATOMS)]
-    file = os.path.join(folder, "here.csv")
-    subprocess.run([PROGRAM, "run", "--system", "lennard_jones", "--space", "3", "--atoms", str(ATOMS), "--method", method,
-                    "--step", repr(h), "--horizon", repr(h * steps), "--trajectories", "1", "--sample-every", str(steps),
-                    "--observables", ",".join(names), "--output", file], check=True, stdout=subprocess.DEVNULL)
-    with open(file) as rows:
-        return [[float(one) for one in row[3:]] for row in list(csv.reader(rows))[1:]]
 
 
 def script(start, lines):
@@ -64,10 +49,6 @@ def end_in_lammps(driver, start, stages, h, steps, folder):
     with open(os.path.join(folder, "end")) as file:
         rows = [[float(one) for one in line.split()] for line in file if len(line.split()) == 7 and line[0].isdigit()]
     return [x for row in rows for x in row[1:4]] + [v for row in rows for v in row[4:7]]
-
-
-def off(a, b):
-    return max(abs(x - y) for x, y in zip(a, b))
 
 
 def test_equality(folder):

@@ -5,16 +5,12 @@ steps do, a constraint holds, and a bath has its temperature.
 
 usage: openmm_test.py PROGRAM. Exit code 77 where there is no OpenMM with its headers.
 """
-import csv
-import importlib.util
 import os
 import subprocess
 import sys
 import tempfile
 
-PROGRAM = os.path.abspath(sys.argv[1])
-HERE = os.path.dirname(os.path.abspath(__file__))
-ATOMS = 7
+from common import ATOMS, HERE, exported_module, of_nysalt, off
 
 
 class Recorder:
@@ -27,26 +23,10 @@ class Recorder:
         return lambda *words: self.lines.append("\t".join([method, *map(str, words)]))
 
 
-def statements(method, folder, constrained, *options):
-    file = os.path.join(folder, "exported.py")
-    subprocess.run([PROGRAM, "export", method, "--to", "openmm", "--name", "exported", "--output", file, *options],
-                   check=True, stdout=subprocess.DEVNULL)
-    spec = importlib.util.spec_from_file_location("exported", file)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+def statements(method, folder, constrained):
     recorder = Recorder()
-    module.add_statements(recorder, constrained)
+    exported_module(method, "openmm", folder, "--name", "exported").add_statements(recorder, constrained)
     return recorder.lines
-
-
-def of_nysalt(method, h, steps, folder, *options):
-    names = [f"{x}{i + 1}" for x in "qp" for i in range(3 * ATOMS)]
-    file = os.path.join(folder, "here.csv")
-    subprocess.run([PROGRAM, "run", "--system", "lennard_jones", "--space", "3", "--atoms", str(ATOMS), "--method", method,
-                    "--step", repr(h), "--horizon", repr(h * steps), "--trajectories", "1", "--sample-every", str(steps),
-                    "--observables", ",".join(names), "--output", file], check=True, stdout=subprocess.DEVNULL)
-    with open(file) as rows:
-        return [[float(one) for one in row[3:]] for row in list(csv.reader(rows))[1:]]
 
 
 def run(driver, atoms, mass, constrained, h, steps, lines, friction=0.0, kT=0.0, seed=1):
@@ -63,10 +43,6 @@ def atoms_of(start):
 
 def flat(rows):
     return [x for row in rows for x in row[:3]] + [v for row in rows for v in row[3:]]
-
-
-def off(a, b):
-    return max(abs(x - y) for x, y in zip(a, b))
 
 
 def distance(rows):

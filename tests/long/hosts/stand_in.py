@@ -45,15 +45,11 @@ def tmlqcd(x, lam, n, length):
     """2MN, step by step: the kick at the end of a step is double but in the last."""
     eps = length / n
     x.kick(lam * eps)
-    for i in range(1, n):
+    for i in range(1, n + 1):
         x.drift(0.5 * eps)
         x.kick((1 - 2 * lam) * eps)
         x.drift(0.5 * eps)
-        x.kick(2 * lam * eps)
-    x.drift(0.5 * eps)
-    x.kick((1 - 2 * lam) * eps)
-    x.drift(0.5 * eps)
-    x.kick(lam * eps)
+        x.kick((lam if i == n else 2 * lam) * eps)
 
 
 def openqcd(x, lam, n, length):
