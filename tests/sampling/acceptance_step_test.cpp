@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "../support/refusal.hpp"
@@ -26,33 +27,21 @@ using namespace nysalt::test;
 namespace {
 
 /// Independent oscillators of frequencies from 1 to 1.5.
-const linear_chain& oscillators() {
-  static const linear_chain all = [] {
-    constexpr Eigen::Index count = 16;
-    Eigen::VectorXd squares(count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const double omega = 1.0 + 0.5 * static_cast<double>(i) / static_cast<double>(count - 1);
-      squares[i] = omega * omega;
-    }
-    return linear_chain(squares.asDiagonal());
-  }();
-  return all;
-}
-
-std::vector<double> frequencies() {
-  const Eigen::VectorXd all = oscillators().modes().frequencies;
-  return {all.begin(), all.end()};
-}
+const Eigen::VectorXd frequencies = Eigen::VectorXd::LinSpaced(16, 1.0, 1.5);
+const std::span<const double> spectrum(frequencies.data(), 16);
+const linear_chain oscillators{frequencies.cwiseAbs2().asDiagonal().toDenseMatrix()};
+const model system_of_all(oscillators);
+const tabulated by_verlet{verlet{}};
 
 initial_states thermal(double temperature = 1.0) {
-  return gibbs_of_modes<Eigen::Dynamic>(oscillators(), temperature);
+  return gibbs_of_modes<Eigen::Dynamic>(oscillators, temperature);
 }
 
 acceptance_step step_of(const tabulated& method, double acceptance, double guess,
                         const proposal_options& options) {
-  const model system(oscillators());
   return step_at_acceptance(
-      system, [&](double) { return method; }, acceptance, guess, thermal(options.temperature), options);
+      system_of_all, [&](double) { return method; }, acceptance, guess, thermal(options.temperature),
+      options);
 }
 
 }  // namespace
@@ -63,15 +52,15 @@ BOOST_AUTO_TEST_CASE(of_a_gaussian_target_many_times_larger_the_step_is_that_of_
   constexpr double larger = 500.0;
   const proposal_options options{.length = 100.0, .times_larger = larger, .states = 400, .seed = seed(1)};
   const double of_part = acceptance_at(energy_error_at(0.9) / larger);
-  for (const auto& method : {tabulated(verlet{}), tabulated(bcss3{})}) {
-    const double exact = gaussian_step(method, frequencies(), of_part);
+  for (const auto& method : {by_verlet, tabulated(bcss3{})}) {
+    const double exact = gaussian_step(method, spectrum, of_part);
     const auto found = step_of(method, 0.9, 0.5 * exact, options);
     BOOST_TEST(!found.is_longest);
     const double relative = standard_errors(false_alarms / 2) * found.log_step.standard_error +
                             0.005;  // a fourth of 2 %, as mu is of h^4
     BOOST_TEST(std::abs(found.step / exact - 1.0) <= relative);
     BOOST_TEST(relative < 0.1);  // sharp enough for what must differ
-    const double not_scaled = gaussian_step(method, frequencies(), 0.9);
+    const double not_scaled = gaussian_step(method, spectrum, 0.9);
     BOOST_TEST(std::abs(found.step / not_scaled - 1.0) > 5.0 * relative);
     BOOST_TEST(std::accumulate(found.log_of_each.begin(), found.log_of_each.end(), 0.0) / 400.0 ==
                    std::log(found.step),
@@ -83,10 +72,9 @@ BOOST_AUTO_TEST_CASE(of_a_gaussian_target_many_times_larger_the_step_is_that_of_
 // have the same durations, 2000 of them, over which the acceptance varies by 0.1 at most.
 BOOST_AUTO_TEST_CASE(chains_are_accepted_as_often_as_asked) {
   const proposal_options options{.length = 1.5, .temperature = 0.5, .states = 1600, .seed = seed(1)};
-  const tabulated method{verlet{}};
-  const auto found = step_of(method, 0.8, 0.1, options);
+  const auto found = step_of(by_verlet, 0.8, 0.1, options);
   const auto accepted = [&](double step) {
-    return hmc(model(oscillators()), method, thermal(0.5),
+    return hmc(system_of_all, by_verlet, thermal(0.5),
                {.step = step,
                 .length = 1.5,
                 .temperature = 0.5,
@@ -97,8 +85,7 @@ BOOST_AUTO_TEST_CASE(chains_are_accepted_as_often_as_asked) {
                [](const hmc_draw&) {})
         .acceptance;
   };
-  const model system(oscillators());
-  const auto here = acceptance_of_proposals(system, method, found.step, thermal(0.5), options);
+  const auto here = acceptance_of_proposals(system_of_all, by_verlet, found.step, thermal(0.5), options);
   const auto of_chains = accepted(found.step);
   const double error = standard_errors(false_alarms) *
                        (here.probability.standard_error + of_chains.standard_error + 0.1 / std::sqrt(2000.0));
@@ -110,10 +97,9 @@ BOOST_AUTO_TEST_CASE(chains_are_accepted_as_often_as_asked) {
 
 // s_aia3 up to z = h 1.5 ends at h = 4.
 BOOST_AUTO_TEST_CASE(a_method_may_depend_on_the_step_and_end) {
-  const model system(oscillators());
   const proposal_options options{.length = 5.0, .states = 64};
   const auto found = step_at_acceptance(
-      system, [](double step) { return tabulated(s_aia3(1.5 * step)); }, 0.5, 1.0, thermal(), options);
+      system_of_all, [](double step) { return tabulated(s_aia3(1.5 * step)); }, 0.5, 1.0, thermal(), options);
   BOOST_TEST(found.step < 4.0);
   BOOST_TEST(found.step > 2.0);
   BOOST_TEST(!found.is_longest);
@@ -122,7 +108,7 @@ BOOST_AUTO_TEST_CASE(a_method_may_depend_on_the_step_and_end) {
 // One oscillator and trajectories of a fifth of a radian: nothing is rejected.
 BOOST_AUTO_TEST_CASE(where_all_is_accepted_the_step_is_the_length) {
   const harmonic_oscillator spring(1.0);
-  const auto found = step_at_acceptance(model(spring), [](double) { return tabulated(verlet{}); }, 0.9, 0.01,
+  const auto found = step_at_acceptance(model(spring), [](double) { return by_verlet; }, 0.9, 0.01,
                                         gibbs_of_modes<1>(spring, 1.0), {.length = 0.2, .states = 32});
   BOOST_TEST(found.is_longest);
   BOOST_TEST(found.step == 0.2);
@@ -130,10 +116,8 @@ BOOST_AUTO_TEST_CASE(where_all_is_accepted_the_step_is_the_length) {
 
 BOOST_AUTO_TEST_CASE(proposals_that_cannot_be_are_refused) {
   using wrong = std::invalid_argument;
-  const model system(oscillators());
-  const tabulated method{verlet{}};
   const auto at = [&](proposal_options options, double step = 0.1) {
-    return acceptance_of_proposals(system, method, step, thermal(), options);
+    return acceptance_of_proposals(system_of_all, by_verlet, step, thermal(), options);
   };
   BOOST_TEST(refuses<wrong>([&] { at({.length = 0.0}); }, {"length must be positive"}));
   BOOST_TEST(refuses<wrong>([&] { at({.length = 1.0, .times_larger = -1.0}); }, {"times_larger"}));
@@ -143,10 +127,10 @@ BOOST_AUTO_TEST_CASE(proposals_that_cannot_be_are_refused) {
   BOOST_TEST(refuses<wrong>([&] { step_of(one_way, 0.9, 0.1, {.length = 1.0}); }, {"must be reversible"}));
   for (const double acceptance : {0.0, 1.0}) {
     BOOST_TEST(
-        refuses<wrong>([&] { step_of(method, acceptance, 0.1, {.length = 1.0}); }, {"between 0 and 1"}));
+        refuses<wrong>([&] { step_of(by_verlet, acceptance, 0.1, {.length = 1.0}); }, {"between 0 and 1"}));
   }
   // No word of wrong order keeps the energy of a part of 1e30.
   BOOST_TEST(refuses<std::runtime_error>(
-      [&] { step_of(method, 0.9, 1.0, {.length = 5.0, .times_larger = 1e30, .states = 8}); },
+      [&] { step_of(by_verlet, 0.9, 1.0, {.length = 5.0, .times_larger = 1e30, .states = 8}); },
       {"must be one that a step down to"}));
 }
