@@ -41,14 +41,13 @@ class Markdown(InAFolder):
                                          "[d](https://example.org/nothing) `docs/one.md`\n"), [])
 
     def test_that_points_nowhere_is_told(self):
-        self.assertEqual(self.wrong_with("[a](docs/three.md)\n")[0], "two.md: there is no docs/three.md")
-        self.assertEqual(self.wrong_with("![a](picture.svg)\n"), ["two.md: there is no picture.svg"])
-        self.assertEqual(self.wrong_with("[a](docs/one.md#two)\n"), ["two.md: docs/one.md has no heading #two"])
-        self.assertEqual(self.wrong_with("[a](#a)\n"), ["two.md: two.md has no heading #a"])
-        self.assertEqual(self.wrong_with("[a\nb](c.md)\n"), ["two.md: there is no c.md"])
-        self.assertEqual(self.wrong_with("`a\nb` [c](d.md) `e`\n"), ["two.md: there is no d.md"])
-        self.assertEqual(self.wrong_with("see `examples/none.cpp`\n"), ["two.md: there is no examples/none.cpp"])
-        self.assertEqual(self.wrong_with("[a](../outside.md)\n"), ["two.md: there is no ../outside.md"])
+        for text, told in {"[a](docs/three.md)\n": "there is no docs/three.md", "![a](picture.svg)\n": "there is no picture.svg",
+                           "[a](docs/one.md#two)\n": "docs/one.md has no heading #two",
+                           "[a](#a)\n": "two.md has no heading #a", "[a\nb](c.md)\n": "there is no c.md",
+                           "`a\nb` [c](d.md) `e`\n": "there is no d.md",
+                           "see `examples/none.cpp`\n": "there is no examples/none.cpp",
+                           "[a](../outside.md)\n": "there is no ../outside.md"}.items():
+            self.assertEqual(self.wrong_with(text)[0], f"two.md: {told}")
 
     def test_in_code_is_no_link(self):
         self.assertEqual(self.wrong_with("`[a](b.md)`\n\n```text\n[a](b.md)\n## c\n```\n"), [])
@@ -72,11 +71,10 @@ class Site(InAFolder):
         self.assertEqual(self.external, {"https://c.org"})
 
     def test_that_points_nowhere_is_told(self):
-        self.assertEqual(self.wrong_with('<a href="none.html">a</a>'), ["index.html: there is no none.html"])
-        self.assertEqual(self.wrong_with('<img src="a.svg"/>'), ["index.html: there is no a.svg"])
-        self.assertEqual(self.wrong_with('<a href="page.html#here">a</a>'),
-                         ["index.html: page.html has no anchor #here"])
-        self.assertEqual(self.wrong_with('<a href="#there">a</a>'), ["index.html: index.html has no anchor #there"])
+        for text, told in {'<a href="none.html">a</a>': "there is no none.html", '<img src="a.svg"/>': "there is no a.svg",
+                           '<a href="page.html#here">a</a>': "page.html has no anchor #here",
+                           '<a href="#there">a</a>': "index.html has no anchor #there"}.items():
+            self.assertEqual(self.wrong_with(text), [f"index.html: {told}"])
 
     def test_without_pages_is_told(self):
         self.assertEqual(len(list(links.wrong_on_site(self.root / "docs", set()))), 1)

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: BSL-1.0
-"""docs/messages.md shows what compilers say: every sentence of the headers, and nothing that none of them prints."""
+"""docs/messages.md shows what compilers say: every sentence of the headers, and nothing that none of them prints.
+Every message of an exception has a form, and docs/run-time-messages.md lists it; a planted one without a form is found."""
 import re
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
 root = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(root / "tests" / "must_not_compile"))
+sys.path[:0] = [str(root / "tests" / "must_not_compile"), str(root / "docs" / "site")]
 import check
+import messages
 
 page = (root / "docs" / "messages.md").read_text()
 
@@ -55,6 +58,68 @@ class Messages(unittest.TestCase):
         cases = "// About.\n// expect: a\n//   b\n// expect GNU: c\nnamespace d {\ne;\n}  // namespace d\n// expect: f\n"
         self.assertEqual(expected(cases), {"a b", "c"})
         self.assertEqual(shown("> nysalt: a\n\n```text\nb\nc\n```\n\n> d\n\n```cpp\ne\n```\n"), {"nysalt: a", "b", "c"})
+
+
+found = messages.messages(root)
+
+
+class Thrown(unittest.TestCase):
+    def test_are_found_in_all_areas(self):
+        areas = {messages.area_of(name) for name in found.values()}
+        self.assertEqual(len(areas), 3)
+        self.assertGreater(len(found), 600)
+
+    def test_have_a_form(self):
+        self.assertEqual([f"{name}: {text}" for text, name in found.items() if messages.form_of(text) is None], [])
+
+    def test_are_listed(self):
+        self.assertEqual((root / messages.page_name).read_text(), messages.page_of(found),
+                         "docs/site/messages.py --update writes the page")
+
+    def test_parts_of_messages_are_in_the_sources(self):
+        for name, parts in messages.parts_of_messages.items():
+            read = {text for _, text in messages.thrown((root / name).read_text())}
+            self.assertEqual(parts - read, set(), name)
+
+
+class ThrownInACopy(unittest.TestCase):
+    def read(self, code):
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "src").mkdir()
+            (Path(folder) / "src/a.cpp").write_text(code)
+            return messages.messages(Path(folder))
+
+    def test_throws_and_refusals_are_read(self):
+        for code, text in {
+            'throw std::invalid_argument("run: steps must be >= 0");': "run: steps must be >= 0",
+            'throw refusal{"cannot read \\"a\\""};': 'cannot read "a"',
+            'refuse("unknown metric \'{}\': " "it is one of {}", name, list);': "unknown metric '{}': it is one of {}",
+            'refuse_export("{} must have no \')\' (\\"{}\\")", a(b("x y")), c);': "{} must have no ')' (\"{}\")",
+            'require(x > 0 /* ( */, "x must be > 0");  // )': "x must be > 0",
+            'fail(fmt::format("cannot write {}: {}", path, "the disk is full"));': "cannot write {}: {}",
+        }.items():
+            with self.subTest(code):
+                self.assertEqual(list(self.read(f"void f() {{ {code} }}\nauto b = \"another text\";\n")), [text])
+
+    def test_what_is_not_thrown_is_not_read(self):
+        self.assertEqual(self.read('// throw refusal("a b")\nauto a = f("one two");\nrefuse("key");\nrefuse(text);\n'
+                                   'throw std::logic_error("not for users");\n'), {})
+
+    def test_forms(self):
+        for text, form in {
+            "--steps must hold different steps, got {} twice": "value",
+            "unknown metric '{}': {}": "unknown",
+            "run: unknown observable '{}' of {}: {}": "unknown",
+            "cannot write {}: another run is writing it; wait for that run": "operation",
+            "{} must not be read": "value",
+            "--steps names {} twice": None,
+            "{} is being written by another run: wait for it": None,
+            "{}: it is mustard": None,
+            "lags of 0 are refused": None,
+            "what is unknown '{}'": None,
+        }.items():
+            with self.subTest(text):
+                self.assertEqual(messages.form_of(text), form)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""The code that the documents show is that of files that are compiled and run; and what is not is noticed."""
+"""The code that the documents show is that of files that are compiled and run; headings and links are those that a forge sees."""
 import sys
 import tempfile
 import unittest
@@ -52,13 +52,10 @@ class Quotations(unittest.TestCase):
         self.assertEqual(quote.quoted("main.cpp", "inner"), ["const int b = 2;"])
         self.assertEqual(quote.quoted("main.cpp", None), whole)
 
-    def test_that_are_right_are_left_alone(self):
-        document = "a\n<!-- quote main.cpp inner -->\n```cpp\nconst int b = 2;\n```\n\n```sh\nls\n```\n"
-        self.assertEqual(quote.rewritten(document), (document, []))
-
-    def test_are_indented_as_their_list(self):
-        document = "1. a\n   <!-- quote main.cpp inner -->\n   ```cpp\n   const int b = 2;\n   ```\n"
-        self.assertEqual(quote.rewritten(document), (document, []))
+    def test_that_are_right_are_left_alone_also_in_a_list(self):
+        for document in ("a\n<!-- quote main.cpp inner -->\n```cpp\nconst int b = 2;\n```\n\n```sh\nls\n```\n",
+                         "1. a\n   <!-- quote main.cpp inner -->\n   ```cpp\n   const int b = 2;\n   ```\n"):
+            self.assertEqual(quote.rewritten(document), (document, []))
 
     def test_that_are_old_are_told_and_written(self):
         document = "<!-- quote main.cpp inner -->\n```cpp\nconst int b = 3;\n```\n"
@@ -72,30 +69,40 @@ class Quotations(unittest.TestCase):
         self.assertEqual(told, [(2, "the fence with what main.cpp has at [inner] is not there")])
         self.assertEqual(after, "<!-- quote main.cpp inner -->\n```cpp\nconst int b = 2;\n```\n\nb\n")
 
-    def test_of_what_does_not_exist_are_refused(self):
-        fence = "```cpp\nconst int b = 2;\n```\n"
-        self.assertEqual(mistakes("<!-- quote other.cpp inner -->\n" + fence)[0], "there is no file other.cpp")
-        self.assertEqual(mistakes("<!-- quote main.cpp outer -->\n" + fence)[0],
-                         "main.cpp must have one region from [outer] to [/outer]")
+    def test_that_are_wrong_are_refused(self):
         (quote.root / "twice.cpp").write_text(source + source)
-        self.assertIn("one region", mistakes("<!-- quote twice.cpp inner -->\n" + fence)[0])
         (quote.root / "empty.cpp").write_text("// [a]\n\n// [/a]\n")
-        self.assertIn("nothing is quoted", mistakes("<!-- quote empty.cpp a -->\n" + fence)[0])
         (quote.root / "left.cpp").write_text("// [a]\n  b;\nc;\n// [/a]\n")
-        self.assertIn("left of the first", mistakes("<!-- quote left.cpp a -->\n" + fence)[0])
-
-    def test_that_are_misspelt_are_refused(self):
-        self.assertIn("a quote is a line", mistakes("<!-- quote main.cpp -- inner -->\n")[0])
-
-    def test_are_needed_by_code(self):
-        for language in ("cpp", "python", "cmake"):
-            self.assertIn(f"{language} without a line", mistakes(f"a\n```{language}\nb\n```\n")[0])
+        fence = "```cpp\nconst int b = 2;\n```\n"
+        for document, told in {
+            "<!-- quote other.cpp inner -->\n" + fence: "there is no file other.cpp",
+            "<!-- quote main.cpp outer -->\n" + fence: "main.cpp must have one region from [outer] to [/outer]",
+            "<!-- quote twice.cpp inner -->\n" + fence: "one region",
+            "<!-- quote empty.cpp a -->\n" + fence: "nothing is quoted",
+            "<!-- quote left.cpp a -->\n" + fence: "left of the first",
+            "<!-- quote main.cpp -- inner -->\n": "a quote is a line",
+            "a\n```cpp\nb\n```\n": "cpp without a line",
+            "a\n```python\nb\n```\n": "python without a line",
+            "a\n```cmake\nb\n```\n": "cmake without a line",
+            "```sh\nls\n": "this fence has no end",
+        }.items():
+            with self.subTest(document):
+                self.assertIn(told, mistakes(document)[0])
         self.assertEqual(mistakes("```sh\na\n```\n```text\nb\n```\n```\nc\n```\n"), [])
         # A quote belongs to the line below it alone.
         self.assertIn("cpp without a line", mistakes("<!-- quote main.cpp inner -->\n\n```cpp\nb\n```\n")[1])
 
-    def test_have_an_end(self):
-        self.assertEqual(mistakes("```sh\nls\n"), ["this fence has no end"])
+
+class Pages(unittest.TestCase):
+    def test_have_the_anchors_of_a_forge(self):
+        self.assertEqual(markdown.slug("Where it *pays*: [a](b.md) & more"), "where-it-pays-a--more")
+        self.assertEqual(markdown.headings("# A b\n## C `d`, e\n```sh\n## f\n```\n## C `d`, e"),
+                         [(1, "A b", "a-b"), (2, "C `d`, e", "c-d-e"), (2, "C `d`, e", "c-d-e-1")])
+
+    def test_have_links_over_two_lines_and_none_in_code(self):
+        self.assertEqual(list(markdown.links("[a\nb](c.md) on [0, 1)\n- ![d](e.svg) `[f](g.md)`\n\n```\n[h](i.md)\n```\n")),
+                         ["c.md", "e.svg"])
+        self.assertEqual(list(markdown.links("`a\nb` [c [d] `e`](f(g).md)")), ["f(g).md"])
 
 
 if __name__ == "__main__":
