@@ -21,20 +21,14 @@ bool breaks(remains left, auto&& change) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_refusal_and_a_result_keep_all_promises) {
+BOOST_AUTO_TEST_CASE(a_refusal_and_a_result_keep_all_promises_and_what_breaks_one_is_found) {
   BOOST_TEST(broken_promise(refused, before) == "");
   BOOST_TEST(broken_promise(done, before) == "");
   const std::set<std::string> stopped{"run.checkpoint", "out.csv.part"};  // a run that cannot be gone on with
   BOOST_TEST(broken_promise({2, "", line, stopped}, stopped) == "");
-}
-
-BOOST_AUTO_TEST_CASE(a_result_that_breaks_one_is_found) {
   BOOST_TEST(breaks(done, [](remains& left) { left.code = 1; }));
   BOOST_TEST(breaks(done, [](remains& left) { left.code = 139; }));
   BOOST_TEST(breaks(done, [](remains& left) { left.files.insert("out.csv.17.part"); }));
-}
-
-BOOST_AUTO_TEST_CASE(a_refusal_that_breaks_one_is_found) {
   BOOST_TEST(breaks(refused, [](remains& left) { left.err = ""; }));
   BOOST_TEST(breaks(refused, [](remains& left) { left.err = "terminate called\n"; }));
   BOOST_TEST(breaks(refused, [](remains& left) { left.err += left.err; }));

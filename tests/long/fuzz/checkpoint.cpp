@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "../../support/signed_again.hpp"
+#include "../../support/forged.hpp"
 #include "program/output/checkpoint.hpp"
 #include "program/output/checkpoint_file.hpp"
 #include "program_run.hpp"

@@ -28,8 +28,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace {
 
-using nysalt::fuzz::mutated;
-
 constexpr int most_seconds = 300;  // of computing for one input, by a program that is built to be examined
 
 char what_it_was[200];  // ready to be written by a handler of signals
@@ -90,7 +88,7 @@ int main(int argc, char** argv) {
     std::mt19937_64 bits(words);
     std::snprintf(what_it_was, sizeof what_it_was, "this was input %llu of seed %llu\n",
                   static_cast<unsigned long long>(n), static_cast<unsigned long long>(seed));
-    give(mutated(corpus[static_cast<std::size_t>(n) % corpus.size()], corpus, bits));
+    give(nysalt::fuzz::mutated(corpus[static_cast<std::size_t>(n) % corpus.size()], corpus, bits));
   }
   const auto& codes = nysalt::fuzz::tally();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;

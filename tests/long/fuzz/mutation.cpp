@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <iterator>
+#include <sstream>
 #include <utility>
 
 namespace nysalt::fuzz {
@@ -19,9 +19,11 @@ struct span {
 
 struct dice {
   std::mt19937_64& bits;
+  const std::vector<std::string>& corpus;
   /// 0 .. n - 1. The bias of the remainder does not matter here.
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits() % n); }
   const auto& one_of(const auto& all) { return all[below(std::size(all))]; }
+  auto place_in(auto& all) { return all.begin() + static_cast<long>(below(all.size())); }
 };
 
 std::vector<span> words_of(const std::string& text, auto&& belongs) {
@@ -36,13 +38,11 @@ std::vector<span> words_of(const std::string& text, auto&& belongs) {
 }
 
 std::vector<span> numbers_in(const std::string& text) {
-  auto found = words_of(text, [](unsigned char c) {
-    return std::isdigit(c) != 0 || c == '.' || c == '-' || c == '+' || c == 'e';
-  });
+  const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  auto found = words_of(
+      text, [&](unsigned char c) { return is_digit(c) || c == '.' || c == '-' || c == '+' || c == 'e'; });
   std::erase_if(found, [&](const span& word) {
-    return std::none_of(text.begin() + static_cast<long>(word.first),
-                        text.begin() + static_cast<long>(word.last),
-                        [](unsigned char c) { return std::isdigit(c) != 0; });
+    return std::ranges::none_of(text.substr(word.first, word.last - word.first), is_digit);
   });
   return found;
 }
@@ -60,12 +60,6 @@ std::vector<std::string> lines_of(const std::string& text) {
     from = end;
   }
   return lines;
-}
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const auto& line : lines) text += line;
-  return text;
 }
 
 void flip_bit(std::string& text, dice& random) {
@@ -88,60 +82,48 @@ void cut_out(std::string& text, dice& random) {
   text.erase(first, 1 + random.below(std::min<std::size_t>(text.size() - first, 16)));
 }
 
-void lose_line(std::string& text, dice& random) {
+/// Changes the lines of a text that has any.
+void change_lines(std::string& text, auto&& change) {
   auto lines = lines_of(text);
   if (lines.empty()) return;
-  lines.erase(lines.begin() + static_cast<long>(random.below(lines.size())));
-  text = joined(lines);
+  change(lines);
+  text.clear();
+  for (const auto& line : lines) text += line;
+}
+
+void lose_line(std::string& text, dice& random) {
+  change_lines(text, [&](auto& lines) { lines.erase(random.place_in(lines)); });
 }
 
 void double_line(std::string& text, dice& random) {
-  auto lines = lines_of(text);
-  if (lines.empty()) return;
-  const std::string again = random.one_of(lines);
-  lines.insert(lines.begin() + static_cast<long>(random.below(lines.size())), again);
-  text = joined(lines);
+  change_lines(text, [&](auto& lines) {
+    const std::string again = random.one_of(lines);
+    lines.insert(random.place_in(lines), again);
+  });
 }
 
 void swap_lines(std::string& text, dice& random) {
-  auto lines = lines_of(text);
-  if (lines.empty()) return;
-  std::swap(lines[random.below(lines.size())], lines[random.below(lines.size())]);
-  text = joined(lines);
+  change_lines(text, [&](auto& lines) { std::iter_swap(random.place_in(lines), random.place_in(lines)); });
 }
 
-void take_line(std::string& text, const std::vector<std::string>& corpus, dice& random) {
-  const auto others = lines_of(random.one_of(corpus));
+void take_line(std::string& text, dice& random) {
+  const auto others = lines_of(random.one_of(random.corpus));
   if (others.empty()) return;
-  auto lines = lines_of(text);
-  lines.insert(lines.begin() + static_cast<long>(random.below(lines.size() + 1)), random.one_of(others));
-  text = joined(lines);
+  const std::string line = random.one_of(others);
+  change_lines(text, [&](auto& lines) {
+    lines.insert(lines.begin() + static_cast<long>(random.below(lines.size() + 1)), line);
+  });
 }
 
 void replace_number(std::string& text, dice& random) {
-  constexpr std::array strange{"nan",
-                               "inf",
-                               "-inf",
-                               "1e999",
-                               "-0",
-                               "0",
-                               "-1",
-                               "1",
-                               "1e308",
-                               "1e-308",
-                               "5e-324",
-                               "0.5",
-                               "-0.5",
-                               "2",
-                               "3",
-                               "9223372036854775807",
-                               "9223372036854775808",
-                               "18446744073709551616",
-                               "1e17",
-                               "0x10",
-                               "1e",
-                               "",
-                               "null"};
+  static const std::vector<std::string> strange = [] {
+    std::istringstream all(
+        "nan inf -inf 1e999 -0 0 -1 1 1e308 1e-308 5e-324 0.5 -0.5 2 3 9223372036854775807 "
+        "9223372036854775808 18446744073709551616 1e17 0x10 1e null");
+    std::vector<std::string> words{""};
+    for (std::string word; all >> word;) words.push_back(word);
+    return words;
+  }();
   const auto numbers = numbers_in(text);
   if (numbers.empty()) return;
   const auto [first, last] = random.one_of(numbers);
@@ -161,36 +143,15 @@ void swap_names(std::string& text, dice& random) {
   text.replace(one.first, first.size(), second);
 }
 
-void change(std::string& text, const std::vector<std::string>& corpus, dice& random) {
-  switch (random.below(11)) {
-    case 0:
-      return flip_bit(text, random);
-    case 1:
-      return insert_byte(text, random);
-    case 2:
-      return cut_off(text, random);
-    case 3:
-      return cut_out(text, random);
-    case 4:
-      return lose_line(text, random);
-    case 5:
-      return double_line(text, random);
-    case 6:
-      return swap_lines(text, random);
-    case 7:
-      return take_line(text, corpus, random);
-    case 8:
-      return swap_names(text, random);
-    default:
-      return replace_number(text, random);  // twice as often: that is where the program computes
-  }
-}
+// Numbers twice as often: they are where the program computes.
+constexpr std::array changes{flip_bit,   insert_byte, cut_off,    cut_out,        lose_line,     double_line,
+                             swap_lines, take_line,   swap_names, replace_number, replace_number};
 
 }  // namespace
 
 std::string mutated(std::string text, const std::vector<std::string>& corpus, std::mt19937_64& bits) {
-  dice random{bits};
-  for (std::size_t changes = 1 + random.below(4); changes > 0; --changes) change(text, corpus, random);
+  dice random{bits, corpus};
+  for (std::size_t left = 1 + random.below(4); left > 0; --left) random.one_of(changes)(text, random);
   return text;
 }
 

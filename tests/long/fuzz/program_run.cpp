@@ -95,10 +95,6 @@ remains left_by(program::command_line part, std::vector<std::string> words) {
   std::abort();
 }
 
-}  // namespace
-
-namespace {
-
 /// The exit code. Words that begin with "nysalt".
 int tried(program::command_line part, const std::vector<std::string>& words,
           const std::vector<input_file>& inputs) {
