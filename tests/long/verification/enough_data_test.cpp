@@ -2,7 +2,8 @@
 // Compiled with -O2: 99 s at -O0, 25 s at -O2.
 // What a fit says of its own uncertainty holds: its intervals cover what many data tell, and the loss that it
 // expects to lose by them is lost [li_lu_tao_ye_2023, theorem 3.1].
-// Tier 1 has that learning goes on until the data are enough, in learning/until_enough_test.
+// Tier 1 has that learning goes on until the data are enough, and finds what as many tell at once, in
+// learning/until_enough_test and programs/cases/curves.txt.
 #include <boost/test/unit_test.hpp>
 
 #include <boost/math/distributions/chi_squared.hpp>
@@ -16,7 +17,7 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/fg_chin.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/learning/learn_enough.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/losses/after_steps.hpp"
 #include "nysalt/losses/metric.hpp"
 #include "nysalt/losses/state_error.hpp"
@@ -32,33 +33,21 @@ const fpu_chain<3> chain(50.0);
 const fpu_law<3> law(chain);
 const fine_steps<> reference(1e-3);
 
-data_options options_of(std::int64_t trajectories, std::uint64_t seed) {
-  return {.step = 0.03, .horizon = 0.5, .trajectories = trajectories, .seed = seed, .threads = 2};
-}
 flow_map_data data_of(std::int64_t trajectories, std::uint64_t seed) {
-  return make_flow_map_data(chain, law, reference, options_of(trajectories, seed));
+  return make_flow_map_data(
+      chain, law, reference,
+      {.step = 0.03, .horizon = 0.5, .trajectories = trajectories, .seed = seed, .threads = 2});
 }
 const flow_map_data& many() {
   static const auto data = data_of(20'000, 1'000'000);
   return data;
 }
 
-/// Fits of one family, each from its usual start, as there is one minimum.
-class fits_of {
- public:
-  explicit fits_of(const run_time_family& family) : family_(family), truth(to(many())) {}
-
-  fit to(const flow_map_data& data) const {
-    static const auto held_out = data_of(4, 999'999);
-    return learn(family_, chain, data, held_out, {.loss = loss_named("state:1"), .threads = 2});
-  }
-
- private:
-  run_time_family family_;
-
- public:
-  fit truth;
-};
+/// From its usual start, as there is one minimum.
+fit fit_of(const run_time_family& family, const flow_map_data& data) {
+  static const auto held_out = data_of(4, 999'999);
+  return learn(family, chain, data, held_out, {.loss = loss_named("state:1"), .threads = 2});
+}
 
 /// As if all pairs were independent of each other.
 flow_map_data taken_apart(flow_map_data data) {
@@ -76,16 +65,16 @@ struct coverage {
 };
 
 std::vector<coverage> coverage_of(const run_time_family& family) {
-  const fits_of fits(family);
+  const auto truth = fit_of(family, many()).summary.parameters;
   const auto count = static_cast<std::size_t>(family.parameters());
   std::vector<coverage> result(count);
   const double quantile_95 = quantile(boost::math::students_t(usual - 1), 0.975);
   for (int n = 0; n < seeds; ++n) {
     const auto data = data_of(usual, 1 + static_cast<std::uint64_t>(n));
-    const auto clustered = fits.to(data).summary.parameters;
-    const auto apart = fits.to(taken_apart(data)).summary.parameters;
+    const auto clustered = fit_of(family, data).summary.parameters;
+    const auto apart = fit_of(family, taken_apart(data)).summary.parameters;
     for (std::size_t k = 0; k < count; ++k) {
-      const double off = std::abs(clustered[k].value - fits.truth.summary.parameters[k].value);
+      const double off = std::abs(clustered[k].value - truth[k].value);
       result[k].by_interval += off <= quantile_95 * clustered[k].standard_error;
       result[k].by_half += off <= 0.5 * quantile_95 * clustered[k].standard_error;
       result[k].squares += std::pow(off / clustered[k].standard_error, 2);
@@ -122,17 +111,16 @@ BOOST_AUTO_TEST_CASE(intervals_of_a_hundred_trajectories_cover_the_value_of_twen
 
 BOOST_AUTO_TEST_CASE(the_loss_is_larger_by_what_is_expected_and_that_falls_as_one_over_the_number) {
   const run_time_family family{nystrom()};
-  const fits_of fits(family);
   // On new data, in the measure that many data tell.
   const metric measure(chain, many(), coordinates::qp);
   const auto unseen = data_of(4000, 2'000'000);
   const after_steps loss(family, chain, unseen, state_error(measure), {.threads = 2});
-  const double least = loss_value(loss, fits.truth.theta);
+  const double least = loss_value(loss, fit_of(family, many()).theta);
   std::vector<double> log_count, log_lost, log_expected, relative_errors;
   for (const std::int64_t trajectories : {25, 100, 400}) {
     std::vector<double> lost, expected;
     for (int n = 0; n < seeds; ++n) {
-      const auto found = fits.to(data_of(trajectories, 1 + static_cast<std::uint64_t>(n)));
+      const auto found = fit_of(family, data_of(trajectories, 1 + static_cast<std::uint64_t>(n)));
       lost.push_back(loss_value(loss, found.theta) - least);
       expected.push_back(found.summary.expected_excess);
     }
@@ -158,33 +146,4 @@ BOOST_AUTO_TEST_CASE(the_loss_is_larger_by_what_is_expected_and_that_falls_as_on
     BOOST_TEST(std::abs(slope(log_count, log_lost) + 0.5) > 3.0 * error);
     BOOST_TEST(std::abs(slope(log_count, log_expected) + 1.0) <= 0.1);  // a variance from 25 is 7 % low
   }
-}
-
-BOOST_AUTO_TEST_CASE(it_learns_until_the_data_are_enough_and_what_that_many_tell_at_once) {
-  constexpr double share = 4e-5;
-  const auto enough = [](const enough_options& options) {
-    return learn_enough(nystrom(), chain, law, reference, options_of(25, 3), 4, options,
-                        {.loss = loss_named("state:1")});
-  };
-  const auto found = enough({.share = share});
-  const auto& stops = found.course.stops;
-  BOOST_TEST_CONTEXT(found.course.report() << "\n" << found.summary.full()) {
-    BOOST_TEST(found.course.is_reached);
-    BOOST_REQUIRE(stops.size() >= 3U);
-    BOOST_TEST(stops.back().share <= share);
-    BOOST_TEST(stops[stops.size() - 2].share > share);
-    BOOST_TEST(stops.back().share == found.summary.excess_share());
-    BOOST_TEST(found.summary.trajectories == static_cast<std::size_t>(stops.back().trajectories));
-    // The trajectories of the smaller numbers are the first of the larger.
-    const std::int64_t last = stops.back().trajectories;
-    const auto at_once = learn(nystrom(), chain, data_of(last, 3), data_of(last, 4),
-                               {.threads = 2, .loss = loss_named("state:1")});
-    BOOST_TEST((found.method.parameters() == at_once.method.parameters()));
-    BOOST_TEST(found.summary.held_out_loss == at_once.summary.held_out_loss);
-    BOOST_TEST(found.method.energies()->low == at_once.method.energies()->low);
-    BOOST_TEST(found.method.energies()->high == at_once.method.energies()->high);
-  }
-  const auto too_few = enough({.share = share, .most = 60});
-  BOOST_TEST(!too_few.course.is_reached);
-  BOOST_TEST(too_few.summary.trajectories == 60U);
 }

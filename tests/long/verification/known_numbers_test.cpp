@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O2: 12 s at -O0, 2 s at -O2.
-// Numbers that are known from elsewhere: periods and optima in closed form, energy errors that others
-// measured, learned parameters of the paper, and what a step beyond Verlet's stability limit does. Tier 1 has
-// the optima, parameters and errors that the program prints, in programs/known_values_test.
+// Numbers that are known from elsewhere: periods in closed form, energy errors that others measured, learned
+// parameters of the paper, and what a step beyond Verlet's stability limit does. Tier 1 has the optima,
+// parameters and errors that the program prints, in programs/cases/known_values.txt.
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
@@ -14,13 +14,11 @@
 #include "nysalt/analysis/energy_drift.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/kepler_law.hpp"
-#include "nysalt/ensembles/listed.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
-#include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/lennard_jones.hpp"
@@ -33,6 +31,7 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
+/// The distance of a state after a time from the start.
 template <System S>
 double missed_after(const S& system, const phase_point<double, S::dimension>& x, double time, double steps) {
   auto y = x;
@@ -42,6 +41,15 @@ double missed_after(const S& system, const phase_point<double, S::dimension>& x,
 
 /// 11 kicks and 12 drifts a step round every coordinate twice.
 double rounding(double steps) { return steps * 46.0 * eps; }
+
+const fpu_chain<3> chain(50.0);
+
+fit fit_of_chain(double step, std::uint64_t seed, const fit_options& options) {
+  const auto data = [&](std::uint64_t number) {
+    return make_flow_map_data(chain, fpu_law<3>(chain), fine_steps<>(2.5e-4), {.step = step, .seed = number});
+  };
+  return learn(run_time_family(nystrom()), chain, data(seed), data(seed + 1), options);
+}
 
 }  // namespace
 
@@ -113,53 +121,6 @@ BOOST_AUTO_TEST_CASE(energy_errors_are_those_of_another_library) {
   BOOST_TEST(largest_error(tabulated(bcss2())) >
              2.0 * 4.48e-5);  // the word of mclachlan2, another coefficient
 }
-
-namespace {
-
-/// In the energy norm, on the oscillator.
-std::vector<double> optimum_at(double z, double omega) {
-  const harmonic_oscillator system(omega);
-  const listed<1> two_states({{vector<double, 1>(1.0 / omega), vector<double, 1>(0.0)},
-                              {vector<double, 1>(0.0), vector<double, 1>(1.0)}});
-  const double step = z / omega;
-  const auto data = make_flow_map_data(system, two_states, exact_linear(system),
-                                       {.step = step, .horizon = step, .trajectories = 2});
-  const auto found =
-      learn(run_time_family(nystrom()), system, data, data, {.coordinates = coordinates::energy});
-  return {found.theta[0], found.theta[1]};
-}
-
-}  // namespace
-
-// The optimum depends on z = step omega alone. Nine digits are given; rounding is far below: the minimum is
-// found by its exact gradient.
-BOOST_AUTO_TEST_CASE(the_optimum_is_the_closed_one_for_every_frequency) {
-  const std::vector<std::pair<double, double>> closed{
-      {0.5, .402726524}, {1.0, .400581831}, {2.0, .390164224}};
-  for (const auto& [z, beta1] : closed) {
-    for (const double omega : {0.03, 1.0, 3.0, 50.0, 1e4}) {
-      const auto found = optimum_at(z, omega);
-      BOOST_TEST_CONTEXT("z " << z << ", omega " << omega) {
-        BOOST_TEST(std::abs(found[0] - 0.5) <= 1e-8);
-        BOOST_TEST(std::abs(found[1] - beta1) <= 1e-8);
-        BOOST_TEST(std::abs(found[1] - nystrom::start()[1]) > 1e-4);  // of small steps
-      }
-    }
-  }
-}
-
-namespace {
-
-const fpu_chain<3> chain(50.0);
-
-fit fit_of_chain(double step, std::uint64_t seed, const fit_options& options) {
-  const auto data = [&](std::uint64_t number) {
-    return make_flow_map_data(chain, fpu_law<3>(chain), fine_steps<>(2.5e-4), {.step = step, .seed = number});
-  };
-  return learn(run_time_family(nystrom()), chain, data(seed), data(seed + 1), options);
-}
-
-}  // namespace
 
 // Table 1 of [li_lu_tao_ye_2023, section 5.2]. Its rows are rounded to 1e-4, and the parameters scatter with
 // the seed by 2e-4 at the step .01, of which two deviations of both are allowed, and by less at .005.
