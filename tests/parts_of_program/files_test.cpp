@@ -43,11 +43,9 @@ BOOST_AUTO_TEST_CASE(what_is_there_is_seen_under_the_lock) {
   };
   write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 7}}, numbers, check);
   BOOST_TEST(is_locked);
-  BOOST_TEST(refuses<refusal>(
-      [&] {
-        write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 8}}, numbers, check);
-      },
-      {"it is there"}));
+  const json another{{"command", "run"}, {"question", 8}};
+  BOOST_TEST(refuses<refusal>([&] { write_checkpoint_file(folder / "c", another, numbers, check); },
+                              {"it is there"}));
   BOOST_TEST(head_of_checkpoint(folder / "c", "run").at("question") == 7);
   BOOST_TEST(folder.files().size() == 1U);
 }
@@ -60,18 +58,13 @@ BOOST_AUTO_TEST_CASE(what_is_too_large_to_be_read_is_not_written) {
       mmap(nullptr, count * sizeof(double), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   BOOST_TEST_REQUIRE(nothing != MAP_FAILED);
   const std::span<const double> numbers(static_cast<const double*>(nothing), count);
-  BOOST_TEST(refuses<refusal>(
-      [&] {
-        write_checkpoint_file(folder / "c", {{"command", "run"}}, numbers);
-      },
-      {"must hold at most 1024 MB of numbers", "take fewer trajectories"}));
+  const json small{{"command", "run"}};
+  BOOST_TEST(refuses<refusal>([&] { write_checkpoint_file(folder / "c", small, numbers); },
+                              {"must hold at most 1024 MB of numbers", "take fewer trajectories"}));
   munmap(nothing, count * sizeof(double));
-  const std::string text(std::size_t{1} << 26U, 'a');
-  BOOST_TEST(refuses<refusal>(
-      [&] {
-        write_checkpoint_file(folder / "c", {{"command", text}}, {});
-      },
-      {"64 MB of text", "leave --checkpoint out"}));
+  const json large{{"command", std::string(std::size_t{1} << 26U, 'a')}};
+  BOOST_TEST(refuses<refusal>([&] { write_checkpoint_file(folder / "c", large, {}); },
+                              {"64 MB of text", "leave --checkpoint out"}));
   BOOST_TEST(folder.files().empty());
 }
 

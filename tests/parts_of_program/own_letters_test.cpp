@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
-// Letters of one's own of a problem: unsound ones are refused each time, and sound ones at any offset and
-// step.
+// What a problem has of its own: of its letters unsound ones are refused each time, and sound ones taken at
+// any offset and step; observables of a black box with memory are asked from several threads.
 #include <boost/test/unit_test.hpp>
 
+#include <atomic>
 #include <string>
 
 #include "../../src/comparison/catalogue.hpp"
+#include "../../src/comparison/observables.hpp"
 #include "../../src/comparison/prepared_problem.hpp"
 #include "../../src/comparison/refusal.hpp"
-#include "../support/systems_with_letters.hpp"
-#include "nysalt/learning/stability_guard.hpp"
+#include "../support/systems.hpp"
+#include "nysalt/detail/ensemble_loop.hpp"
+#include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/plugin.hpp"
 
 using namespace nysalt;
@@ -49,10 +52,6 @@ struct distant_spring {
     const T r = q[0] - place;
     return r * r * (0.5 * stiffness);
   }
-  template <class T>
-  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
-    f[0] = (q[0] - place) * -stiffness;
-  }
 };
 
 template <class Drift>
@@ -70,7 +69,7 @@ prepared_problem problem_of(const distant_spring& system) {
 }
 
 /// What is said against the word dfd; nothing if it is taken.
-std::string objection(const prepared_problem& problem, double step) {
+std::string objection(const prepared_problem& problem, double step = 0.1) {
   try {
     problem.require_sound_letters("mine", method_of_word("word:dfd", problem.letters()).letters(), step);
   } catch (const refusal& problem_of_letters) {
@@ -83,11 +82,11 @@ std::string objection(const prepared_problem& problem, double step) {
 
 BOOST_AUTO_TEST_CASE(a_word_that_was_refused_is_refused_again) {
   const auto unsound = problem_of<slow_drift>({});
-  const std::string first = objection(unsound, 0.1);
-  BOOST_TEST(first.find("must add up to H") != std::string::npos, first);
-  BOOST_TEST(objection(unsound, 0.1) == first);
   const auto sound = problem_of<own_drift>({});
-  for (int n = 0; n < 2; ++n) BOOST_TEST(objection(sound, 0.1) == "");
+  for (int n = 0; n < 2; ++n) {
+    BOOST_TEST(objection(unsound).find("must add up to H") != std::string::npos);
+    BOOST_TEST(objection(sound) == "");
+  }
 }
 
 // Rounding of q over a difference of times 1e-5 h is larger than a share of its rate there.
@@ -100,14 +99,37 @@ BOOST_AUTO_TEST_CASE(sound_letters_are_taken_far_from_0_and_at_short_steps) {
   }
   // Where rounding leaves something to see, a part that is a tenth short is still seen.
   for (const double place : {0.0, 1e3}) {
-    BOOST_TEST(objection(problem_of<slow_drift>({place, 1.0}), 0.1).find("must add up to H") !=
-               std::string::npos);
+    BOOST_TEST(objection(problem_of<slow_drift>({place, 1.0})).find("must add up to H") != std::string::npos);
   }
 }
 
 BOOST_AUTO_TEST_CASE(free_motion_has_letters_too) {
-  BOOST_TEST(objection(problem_of<own_drift>({0.0, 0.0}), 0.1) == "");
-  const std::string why = objection(problem_of<slow_drift>({0.0, 0.0}), 0.1);
+  BOOST_TEST(objection(problem_of<own_drift>({0.0, 0.0})) == "");
+  const std::string why = objection(problem_of<slow_drift>({0.0, 0.0}));
   BOOST_TEST(why.find("must add up to H") != std::string::npos, why);
   BOOST_TEST(why.find("nan") == std::string::npos, why);
+}
+
+BOOST_AUTO_TEST_CASE(one_thread_at_a_time_evaluates_an_observable_of_a_black_box) {
+  using black_box = test::with_memory<struct observables>;
+  const model system{black_box()};
+  const phase_point<double, Eigen::Dynamic> x{Eigen::VectorXd::Constant(1, 2.0), Eigen::VectorXd::Zero(1)};
+  const auto potential =
+      of_system(system, [](const model& of, const auto& at) { return of.potential(at.q); });
+  const auto energy_of_system = of_system(
+      system,
+      []<class T>(const model& of, const phase_point<T, Eigen::Dynamic>& at) { return energy<T>(of, at); });
+  const auto on_threads = [](const auto& value) {
+    for_each_block(64, 1, 4, [&](std::int64_t, int) {
+      for (int n = 0; n < 1000; ++n) value();
+    });
+  };
+  std::atomic<int> wrong = 0;
+  on_threads([&] { wrong += potential(x) != 2.0 || energy_of_system(x) != 2.0; });
+  BOOST_TEST(wrong == 0);
+  BOOST_TEST(black_box::meetings == 0);
+  // The test can fail: one object that several threads use.
+  const black_box one;
+  on_threads([&] { one.potential(vector<double, 1>(2.0)); });
+  BOOST_TEST(black_box::meetings > 0);
 }
