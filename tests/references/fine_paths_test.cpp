@@ -83,7 +83,7 @@ double distance_between(const fine_paths<>& reference, const fine_paths<>& other
   }
   return std::sqrt(sum / (lanes * blocks));
 }
-double change_with_half_the_step(const fine_paths<>& reference, const bath& heat_bath) {
+double half_step_change(const fine_paths<>& reference, const bath& heat_bath) {
   return distance_between(reference, reference.finer(), heat_bath);
 }
 
@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(a_path_goes_on_where_it_was) {
   const fine_paths reference(0.01);
   const auto at_once = follow(reference, 0.6, 1, 6);
   const auto bit_by_bit = follow(reference, 0.1, 6, 1);
-  // It is stopped five times: kicks that were one are two.
+  // Stopped five times, kicks that were one are two.
   BOOST_TEST(test::distance(at_once.x, bit_by_bit.x) <= 60 * 30 * eps);
   BOOST_TEST(distance(at_once.xi, bit_by_bit.xi) <= 10 * 4 * eps);
   auto again_and_again = start;
@@ -137,6 +137,7 @@ BOOST_AUTO_TEST_CASE(keeping_noise_changes_no_bit) {
 
 BOOST_AUTO_TEST_CASE(finer_sees_the_same_path) {
   const fine_paths coarse(0.01);
+  BOOST_TEST(coarse.finer().description() == "baoab with step 0.005");
   const auto expected = follow(coarse, 0.1, 10, 2);
   auto reference = coarse;
   for (int halvings = 1; halvings <= 3; ++halvings) {
@@ -158,18 +159,17 @@ BOOST_AUTO_TEST_CASE(the_error_falls_with_the_step) {
   // With noise by two: within a step the path is not known, which q feels as sigma h^{3/2}. A root mean
   // square of 400 trajectories in four coordinates has a standard error of 2.5 % at most.
   const bath noisy = bath::of_sigma(2.0, 0.1);
-  const double first = change_with_half_the_step(fine_paths(0.04), noisy);
-  const double second = change_with_half_the_step(fine_paths(0.04).finer(), noisy);
-  const double third = change_with_half_the_step(fine_paths(0.04).finer().finer(), noisy);
+  const double first = half_step_change(fine_paths(0.04), noisy);
+  const double second = half_step_change(fine_paths(0.04).finer(), noisy);
+  const double third = half_step_change(fine_paths(0.04).finer().finer(), noisy);
   const auto near = boost::test_tools::tolerance(standard_errors(false_alarms / 2) * std::sqrt(2.0) * 0.025);
   BOOST_TEST(first / second == 2.0, near);
   BOOST_TEST(second / third == 2.0, near);
   BOOST_TEST(first / third != 2.0, near);
   // Without noise by four, but for terms of h^2.
   const bath damped = bath::of_sigma(2.0, 0.0);
-  const double still = change_with_half_the_step(fine_paths(0.04), damped);
-  BOOST_TEST(still / change_with_half_the_step(fine_paths(0.02), damped) == 4.0,
-             boost::test_tools::tolerance(0.01));
+  const double still = half_step_change(fine_paths(0.04), damped);
+  BOOST_TEST(still / half_step_change(fine_paths(0.02), damped) == 4.0, boost::test_tools::tolerance(0.01));
 }
 
 // Against a 64th of the step, which is as good as exact. Of order two the error is 4/3 of the difference;
@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(the_error_is_told_from_the_difference) {
   for (const double friction : {0.01, 0.1, 1.0}) {
     const bath heat_bath = bath::of_sigma(friction, 0.1);
     const double error = distance_between(reference, exact, heat_bath);
-    const double ratio = error / change_with_half_the_step(reference, heat_bath);
+    const double ratio = error / half_step_change(reference, heat_bath);
     BOOST_TEST(ratio <= 1.05 * error_over_difference, "friction " << friction << ": " << ratio);
     BOOST_TEST(ratio >= 0.95 * std::sqrt(4.0 / 3.0), "friction " << friction << ": " << ratio);
   }
@@ -241,9 +241,4 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_followed_is_refused) {
   BOOST_TEST(refused(0.01, nan, 0, {"nan", "a multiple"}));
   const auto far = [] { follow(fine_paths(0.01), 0.1, 1, 1, {7, 3, std::int64_t{1} << 45}); };
   BOOST_TEST(refuses<wrong>(far, {"step", "2^48"}));  // ten fine steps each
-}
-
-BOOST_AUTO_TEST_CASE(a_path_says_what_it_is) {
-  BOOST_TEST(fine_paths(0.01).description() == "baoab with step 0.01");
-  BOOST_TEST(fine_paths(0.01).finer().description() == "baoab with step 0.005");
 }
