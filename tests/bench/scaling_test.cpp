@@ -64,10 +64,9 @@ BOOST_AUTO_TEST_CASE(shares_are_those_of_shard) {
 }
 
 BOOST_AUTO_TEST_CASE(a_sum_takes_a_level_more_where_ranks_double) {
-  BOOST_TEST(levels_over(1) == 0);
-  BOOST_TEST(levels_over(2) == 1);
-  BOOST_TEST(levels_over(5) == 3);
-  BOOST_TEST(levels_over(10'000) == 14);
+  for (const auto& [ranks, levels] : {std::pair{1, 0}, {2, 1}, {5, 3}, {10'000, 14}}) {
+    BOOST_TEST(levels_over(ranks) == levels);
+  }
   BOOST_TEST(bytes_of_pass(2) == 8.0 * 6.0);
   BOOST_TEST(bytes_of_pass(10) == 8.0 * 66.0);
   const reduction_costs costs{{0.5, 0.0}, {0.0, 0.0}, {1.0, 0.0}, {0.25, 0.0}};

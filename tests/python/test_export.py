@@ -32,19 +32,19 @@ def test_a_learned_method_steps_as_here():
     assert np.abs(here[0] - q).max() > 1e-3
 
 
-def test_evaluations_are_those_of_the_header():
-    for method, first in (("srkn6b", 1), ("verlet", 1), ("mclachlan2", 0)):
-        text = nysalt.export(method, "python")
-        told = int(text.split("first and last joined: ")[1].split(".")[0])
-        calls = []
+@pytest.mark.parametrize("method, first", [("srkn6b", 1), ("verlet", 1), ("mclachlan2", 0)])
+def test_evaluations_are_those_of_the_header(method, first):
+    text = nysalt.export(method, "python")
+    told = int(text.split("first and last joined: ")[1].split(".")[0])
+    calls = []
 
-        def force(q):
-            calls.append(1)
-            return -q
+    def force(q):
+        calls.append(1)
+        return -q
 
-        module_of(text)["steps"](np.ones(3), np.zeros(3), 0.1, 10, force)
-        assert len(calls) == 10 * told + first
-        assert told == nysalt.methods()[method]["evaluations_per_step"]
+    module_of(text)["steps"](np.ones(3), np.zeros(3), 0.1, 10, force)
+    assert len(calls) == 10 * told + first
+    assert told == nysalt.methods()[method]["evaluations_per_step"]
 
 
 def test_the_header_promises_no_more_than_the_letters():
