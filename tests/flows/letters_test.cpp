@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a letter states of itself is true of its flow, for each letter that a word as data can name.
+// What a letter states of itself is true of its flow, for each letter that a word as data can name. R is the
+// exact flow of the quadratic part, with masses and with a frequency of zero. G and H are their formula,
+// p += b h f + 2 c h^3 f'(q) M^-1 f, and cost two evaluations, of a black box three; D is
+// p += b h f(q + c h^2 M^-1 f(q)). O does to a momentum what the bath says, each mass in its measure.
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
@@ -7,12 +10,23 @@
 #include <tuple>
 #include <vector>
 
+#include "../laws/models.hpp"
 #include "../support/draws.hpp"
+#include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
+#include "../support/systems.hpp"
+#include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/detail/served_letters.hpp"
 #include "nysalt/detail/step_on_oscillator.hpp"
+#include "nysalt/families/fd_chin.hpp"
+#include "nysalt/families/fg4.hpp"
+#include "nysalt/families/fg_chin.hpp"
+#include "nysalt/references/exact_linear.hpp"
 #include "nysalt/run_time_word.hpp"
+#include "nysalt/scalars/pack.hpp"
 #include "nysalt/stepper.hpp"
+#include "nysalt/systems/counted.hpp"
+#include "nysalt/systems/henon_heiles.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -94,37 +108,17 @@ BOOST_AUTO_TEST_CASE(the_action_on_an_oscillator_is_that_of_the_flow) {
   });
 }
 
-BOOST_AUTO_TEST_CASE(negated_coefficients_take_an_invertible_letter_back) {
-  draws random;
+// Symplectic, additive, taken back by negated coefficients, reversible, leaving q alone: what it says of
+// these.
+BOOST_AUTO_TEST_CASE(each_letter_is_what_it_states) {
+  const std::vector<phase_point<double, 2>> points{{{0.1, -0.2}, {0.3, 0.1}}, {{-0.3, 0.25}, {0.05, -0.2}}};
   for_each_hamiltonian([&](auto flow) {
-    const std::string letter(1, flow.letter);
-    const auto c = random_coefficients(random, flow.slots);
-    auto forth_and_back = c;
-    auto twice = c;
-    for (const double x : c) {
-      forth_and_back.push_back(-x);
-      twice.push_back(x);
-    }
-    BOOST_TEST_CONTEXT("letter " << letter) {
-      const bool is_taken_back = after(run_time_word(letter + letter), forth_and_back, {}).is_near({});
-      BOOST_TEST(is_taken_back == flow.invertible);
-      BOOST_TEST(!after(run_time_word(letter + letter), twice, {}).is_near({}));
-    }
+    const letter_check found = check_letter<decltype(flow)>(henon_heiles(), points, 0.7);
+    BOOST_TEST(found.passed(), found.report());
+    BOOST_TEST(flow.invertible == (flow.letter != 'D'));
   });
   BOOST_TEST(!ornstein_uhlenbeck::invertible);
-  BOOST_TEST(!displaced_kick::invertible);
-}
-
-BOOST_AUTO_TEST_CASE(additive_letters_add_up) {
-  draws random;
-  for_each_hamiltonian([&](auto flow) {
-    if constexpr (decltype(flow)::additive) {
-      const std::string letter(1, flow.letter);
-      const auto c = random_coefficients(random, 2);
-      const auto one = after(run_time_word(letter), {c[0] + c[1]}, {});
-      BOOST_TEST(after(run_time_word(letter + letter), c, {}).is_near(one), letter);
-    }
-  });
+  BOOST_TEST(!after(run_time_word("DD"), {0.7, 0.3, -0.7, -0.3}, {}).is_near({}));
 }
 
 BOOST_AUTO_TEST_CASE(letters_of_a_quadratic_part_are_those_that_need_one) {
@@ -144,4 +138,288 @@ BOOST_AUTO_TEST_CASE(letters_of_a_quadratic_part_are_those_that_need_one) {
   BOOST_TEST(!run_time_word("OBAGO").rotates());
   static_assert(word<soft_kick, rotation, soft_kick>::rotates());
   static_assert(!word<kick, drift, kick>::rotates());
+}
+
+// R.
+
+namespace {
+
+template <class W, class... Number>
+auto after(const linear_chain& chain, double h, phase_point<double, Eigen::Dynamic> x, const W& word,
+           Number... c) {
+  const stepper<linear_chain, W> one(chain, word, {c...}, h);
+  one.step(x);
+  return x;
+}
+
+/// To the modes and back each sums three products of numbers below 10, both ways of reckoning alike.
+constexpr double rounding_of_modes = 2.0 * (2.0 * 3.0 + 6.0) * eps * 10.0;
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(on_a_linear_system_a_rotation_is_the_exact_flow) {
+  const auto chain = free_chain();
+  const exact_linear exact(chain);
+  draws random;
+  for (const double h : {1e-3, 0.3, 2.0, -0.7}) {
+    for (int n = 0; n < 5; ++n) {
+      const auto x = random.state(chain, 1.0);
+      auto expected = x;
+      exact.advance(chain, expected, h);
+      BOOST_TEST_CONTEXT("seed " << draws::seed << ", step " << h) {
+        BOOST_TEST(distance(after(chain, h, x, word<rotation>(), 1.0), expected) <= rounding_of_modes);
+        BOOST_TEST(distance(after(chain, h, x, run_time_word("R"), 1.0), expected) <= rounding_of_modes);
+        BOOST_TEST(distance(after(chain, h, x, word<rotation>(), 1.0 + 1e-9), expected) > rounding_of_modes);
+        // What is soft is nothing: all words with one rotation in all are the same.
+        using impulse = word<soft_kick, rotation, soft_kick>;
+        BOOST_TEST(distance(after(chain, h, x, impulse(), 0.5, 1.0, 0.5), expected) <= rounding_of_modes);
+        BOOST_TEST(distance(after(chain, h, x, run_time_word("RSR"), 0.3, 1.0, 0.7), expected) <=
+                   2.0 * rounding_of_modes);
+      }
+    }
+  }
+}
+
+// d/dc of the flow over c h is h times the field where it ends.
+BOOST_AUTO_TEST_CASE(derivatives_flow_through_a_rotation) {
+  using D = dual<double, 1>;
+  const auto chain = free_chain();
+  draws random;
+  const auto x = random.state(chain, 1.0);
+  const double h = 0.7;
+  auto lifted = x.cast<D>();
+  stepper<linear_chain, word<rotation>, D>(chain, {D::variable(0.6, 0)}, h).step(lifted);
+  const auto end = after(chain, h, x, word<rotation>(), 0.6);
+  Eigen::VectorXd f(3);
+  force<double>(chain, end.q, f);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    BOOST_TEST(std::abs(lifted.q[i].value - end.q[i]) <= rounding_of_modes);
+    BOOST_TEST(std::abs(lifted.q[i].derivative[0] - h * end.p[i] * chain.inverse_mass(i)) <=
+               4.0 * rounding_of_modes);
+    BOOST_TEST(std::abs(lifted.p[i].derivative[0] - h * f[i]) <= 4.0 * rounding_of_modes);
+    BOOST_TEST(std::abs(f[i]) > 1e-3);
+  }
+}
+
+// G, H and D.
+
+namespace {
+
+constexpr double h = 0.4;
+constexpr double b = 0.7;
+constexpr double c = 0.013;
+constexpr double rounding = 30.0 * eps;  // some 30 operations on numbers below 2
+
+template <class W, SeparableSystem S>
+auto kicked(const S& system, phase_point<double, S::dimension> x, double of_f = b, double of_g = c) {
+  stepper<S, W>(system, {of_f, of_g}, h).step(x);
+  return x;
+}
+
+/// The same by a word as data.
+template <SeparableSystem S>
+auto kicked_by(const char* letter, const S& system, phase_point<double, S::dimension> x, double of_g = c) {
+  stepper(system, run_time_word(letter), {b, of_g}, h).step(x);
+  return x;
+}
+
+/// Evaluations of a plain step, and of ten steps of a run.
+template <SeparableSystem S, Word W>
+std::array<std::int64_t, 2> evaluations_of(const S& system, const W& word,
+                                           const typename W::template coefficients<double>& coefficients) {
+  const counted<S> watched(system);
+  const stepper one(watched, word, coefficients, 0.01);
+  const auto x = draws().state(system, 0.3);
+  auto y = x;
+  one.step(y);
+  const std::int64_t plain = watched.evaluations;
+  auto run = one.open(x);
+  one.advance(run, 10);
+  return {plain, watched.evaluations - plain};
+}
+
+template <Family F>
+void check_cost(const auto& system, std::int64_t plain, std::int64_t ten_steps) {
+  using W = typename F::word;
+  const auto coefficients = F::coefficients(F::start());
+  const std::array expected{plain, ten_steps};
+  BOOST_TEST_CONTEXT(F::name << " on " << describe(system)) {
+    BOOST_TEST((evaluations_of(system, W(), coefficients) == expected));
+    BOOST_TEST(
+        (evaluations_of(system, run_time_word(W()), {coefficients.begin(), coefficients.end()}) == expected));
+    using S = std::decay_t<decltype(system)>;
+    const int more = (derivative_calls<S> - 1) * W::force_derivatives;  // than what the word says of others
+    BOOST_TEST(W::evaluations_of_plain_step + more == plain);
+    BOOST_TEST(W::evaluations_to_open + 10 * (W::evaluations_per_step + more) == ten_steps);
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(gradient_kicks_are_those_of_the_formula) {
+  draws random;
+  const two_masses whole;
+  const auto split = split_masses();
+  for (int n = 0; n < 10; ++n) {
+    const auto x = random.state(whole, 1.0);
+    const auto expected = [&](const vector<double, 2>& f, const Eigen::Matrix2d& slope) {
+      const vector<double, 2> v(f[0], 0.25 * f[1]);  // masses 1 and 4
+      auto y = x;
+      y.p += f * (b * h) + slope * v * (2.0 * c * h * h * h);
+      return y;
+    };
+    const vector<double, 2> soft = -x.q.array().cube();
+    const double elongation = x.q[1] - x.q[0];
+    const vector<double, 2> spring(elongation, -elongation);
+    const Eigen::Matrix2d soft_slope = (-3.0 * x.q.cwiseAbs2()).asDiagonal();
+    const Eigen::Matrix2d spring_slope{{-1.0, 1.0}, {1.0, -1.0}};
+    const auto by_whole = expected(spring + soft, spring_slope + soft_slope);
+    BOOST_TEST(distance(kicked<word<gradient_kick>>(whole, x), by_whole) <= rounding);
+    BOOST_TEST(distance(kicked_by("G", whole, x), by_whole) <= rounding);
+    BOOST_TEST(distance(kicked<word<gradient_kick>>(whole, x, b, 1.01 * c), by_whole) > 1e3 * rounding);
+    const auto by_soft = expected(soft, soft_slope);
+    BOOST_TEST(distance(kicked<word<soft_gradient_kick>>(split, x), by_soft) <= rounding);
+    BOOST_TEST(distance(kicked_by("H", split, x), by_soft) <= rounding);
+    BOOST_TEST(distance(kicked<word<gradient_kick>>(split, x), by_soft) > 1e-6);  // G is of the whole force
+  }
+}
+
+// Coefficients of dual numbers: dp/db = h f, dp/dc = 2 h^3 f' f. However the force is written they are the
+// same, but for differences: a central one along h^2 f errs by s^2 (h^2 f)^2/6 and eps/(s h^2) of its size,
+// which is below .001.
+BOOST_AUTO_TEST_CASE(derivatives_by_both_coefficients_flow_through_a_gradient_kick) {
+  using D = dual<double, 2>;
+  constexpr double s = detail::part_of_displacement;
+  const double f = -std::sin(0.8);
+  const double by_c = 2.0 * h * h * h * -std::cos(0.8) * f;
+  const auto check = [&](const auto& system, double of_differences) {
+    phase_point<D, 1> x{vector<D, 1>(D(0.8)), vector<D, 1>(D(0.1))};
+    using S = std::decay_t<decltype(system)>;
+    stepper<S, word<gradient_kick>, D>(system, {D::variable(b, 0), D::variable(c, 1)}, h).step(x);
+    const D& p = x.p[0];
+    BOOST_TEST(std::abs(p.value - (0.1 + b * h * f + c * by_c)) <= rounding + c * of_differences);
+    BOOST_TEST(std::abs(p.derivative[0] - h * f) <= rounding);
+    BOOST_TEST(std::abs(p.derivative[1] - by_c) <= rounding + of_differences);
+  };
+  check(black_box_with_derivative(), 0.0);
+  const double relative = s * s * h * h * h * h * f * f / 6.0 + 2.0 * eps / (s * h * h);
+  check(black_box(), std::abs(by_c) * relative);
+}
+
+BOOST_AUTO_TEST_CASE(a_displaced_kick_is_that_of_the_formula) {
+  draws random;
+  const two_masses system;
+  constexpr double of_g = 0.13;
+  for (int n = 0; n < 10; ++n) {
+    const auto x = random.state(system, 1.0);
+    vector<double, 2> f;
+    vector<double, 2> displaced;
+    force<double>(system, x.q, f);
+    const vector<double, 2> v(f[0], 0.25 * f[1]);  // masses 1 and 4
+    force<double>(system, vector<double, 2>(x.q + of_g * h * h * v), displaced);
+    const vector<double, 2> expected = x.p + b * h * displaced;
+    const auto of_type = kicked<word<displaced_kick>>(system, x, b, of_g);
+    BOOST_TEST((of_type.p - expected).norm() <= 2.0 * rounding);
+    BOOST_TEST(same_bits(of_type, kicked_by("D", system, x, of_g)));
+    force<double>(system, vector<double, 2>(x.q + of_g * h * h * f), displaced);  // without masses
+    BOOST_TEST((x.p + b * h * displaced - expected).norm() > 2e4 * rounding);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(gradient_and_displaced_kicks_cost_two_evaluations_and_differences_three) {
+  const std::array alone{std::int64_t{2}, std::int64_t{11}};  // the force is known: q does not move
+  BOOST_TEST((evaluations_of(two_masses(), word<gradient_kick>(), {b, c}) == alone));
+  // fg_chin: the last kick's force is the first one's of the next step.
+  check_cost<fg_chin>(dynamic_potential(), 4, 1 + 10 * 3);
+  check_cost<fg_chin>(black_box(), 5, 1 + 10 * 4);
+  check_cost<fg_chin>(black_box_with_derivative(), 4, 1 + 10 * 3);
+  check_cost<fd_chin>(black_box(), 4, 1 + 10 * 3);  // no derivative, no differences
+  check_cost<fg4>(two_masses(), 4, 10 * 4);
+  check_cost<r_fg4>(split_masses(), 4, 10 * 4);  // rotations cost none
+}
+
+// O.
+
+namespace {
+
+template <System S, Scalar C = double>
+flow_state<double, 2> after_o(const S& system, const ornstein_uhlenbeck::prepared<C>& flow,
+                              const vector<double, 2>& p, const vector<double, 2>& xi) {
+  flow_state<double, 2> x{{{0.3, -0.2}, p}, {0.0, 0.0}};
+  ornstein_uhlenbeck::apply(system, flow, xi, x);
+  return x;
+}
+
+}  // namespace
+
+static_assert(Flow<ornstein_uhlenbeck> && StochasticFlow<ornstein_uhlenbeck>);
+static_assert(!ornstein_uhlenbeck::additive && !ornstein_uhlenbeck::moves_q &&
+              ornstein_uhlenbeck::reads == field::none);
+
+BOOST_AUTO_TEST_CASE(a_momentum_decays_and_is_kicked_at_random) {
+  const auto noisy = bath::of_sigma(0.4, 0.9);
+  const auto flow = ornstein_uhlenbeck::prepare(0.5, 0.2, noisy);
+  BOOST_TEST(flow.decay == noisy.decay(0.1));
+  BOOST_TEST(flow.deviation == noisy.deviation(0.1));
+  const auto x = after_o(henon_heiles(), flow, {1.0, -2.0}, {0.7, 0.0});
+  BOOST_TEST(x.p[0] == flow.decay + 0.7 * flow.deviation);
+  BOOST_TEST(x.p[1] == -2.0 * flow.decay);
+  BOOST_TEST((x.q == vector<double, 2>(0.3, -0.2)));
+}
+
+// sigma M^{1/2} dW: with mass 4 the noise is twice as large, and p^2/m has the same temperature.
+BOOST_AUTO_TEST_CASE(a_heavier_mass_gets_more_noise) {
+  const auto flow = ornstein_uhlenbeck::prepare(1.0, 0.2, bath::of_sigma(0.4, 0.9));
+  const two_masses system;
+  BOOST_REQUIRE(system.inverse_mass(1) == 0.25);
+  const auto x = after_o(system, flow, {0.0, 0.0}, {1.0, 1.0});
+  BOOST_TEST(x.p[0] == flow.deviation);
+  BOOST_TEST(x.p[1] == 2.0 * flow.deviation);
+}
+
+BOOST_AUTO_TEST_CASE(without_noise_it_damps) {
+  const auto flow = ornstein_uhlenbeck::prepare(1.0, 0.2, bath::of_sigma(0.4, 0.0));
+  BOOST_TEST(flow.deviation == 0.0);
+  flow_state<double, 2> x{{{0.3, -0.2}, {1.0, -2.0}}, {0.0, 0.0}};
+  ornstein_uhlenbeck::damp(two_masses(), flow.decay, x);
+  BOOST_TEST(x.p[0] == flow.decay);
+  BOOST_TEST(x.p[1] == -2.0 * flow.decay);
+}
+
+BOOST_AUTO_TEST_CASE(a_letter_that_is_not_prepared_does_nothing) {
+  const auto x = after_o(two_masses(), ornstein_uhlenbeck::prepared<double>{}, {1.0, -2.0}, {3.0, 3.0});
+  BOOST_TEST((x.p == vector<double, 2>(1.0, -2.0)));
+}
+
+BOOST_AUTO_TEST_CASE(noise_cannot_go_back_in_time) {
+  const auto noisy = bath::of_sigma(0.4, 0.9);
+  const auto heating = bath::of_sigma(0.0, 0.9);
+  const auto cold = bath::of_sigma(0.4, 0.0);
+  for (const auto& heat_bath : {noisy, heating}) {
+    BOOST_TEST(refuses<std::invalid_argument>([&] { ornstein_uhlenbeck::prepare(1.0, -0.2, heat_bath); },
+                                              {"letter O", "back in time", "-0.2", "the sign of the step"}));
+    BOOST_TEST(refuses<std::invalid_argument>([&] { ornstein_uhlenbeck::prepare(-1.0, 0.2, heat_bath); },
+                                              {"back in time"}));
+    BOOST_TEST(ornstein_uhlenbeck::prepare(0.0, 0.2, heat_bath).deviation == 0.0);
+    BOOST_TEST(ornstein_uhlenbeck::prepare(-1.0, -0.2, heat_bath).deviation == heat_bath.deviation(0.2));
+  }
+  BOOST_TEST(refuses<std::invalid_argument>(
+      [&] { ornstein_uhlenbeck::prepare(pack<double, 3>(-1.0), 0.2, noisy); }, {"back in time"}));
+  // What damps alone grows backwards: one undoes the other, to rounding.
+  const double there = ornstein_uhlenbeck::prepare(1.0, 0.2, cold).decay;
+  const double back = ornstein_uhlenbeck::prepare(1.0, -0.2, cold).decay;
+  BOOST_TEST(back > 1.0);
+  BOOST_TEST(std::abs(there * back - 1.0) <= 4.0 * eps);
+}
+
+// Coefficients that carry derivatives act on states that do.
+BOOST_AUTO_TEST_CASE(derivatives_flow_through_the_letter_o) {
+  using D = dual<double, 1>;
+  const auto flow = ornstein_uhlenbeck::prepare(D::variable(0.5, 0), 0.2, bath::of_sigma(0.4, 0.9));
+  flow_state<D, 2> x{{{D(0.3), D(-0.2)}, {D(1.0), D(-2.0)}}, {D(0.0), D(0.0)}};
+  vector<D, 2> xi(D(0.7), D(-0.1));
+  ornstein_uhlenbeck::apply(two_masses(), flow, xi, x);
+  BOOST_TEST(x.p[0].value == flow.decay.value + 0.7 * flow.deviation.value);
+  BOOST_TEST(x.p[0].derivative[0] == flow.decay.derivative[0] + 0.7 * flow.deviation.derivative[0]);
+  BOOST_TEST(x.p[0].derivative[0] != 0.0);
 }

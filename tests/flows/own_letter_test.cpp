@@ -8,9 +8,9 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <vector>
 
+#include "../laws/laws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
@@ -64,8 +64,6 @@ using mixed = method_of<word<drift, my_kick, drift, my_kick, drift>>;
 using library_drifts_first = method_of<word<drift, kick, drift, kick, drift>>;
 using library_kicks_first = method_of<word<kick, drift, kick, drift, kick>>;
 
-using own_methods = std::tuple<own_drifts_first, own_kicks_first, mixed>;
-
 const phase_point<double, 2> start{{0.1, -0.2}, {0.3, 0.1}};
 
 /// The states that a watched run of 7 steps shows, every second of them and the last.
@@ -88,12 +86,19 @@ std::vector<double> seen(const S& system, const M& method, const phase_point<dou
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE_TEMPLATE(as_data_it_has_the_bits_of_its_type, M, own_methods) {
-  const henon_heiles system;
-  const auto as_type = seen(system, M(), start);
-  BOOST_TEST(as_type == seen(system, tabulated(M(), system), start));
-  const phase_point<double, Eigen::Dynamic> dynamic{start.q, start.p};
-  BOOST_TEST(as_type == seen(model(system), tabulated(M(), system), dynamic));
+BOOST_AUTO_TEST_CASE(as_data_it_has_the_bits_of_its_type) {
+  const auto check = [](const auto& system, const auto& method, const auto& from) {
+    const auto as_type = seen(system, method, from);
+    const phase_point<double, Eigen::Dynamic> dynamic{from.q, from.p};
+    BOOST_TEST(as_type == seen(system, tabulated(method, system), from));
+    BOOST_TEST(as_type == seen(model(system), tabulated(method, system), dynamic));
+  };
+  check(henon_heiles(), own_drifts_first(), start);
+  check(henon_heiles(), own_kicks_first(), start);
+  check(henon_heiles(), mixed(), start);
+  const phase_point<double, Eigen::Dynamic> from{Eigen::VectorXd::LinSpaced(5, -0.3, 0.4),
+                                                 Eigen::VectorXd::LinSpaced(5, 0.2, -0.1)};
+  check(phi4_chain<>(5), own_kicks_first(), from);
 }
 
 BOOST_AUTO_TEST_CASE(letters_written_again_have_the_bits_of_the_library) {
@@ -103,37 +108,11 @@ BOOST_AUTO_TEST_CASE(letters_written_again_have_the_bits_of_the_library) {
   BOOST_TEST(seen(system, own_kicks_first(), start) != seen(system, library_drifts_first(), start));
 }
 
-BOOST_AUTO_TEST_CASE(also_of_a_dynamic_dimension) {
-  const phi4_chain<> chain(5);
-  const phase_point<double, Eigen::Dynamic> from{Eigen::VectorXd::LinSpaced(5, -0.3, 0.4),
-                                                 Eigen::VectorXd::LinSpaced(5, 0.2, -0.1)};
-  const auto as_type = seen(chain, own_kicks_first(), from);
-  BOOST_TEST(as_type == seen(chain, library_kicks_first(), from));
-  BOOST_TEST(as_type == seen(chain, tabulated(own_kicks_first(), chain), from));
-  BOOST_TEST(as_type == seen(model(chain), tabulated(own_kicks_first(), chain), from));
-}
-
 BOOST_AUTO_TEST_CASE(lanes_change_no_bit) {
-  using pack_type = detail::lanes;
-  const model system{henon_heiles()};
+  draws random;
+  const auto& one = specimen_of("henon_heiles");
   const tabulated method(own_kicks_first{}, henon_heiles{});
-  const auto steps = make_stepper(system, method, 0.2);
-  const auto start_of = [](int k) {
-    return phase_point<double, Eigen::Dynamic>{Eigen::Vector2d(0.1 + 0.01 * k, -0.2),
-                                               Eigen::Vector2d(0.3, 0.1 - 0.02 * k)};
-  };
-  auto together = steps.open(gather<pack_type, Eigen::Dynamic>(lanes_in<pack_type>, start_of));
-  steps.advance(together, 5);
-  const auto side_by_side = steps.synchronous(together);
-  for (int k = 0; k < lanes_in<pack_type>; ++k) {
-    auto alone = steps.open(start_of(k));
-    steps.advance(alone, 5);
-    const auto x = steps.synchronous(alone);
-    for (Eigen::Index i = 0; i < 2; ++i) {
-      BOOST_TEST(lane(side_by_side.q[i], k) == x.q[i]);
-      BOOST_TEST(lane(side_by_side.p[i], k) == x.p[i]);
-    }
-  }
+  BOOST_TEST((run_of{one.system, method, 0.2}.lanes_are_alone(one, random)));
 }
 
 BOOST_AUTO_TEST_CASE(evaluations_are_those_of_the_word) {
@@ -179,32 +158,26 @@ BOOST_AUTO_TEST_CASE(what_a_file_states_of_a_letter_is_read_and_not_stepped) {
                                             {"of henon_heiles() must come with the system"}));
 }
 
-BOOST_AUTO_TEST_CASE(a_bound_word_steps_its_system_alone) {
-  const tabulated method(own_drifts_first{}, henon_heiles{});
-  const pendulum other;
-  BOOST_TEST(refuses<std::invalid_argument>(
-      [&] { make_stepper(other, method, 0.1); },
-      {"the word ababa must be made with the system pendulum(), got the letter a of "
-       "henon_heiles(); make the word with this system"}));
-  const henon_heiles same;
-  BOOST_CHECK_NO_THROW(make_stepper(same, method, 0.1));
-}
-
 namespace {
 /// Another letter of the same name.
 struct other_drift : my_drift {};
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(two_letters_of_one_name_are_refused) {
-  using W = word<my_drift, my_kick, other_drift>;
-  BOOST_TEST(refuses<std::invalid_argument>([] { run_time_word(W{}, henon_heiles()); },
-                                            {"the word aba: letters of one's own must have different names, "
-                                             "got a twice; name one of them otherwise"}));
-}
-
-BOOST_AUTO_TEST_CASE(its_action_on_an_oscillator_is_not_guessed) {
-  const run_time_word word(own_drifts_first::word{}, henon_heiles());
-  BOOST_CHECK_THROW(stability_windows(word, {0.3, 0.5, 0.4, 0.5, 0.3}), std::invalid_argument);
+BOOST_AUTO_TEST_CASE(what_a_bound_word_cannot_do_is_refused) {
+  using wrong = std::invalid_argument;
+  const henon_heiles same;
+  const pendulum other;
+  const tabulated method(own_drifts_first{}, henon_heiles{});
+  BOOST_CHECK_NO_THROW(make_stepper(same, method, 0.1));
+  BOOST_TEST(refuses<wrong>([&] { make_stepper(other, method, 0.1); },
+                            {"the word ababa must be made with the system pendulum(), got the letter a of "
+                             "henon_heiles(); make the word with this system"}));
+  using twice = word<my_drift, my_kick, other_drift>;
+  BOOST_TEST(refuses<wrong>([] { run_time_word(twice{}, henon_heiles()); },
+                            {"the word aba: letters of one's own must have different names, "
+                             "got a twice; name one of them otherwise"}));
+  // Its action on an oscillator is not guessed.
+  BOOST_CHECK_THROW(stability_windows(method.letters(), method.coefficients()), wrong);
 }
 
 namespace {

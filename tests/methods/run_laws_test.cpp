@@ -10,9 +10,9 @@
 
 #include "../laws/laws.hpp"
 #include "../laws/models.hpp"
-#include "../laws/run_laws.hpp"
 #include "nysalt/families/thermostatted.hpp"
 #include "nysalt/methods/classical.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/in_bath.hpp"
 
 using namespace nysalt;
@@ -35,6 +35,16 @@ std::vector<tabulated> quiet_methods() {
 std::vector<tabulated> noisy_methods() {
   draws random;
   return methods_for_baths(random);
+}
+
+/// Where a run is that is cut there, by a stepper of types.
+template <int N>
+phase_point<double, N> finish(const auto& fixed, const phase_point<double, N>& x, std::int64_t steps,
+                              std::int64_t first = 0) {
+  auto run = fixed.open(x, 5);
+  fixed.advance(run, first);
+  fixed.advance(run, steps - first);
+  return fixed.synchronous(run);
 }
 
 }  // namespace
@@ -135,18 +145,6 @@ BOOST_AUTO_TEST_CASE(each_lane_has_the_bits_of_one_trajectory) {
   }
 }
 
-// Other numbers of lanes than those of a model, by type.
-BOOST_AUTO_TEST_CASE(packs_of_any_size_have_the_bits_of_one_trajectory) {
-  draws random;
-  const auto check = [&](const auto& fixed) {
-    BOOST_TEST(test::lanes_are_alone<1>(fixed, random, 0.5));
-    BOOST_TEST(test::lanes_are_alone<3>(fixed, random, 0.5));
-    BOOST_TEST(!test::lanes_are_alone<3>(fixed, random, 0.5, 32));
-  };
-  const in_bath warm(free_chain(), bath::of_sigma(0.4, 0.3));
-  check(make_stepper(warm, obabo(), 0.02, counter_noise(3)));
-}
-
 // A type and its table take the same steps: of fixed and dynamic dimension, with masses, without noise and
 // with.
 BOOST_AUTO_TEST_CASE(a_method_by_its_type_is_the_method_as_data) {
@@ -157,13 +155,12 @@ BOOST_AUTO_TEST_CASE(a_method_by_its_type_is_the_method_as_data) {
     const auto by_type = make_stepper(system, method, 0.05, noise);
     const auto by_data = make_stepper(system, as_data, 0.05, noise);
     BOOST_TEST_CONTEXT(method.name() << " on " << describe(system)) {
-      const auto whole = run_finish(by_type, x, 200, 5);
-      BOOST_TEST(same_bits(run_finish(by_data, x, 200, 5), whole));
-      auto run = by_type.open(x, 5);
-      by_type.advance(run, 77);
-      by_type.advance(run, 123);
-      BOOST_TEST(same_bits(by_type.synchronous(run), whole));
-      BOOST_TEST(same_bits(watched_finish(by_type, x, 200, 3), run_finish(by_type, x, 200)));
+      const auto whole = finish(by_type, x, 200);
+      BOOST_TEST(same_bits(finish(by_data, x, 200), whole));
+      BOOST_TEST(same_bits(finish(by_type, x, 200, 77), whole));
+      auto watched = by_type.open(x, 5);
+      by_type.advance(watched, 200, 3, [](auto&&...) {});
+      BOOST_TEST(same_bits(by_type.synchronous(watched), whole));
       auto plain = x;
       auto plain_as_data = x;
       by_type.step(plain, 5, 9);
@@ -173,7 +170,7 @@ BOOST_AUTO_TEST_CASE(a_method_by_its_type_is_the_method_as_data) {
       auto changed = as_data.coefficients();
       changed.front() += 1e-9;
       const tabulated another("another", as_data.letters(), changed, as_data);
-      BOOST_TEST(!same_bits(run_finish(make_stepper(system, another, 0.05, noise), x, 200, 5), whole));
+      BOOST_TEST(!same_bits(finish(make_stepper(system, another, 0.05, noise), x, 200), whole));
     }
   };
   const auto masses = split_masses();
@@ -217,8 +214,8 @@ BOOST_AUTO_TEST_CASE(in_a_quiet_bath_a_step_is_that_of_the_word_without_letters_
   // By their types, too.
   const in_bath idle(fpu_chain<3>(10.0), bath::of_sigma(0.0, 0.0));
   const auto x = random.state(idle, 0.5);
-  BOOST_TEST(same_bits(run_finish(make_stepper(idle, obabo(), 0.02), x, 200),
-                       run_finish(make_stepper(idle.base(), verlet(), 0.02), x, 200)));
+  BOOST_TEST(same_bits(finish(make_stepper(idle, obabo(), 0.02), x, 200),
+                       finish(make_stepper(idle.base(), verlet(), 0.02), x, 200)));
 }
 
 BOOST_AUTO_TEST_CASE(evaluations_are_those_declared) {
@@ -248,21 +245,13 @@ BOOST_AUTO_TEST_CASE(evaluations_are_those_declared) {
   check(split_ring(), quiet_methods(), no_noise());
   check(split_masses(), quiet_methods(), no_noise());
   check(in_bath(fpu_chain<3>(10.0), bath::of_sigma(0.1, 0.1)), noisy_methods(), counter_noise(1));
-  const in_bath idle(fpu_chain<3>(10.0), bath::of_sigma(0.0, 0.0));
-  for (const auto& [method, to_open] :
-       {std::pair{tabulated(baoab()), 1}, {tabulated(obabo()), 1}, {tabulated(aboba()), 0}}) {
-    BOOST_TEST(evaluations_of_run(idle, method, 0.01, random.state(idle, 0.5), 10) == to_open + 10);
-  }
-  // By their types, numbers by hand; the kicks of the chain are its own, and count.
-  const fpu_chain<3> chain(10.0);
+  check(in_bath(fpu_chain<3>(10.0), bath::of_sigma(0.0, 0.0)), noisy_methods(), no_noise());
+  // By its type, numbers by hand; the kicks of the chain are its own, and count.
   static_assert(HasKick<counted<fpu_chain<3>>, double>);
-  const auto y = random.state(chain, 0.5);
-  BOOST_TEST(evaluations_of_run(chain, verlet(), 0.01, y, 10) == 11);
-  BOOST_TEST(10 * evaluations_of_step(chain, verlet(), 0.01, y) == 20);
-  BOOST_TEST(evaluations_of_run(chain, verlet_aba(), 0.01, y, 10) == 10);
-  const auto per_step = [](const auto& method) { return word_of(method).evaluations_per_step; };
-  BOOST_TEST(per_step(takahashi_imada()) == 2);
-  BOOST_TEST(per_step(chin4a()) == 3);
-  BOOST_TEST(per_step(member<r_fg4>(r_fg4::start())) == 4);
-  BOOST_TEST(per_step(impulse()) == 1);
+  const counted watched(fpu_chain<3>(10.0));
+  auto y = random.state(watched, 0.5);
+  finish(make_stepper(watched, verlet(), 0.01), y, 10);
+  BOOST_TEST(watched.evaluations == 11);
+  make_stepper(watched, verlet(), 0.01).step(y);
+  BOOST_TEST(watched.evaluations == 11 + 2);
 }

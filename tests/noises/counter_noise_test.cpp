@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSL-1.0
 // A normal number is a function of seed and counter alone: of neither lanes, nor lengths, nor compiler; every
-// place has numbers of its own.
+// place has numbers of its own. The elementary functions beneath are exact to a few roundings.
 #include <boost/test/unit_test.hpp>
 
 #include <Random123/philox.h>
 
 #include <bit>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <vector>
 
+#include "../support/draws.hpp"
 #include "../support/refusal.hpp"
+#include "nysalt/noises/box_muller.hpp"
 #include "nysalt/noises/counter_based.hpp"
 #include "nysalt/noises/counter_noise.hpp"
-#include "nysalt/noises/none.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -72,19 +74,26 @@ bool lanes_are_trajectories(std::uint64_t seed, noise_counter at, std::size_t co
 
 }  // namespace
 
+// Of Philox, its words, and how bits choose points of the plane as Box and Muller ask.
 BOOST_AUTO_TEST_CASE(the_numbers_are_those_of_random123_and_libm) {
-  for (const noise_counter& at :
-       {noise_counter{0, 0, 0, {}}, noise_counter{1, 2, 3, purpose},
-        noise_counter{9876543210, 12345678901, 54321},
-        noise_counter{last_trajectory, last_step, last_slot, static_cast<noise_purpose>(255)}}) {
-    for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{7}, ~std::uint64_t{0}}) {
-      const pair ours = one_pair(seed, at);
-      const pair theirs = by_others(seed, at);
-      for (std::size_t k = 0; k < 2; ++k) {  // a root of a logarithm of 4 units of 2^-53, and a sine of 4
-        BOOST_TEST(std::abs(ours[k] / theirs[k] - 1.0) <= 16.0 * 0x1p-53);
-      }
-      BOOST_TEST((one_pair(seed + 1, at) != ours));
+  const auto check = [](std::uint64_t seed, const noise_counter& at) {
+    const pair ours = one_pair(seed, at);
+    const pair theirs = by_others(seed, at);
+    for (std::size_t k = 0; k < 2; ++k) {  // a root of a logarithm of 4 units of 2^-53, and a sine of 4
+      BOOST_TEST(std::abs(ours[k] / theirs[k] - 1.0) <= 16.0 * 0x1p-53);
     }
+    BOOST_TEST((one_pair(seed + 1, at) != ours));
+  };
+  for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{7}, ~std::uint64_t{0}}) {
+    check(seed, {0, 0, 0, {}});
+    check(seed, {1, 2, 3, purpose});
+    check(seed, {9876543210, 12345678901, 54321});
+    check(seed, {last_trajectory, last_step, last_slot, static_cast<noise_purpose>(255)});
+  }
+  draws random;
+  for (int n = 0; n < 1000; ++n) {
+    check(random.bits(), {random.bits() >> 16U, static_cast<std::int64_t>(random.bits() >> 16U),
+                          random.bits() >> 40U, static_cast<noise_purpose>(random.bits() >> 56U)});
   }
 }
 
@@ -154,25 +163,6 @@ BOOST_AUTO_TEST_CASE(every_bit_of_every_field_counts_and_no_fields_overlap) {
   BOOST_TEST(seen.size() == flips);
 }
 
-BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
-  const auto refused = [](const noise_counter& at, std::size_t count, std::string_view word) {
-    return refuses<wrong>([&] { numbers(1, at, count); }, {"standard_normals", word});
-  };
-  BOOST_TEST(
-      refused({.trajectory = last_trajectory + 1}, 2, "trajectory must be < 2^48, got 281474976710656"));
-  BOOST_TEST(refused({.trajectory = ~std::uint64_t{0}}, 2, "trajectory"));
-  BOOST_TEST(refused({.step = last_step + 1}, 2, "< 2^48, got 281474976710656"));
-  BOOST_TEST(refused({.step = -1}, 2, "step must be >= 0"));
-  BOOST_TEST(refused({.slot = last_slot + 1}, 1, "slot 16777216"));
-  BOOST_TEST(refused({.slot = last_slot}, 3, "2 slots from slot 16777215"));
-  BOOST_TEST(refused({.slot = ~std::uint64_t{0}}, 2, "slot"));
-  BOOST_TEST(!refused({last_trajectory, last_step, last_slot, purpose}, 2, ""));
-  std::array<pack<double, 2>, 2> two_trajectories;  // the second lane would be beyond the last trajectory
-  BOOST_TEST(refuses<wrong>(
-      [&] { standard_normals<pack<double, 2>>(1, {.trajectory = last_trajectory}, two_trajectories); },
-      {"trajectory"}));
-}
-
 namespace {
 
 template <int N>
@@ -189,9 +179,6 @@ std::vector<double> halves(const counter_noise& source, const noise_place& at) {
 }
 
 }  // namespace
-
-static_assert(NoiseSource<counter_noise> && NoiseSource<no_noise>);
-static_assert(counter_noise::is_memoryless && !no_noise::is_memoryless);
 
 // Trajectories, steps, letters, seeds, purposes, halves: among all their numbers there are no two alike.
 // 53 bits collide among 2000 numbers with a probability of 2e-10.
@@ -219,9 +206,105 @@ BOOST_AUTO_TEST_CASE(no_two_places_share_a_number) {
   BOOST_TEST(seen.size() + 3 == drawn);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_no_place_is_refused) {
+BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
+  const auto refused = [](const noise_counter& at, std::size_t count, std::string_view word) {
+    return refuses<wrong>([&] { numbers(1, at, count); }, {"standard_normals", word});
+  };
+  BOOST_TEST(
+      refused({.trajectory = last_trajectory + 1}, 2, "trajectory must be < 2^48, got 281474976710656"));
+  BOOST_TEST(refused({.trajectory = ~std::uint64_t{0}}, 2, "trajectory"));
+  BOOST_TEST(refused({.step = last_step + 1}, 2, "< 2^48, got 281474976710656"));
+  BOOST_TEST(refused({.step = -1}, 2, "step must be >= 0"));
+  BOOST_TEST(refused({.slot = last_slot + 1}, 1, "slot 16777216"));
+  BOOST_TEST(refused({.slot = last_slot}, 3, "2 slots from slot 16777215"));
+  BOOST_TEST(refused({.slot = ~std::uint64_t{0}}, 2, "slot"));
+  BOOST_TEST(!refused({last_trajectory, last_step, last_slot, purpose}, 2, ""));
+  std::array<pack<double, 2>, 2> two_trajectories;  // the second lane would be beyond the last trajectory
+  BOOST_TEST(refuses<wrong>(
+      [&] { standard_normals<pack<double, 2>>(1, {.trajectory = last_trajectory}, two_trajectories); },
+      {"trajectory"}));
   const counter_noise source(3);
   BOOST_TEST(refuses<wrong>([&] { normals<1>(source, {0, -1, 0}); }, {"step must be", "got -1"}));
-  BOOST_TEST(refuses<wrong>([&] { normals<1>(source, {std::uint64_t{1} << 48U, 0, 0}); }, {"trajectory"}));
-  BOOST_TEST(!refuses<wrong>([&] { normals<1>(source, {(std::uint64_t{1} << 48U) - 1, 0, 0}); }, {}));
+  BOOST_TEST(refuses<wrong>([&] { normals<1>(source, {last_trajectory + 1, 0, 0}); }, {"trajectory"}));
+  BOOST_TEST(!refuses<wrong>([&] { normals<1>(source, {last_trajectory, 0, 0}); }, {}));
+}
+
+// Beneath.
+
+namespace {
+
+static_assert(std::numeric_limits<long double>::digits > 60, "the judge must know more than the judged");
+
+constexpr double unit = 0x1p-53;  // what one rounding may do
+
+/// Largest relative error over arguments, in units: f of a pack against the judge.
+double worst(const std::vector<double>& arguments, const auto& f, const auto& judge) {
+  double result = 0.0;
+  for (const double x : arguments) {
+    const long double right = judge(static_cast<long double>(x));
+    const auto off = static_cast<double>(std::abs(f(pack<double>(x))[0] / right - 1.0L));
+    result = std::max(result, off / unit);
+  }
+  return result;
+}
+
+/// Numbers of (0, 1) of all sizes: uniform, near 0 and near 1, where log is small.
+std::vector<double> unit_interval() {
+  draws random;
+  std::vector<double> result = {0x1p-53, 1.0 - 0x1p-53, std::sqrt(0.5)};
+  for (int n = 0; n < 20'000; ++n) {
+    const double u = (static_cast<double>(random.bits() >> 12U) + 0.5) * 0x1p-52;
+    result.push_back(u);
+    result.push_back(std::ldexp(u, -(n % 52)));
+    result.push_back(1.0 - std::ldexp(u, -(n % 52) - 1));
+    result.push_back(0.7 + 0.01 * u);  // about sqrt(1/2), where two terms cancel most
+  }
+  return result;
+}
+
+/// Quarter turns from -1/2 to 1/2, of all sizes.
+std::vector<double> quarter_turns() {
+  draws random;
+  std::vector<double> result = {-0.5 + 0x1p-52, -0x1p-52, 0x1p-52, 0.5 - 0x1p-52};
+  for (int n = 0; n < 20'000; ++n) {
+    const double t = static_cast<double>(random.bits() >> 12U) * 0x1p-52 - 0.5;
+    result.push_back(t);
+    result.push_back(std::ldexp(t, -(n % 51)));
+  }
+  return result;
+}
+
+}  // namespace
+
+// k log 2 and 2 artanh s are rounded 1 and 5 times (s thrice) and approximated to 2 units; at worst their sum
+// is half of the larger one, which doubles its part of the error.
+BOOST_AUTO_TEST_CASE(the_logarithm_is_exact_to_eight_roundings) {
+  const auto judge = [](long double x) { return -2.0L * std::log(x); };
+  const auto ours = [](const auto& x) { return detail::minus_two_log(x); };
+  const auto sloppy = [&](const auto& x) { return ours(x) * (1.0 + 16.0 * unit); };
+  BOOST_TEST(worst(unit_interval(), ours, judge) <= 8.0);
+  BOOST_TEST(worst(unit_interval(), sloppy, judge) > 8.0);
+}
+
+// A polynomial whose terms fall quickly is rounded twice, its argument once, t * once, and approximated to 1
+// or 2 units.
+BOOST_AUTO_TEST_CASE(sine_and_cosine_are_exact_to_four_roundings) {
+  constexpr long double quarter_turn = std::numbers::pi_v<long double> / 2.0L;
+  const auto sine = [](const auto& t) { return detail::sine_and_cosine_of_quarter_turns(t).sine; };
+  const auto cosine = [](const auto& t) { return detail::sine_and_cosine_of_quarter_turns(t).cosine; };
+  const auto right_sine = [](long double t) { return std::sin(quarter_turn * t); };
+  const auto right_cosine = [](long double t) { return std::cos(quarter_turn * t); };
+  BOOST_TEST(worst(quarter_turns(), sine, right_sine) <= 4.0);
+  BOOST_TEST(worst(quarter_turns(), cosine, right_cosine) <= 4.0);
+  const auto longer = [&](const auto& t) { return sine(t * (1.0 + 16.0 * unit)); };
+  BOOST_TEST(worst(quarter_turns(), longer, right_sine) > 4.0);
+}
+
+BOOST_AUTO_TEST_CASE(distances_go_from_just_above_zero_to_their_end) {
+  const double longest = detail::squared_distance(0)[0];
+  const double shortest = detail::squared_distance(0xffffffffffffffffU)[0];
+  BOOST_TEST(std::abs(longest / (106.0 * std::numbers::ln2) - 1.0) <= 8.0 * unit);  // u = 2^-53
+  BOOST_TEST(std::abs(shortest / 0x1p-52 - 1.0) <= 8.0 * unit);                     // u = 1 - 2^-53
+  BOOST_TEST(detail::squared_distance(0xfffU)[0] == longest);                       // 12 bits are left over
+  BOOST_TEST(detail::squared_distance(0x1000U)[0] < longest);
 }

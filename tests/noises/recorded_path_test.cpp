@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O1: 17 s at -O0, 0.5 s at -O1.
-// The noise of many intervals in one is exactly that of the flow over all of them; and the same path at half
-// the step, and again.
+// The noise of many intervals in one is exactly that of the flow over all of them; the same path at half the
+// step, and again; and a run along a recorded path sees that path's noise, each letter O that of its own part
+// of the step.
 #include <boost/test/unit_test.hpp>
 
 #include <limits>
@@ -10,7 +11,14 @@
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
+#include "nysalt/detail/lockstep.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
+#include "nysalt/langevin.hpp"
+#include "nysalt/method.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/noises/along_path.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/noises/finer_noise.hpp"
 #include "nysalt/noises/recorded_path.hpp"
@@ -89,17 +97,13 @@ BOOST_AUTO_TEST_CASE(many_flows_are_one_with_the_noise_of_all) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(one_interval_keeps_its_bits_and_none_has_no_noise) {
-  const auto noise = drawn(1);
-  for (const double damping : {0.0, 0.3}) {
-    BOOST_TEST((in_one(damping, noise) == noise[0]));
-    BOOST_TEST((in_one(damping, {}) == numbers(0.0, 0.0)));
-  }
-}
-
 BOOST_AUTO_TEST_CASE(coarse_of_coarse_is_coarse) {
   const auto noise = drawn(12);
   const std::span<const numbers> all(noise);
+  for (const double damping : {0.0, 0.3}) {
+    BOOST_TEST((in_one(damping, all.first(1)) == noise[0]));  // of one interval, the same bits
+    BOOST_TEST((in_one(damping, {}) == numbers(0.0, 0.0)));
+  }
   for (const double damping : {0.0, 1e-9, 0.3, 5.0}) {
     const auto coarser = [&](std::size_t length, auto&& of_some) {
       std::vector<numbers> result;
@@ -117,38 +121,6 @@ BOOST_AUTO_TEST_CASE(coarse_of_coarse_is_coarse) {
       BOOST_TEST(largest(in_one(damping, coarser(length, in_one)) - in_one(damping, all)) > 1e-3);
     }
   }
-}
-
-BOOST_AUTO_TEST_CASE(coarse_numbers_are_standard_normal_and_independent) {
-  constexpr std::int64_t count = 20'000;
-  constexpr std::int64_t n = 8;
-  constexpr double damping = 0.3;
-  const auto noise = drawn(count * n, counter_noise(seed(7)));
-  const auto each = [&](double scale, std::int64_t length) {
-    std::array<std::vector<double>, 2> result;
-    for (std::int64_t k = 0; k + 1 < count; ++k) {
-      const auto these =
-          std::span(noise).subspan(static_cast<std::size_t>(k * n), static_cast<std::size_t>(length));
-      const numbers xi = in_one(damping, these) * scale;
-      for (std::size_t i = 0; i < 2; ++i) result[i].push_back(xi[static_cast<Eigen::Index>(i)]);
-    }
-    return result;
-  };
-  const auto follow = [](const sample& x) {
-    return off(sample(x.begin(), x.end() - 1), sample(x.begin() + 1, x.end()));
-  };
-  const auto [x, y] = each(1.0, n);
-  constexpr double rate = false_alarms / 9;  // two times four, and their correlation
-  const double allowed = standard_errors(rate);
-  for (const auto& z : {x, y}) {
-    BOOST_TEST(mean_off(z, 0.0, 1.0) <= allowed);
-    BOOST_TEST(deviation_off(z, 1.0) <= allowed);
-    BOOST_TEST(kolmogorov_smirnov(z) <= kolmogorov_smirnov_limit(rate));
-    BOOST_TEST(follow(z) <= allowed);
-  }
-  BOOST_TEST(off(x, y) <= allowed);
-  BOOST_TEST(deviation_off(each(1.06, n)[0], 1.0) > allowed);  // 6 % are 12 standard errors
-  BOOST_TEST(follow(each(1.0, n + 4)[0]) > allowed);           // where neighbours share 4 intervals: also 12
 }
 
 BOOST_AUTO_TEST_CASE(a_path_gives_the_noise_of_its_intervals) {
@@ -181,9 +153,6 @@ BOOST_AUTO_TEST_CASE(a_path_gives_the_noise_of_its_intervals) {
   BOOST_TEST(path.begin() == 10);
   path.add(noise[0]);
   BOOST_TEST((over(10, 11) == noise[0]));
-}
-
-BOOST_AUTO_TEST_CASE(what_is_no_path_is_refused) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [](double interval, double friction, std::initializer_list<std::string_view> words) {
     return refuses<wrong>([&] { recorded_path<double, 2>(interval, friction); }, words);
@@ -232,7 +201,7 @@ BOOST_AUTO_TEST_CASE(without_halving_it_is_the_fresh_noise) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(two_halves_are_the_whole) {
+BOOST_AUTO_TEST_CASE(two_halves_and_eight_eighths_are_the_whole) {
   for (const double damping : {0.0, 1e-12, 1e-3, 0.7, 20.0}) {
     for (int halvings = 1; halvings <= 5; ++halvings) {
       const finer_noise whole(7, damping, halvings - 1);
@@ -247,15 +216,14 @@ BOOST_AUTO_TEST_CASE(two_halves_are_the_whole) {
       }
     }
   }
-}
-
-BOOST_AUTO_TEST_CASE(eighths_are_the_whole) {
   constexpr double damping = 0.7;
   for (std::int64_t step = 0; step < 20; ++step) {
     const triple whole = at(finer_noise(7, damping, 0), step);
-    const triple of_eight = recombined(finer_noise(7, damping, 3), damping / 8.0, step, 8);
-    BOOST_TEST(largest(whole - of_eight) <= 3.0 * 4.0 * 16.0 * eps);
-    BOOST_TEST((whole - recombined(finer_noise(8, damping, 3), damping / 8.0, step, 8)).norm() > 1e-3);
+    const auto off = [&](std::uint64_t seed) {
+      return largest(whole - recombined(finer_noise(seed, damping, 3), damping / 8.0, step, 8));
+    };
+    BOOST_TEST(off(7) <= 3.0 * 4.0 * 16.0 * eps);
+    BOOST_TEST(off(8) > 1e-3);
   }
 }
 
@@ -323,22 +291,168 @@ BOOST_AUTO_TEST_CASE(what_halves_is_no_noise_of_a_run) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(levels_share_the_path_and_nothing_else) {
-  constexpr std::int64_t count = 20'000;
-  sample whole, first, second, of_the_next;
-  for (std::int64_t n = 0; n < count; ++n) {
-    whole.push_back(at(finer_noise(seed(7), 0.7, 0), n)[0]);
-    first.push_back(at(finer_noise(seed(7), 0.7, 1), 2 * n)[0]);
-    second.push_back(at(finer_noise(seed(7), 0.7, 1), 2 * n + 1)[0]);
-    of_the_next.push_back(at(finer_noise(seed(7), 0.7, 1), 2 * n + 2)[0]);
+// Along a path.
+
+namespace {
+
+using state = phase_point<double, 2>;
+constexpr double tau = 0.02;   // an interval of the path
+constexpr double step = 0.12;  // six of them
+const bath warm = bath::of_sigma(2.0, 0.1);
+const in_bath galaxy(henon_heiles(), warm);
+const state start{{0.1, 0.05}, {-0.05, 0.1}};
+
+const auto symmetric = thermostat<placement::symmetric>(mclachlan2());
+const auto end = thermostat<placement::end>(mclachlan2());
+const auto middle = thermostat<placement::middle>(mclachlan2());
+const tabulated thirds("thirds", run_time_word("OABOBAO"),
+                       std::vector<double>{1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0}, {});
+
+template <class T = double>
+recorded_path<T, 2> path_of(std::uint64_t trajectory, std::int64_t intervals) {
+  recorded_path<T, 2> path(tau, warm.friction(), trajectory);
+  for (std::int64_t n = 0; n < intervals; ++n) {
+    vector<T, 2> xi;
+    counter_noise(7).normals(noise_place{trajectory, n, 0}, xi);
+    path.add(xi);
   }
-  // With a = exp(-.35) the halves are a/sqrt(1 + a^2) and 1/sqrt(1 + a^2) of the whole; a correlation r has
-  // the standard error (1 - r^2)/sqrt(n).
-  const double a = std::exp(-0.35);
-  const double scale = 1.0 / std::sqrt(1.0 + a * a);
-  const double allowed = standard_errors(false_alarms / 3) / std::sqrt(static_cast<double>(count));
-  BOOST_TEST(std::abs(correlation(whole, first) - a * scale) <= allowed * (1.0 - a * scale * a * scale));
-  BOOST_TEST(std::abs(correlation(whole, second) - scale) <= allowed * (1.0 - scale * scale));
-  BOOST_TEST(std::abs(correlation(whole, of_the_next)) <= allowed);
-  BOOST_TEST(std::abs(correlation(whole, first) - scale) > allowed);  // the halves the other way round
+  return path;
+}
+template <class T, Method M>
+along_path<T, 2> noise_of(const recorded_path<T, 2>& path, const M& method, double h = step) {
+  return {path, intervals_of_noise(word_of(method), method.coefficients()), h};
+}
+template <class T, Method M>
+auto stepper_of(const recorded_path<T, 2>& path, const M& method, double h = step) {
+  return make_stepper(galaxy, method, h, noise_of(path, method, h));
+}
+
+/// Some steps letter by letter, whose letters O are told by hand: the momentum goes through one interval of
+/// the path after the other.
+template <Method M>
+state by_hand(const recorded_path<double, 2>& path, const M& method, int steps, state x) {
+  const auto c = method.coefficients();
+  const std::string letters = word_of(method).letters();
+  std::int64_t interval = 0;
+  for (int n = 0; n < steps; ++n) {
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+      vector<double, 2> f;
+      force<double>(galaxy, x.q, f);
+      if (letters[i] == 'A') x.q += x.p * (c[i] * step);
+      if (letters[i] == 'B') x.p += f * (c[i] * step);
+      if (letters[i] != 'O') continue;
+      for (std::int64_t left = std::llround(c[i] * step / tau); left > 0; --left, ++interval) {
+        vector<double, 2> xi;
+        path.over(interval, interval + 1, xi);
+        x.p = x.p * warm.decay(tau) + xi * warm.deviation(tau);
+      }
+    }
+  }
+  return x;
+}
+
+template <Method M>
+void check_by_hand(const M& method) {
+  const auto path = path_of(3, 60);
+  const auto along = stepper_of(path, method);
+  auto run = along.open(start, 3);
+  along.advance(run, 10);
+  const state found = along.synchronous(run);
+  // Some thirty operations a step of numbers below 1, which grow little in a time of 1.2.
+  BOOST_TEST(distance(found, by_hand(path, method, 10, start)) <= 10 * 30 * eps);
+  BOOST_TEST(distance(found, by_hand(path_of(4, 60), method, 10, start)) > 1e-3);
+  auto watched = along.open(start, 3);  // looked at and cut
+  along.advance(watched, 4, 1, [](auto&&...) {});
+  along.advance(watched, 6);
+  BOOST_TEST(same_bits(along.synchronous(watched), found));
+  state plain = start;
+  for (int n = 0; n < 10; ++n) along.step(plain, 3, n);
+  BOOST_TEST(distance(found, plain) <= 10 * 30 * eps);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_run_sees_the_noise_of_its_path) {
+  check_by_hand(baoab());
+  check_by_hand(obabo());
+  check_by_hand(aboba());
+  check_by_hand(baoab_2x());
+  check_by_hand(end);
+  check_by_hand(symmetric);
+  check_by_hand(middle);
+  check_by_hand(thirds);
+}
+
+BOOST_AUTO_TEST_CASE(lanes_are_singles_to_the_bit) {
+  using T = pack<double, 8>;
+  const auto path = path_of<T>(40, 60);
+  const auto check = [&](const auto& method) {
+    const auto along = stepper_of(path, method);
+    const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.1);
+    const auto all = gather<T, 2>(8, [&](int k) { return starts(1, static_cast<std::uint64_t>(k)); });
+    lockstep<std::remove_cvref_t<decltype(along)>, T> together(along, all, 8, 40);
+    together.go_on(10);
+    for (int k = 0; k < 8; ++k) {
+      const auto trajectory_of_lane = 40 + static_cast<std::uint64_t>(k);
+      const auto alone = [&](std::uint64_t trajectory) {
+        const auto own = path_of(trajectory, 60);
+        const auto single = stepper_of(own, method);
+        auto run = single.open(lane(all, k), trajectory);
+        single.advance(run, 10);
+        return single.synchronous(run);
+      };
+      BOOST_TEST(same_bits(lane(together.synchronous(), k), alone(trajectory_of_lane)));
+      BOOST_TEST(!same_bits(lane(together.synchronous(), k), alone(trajectory_of_lane + 1)));
+      auto one_of_several = along.open(lane(all, k), trajectory_of_lane);  // each lane is stepped by itself
+      along.advance(one_of_several, 10);
+      BOOST_TEST(same_bits(along.synchronous(one_of_several), alone(trajectory_of_lane)));
+    }
+  };
+  check(baoab());
+  check(symmetric);
+}
+
+BOOST_AUTO_TEST_CASE(a_path_of_another_length_or_trajectory_is_refused) {
+  const auto refused = [](const auto& action, std::initializer_list<std::string_view> words) {
+    BOOST_TEST(refuses<wrong>(action, words));
+  };
+  const auto too_short = path_of(0, 59);  // ten steps need sixty
+  const auto along = stepper_of(too_short, baoab());
+  auto run = along.open(start);
+  along.advance(run, 9);
+  refused([&] { along.advance(run, 1); }, {"0 to 59", "for 54 to 60", "longer"});
+  const auto by_halves = stepper_of(too_short, symmetric);
+  auto other = by_halves.open(start);
+  by_halves.advance(other, 10);  // the last half is still to come
+  refused([&] { by_halves.synchronous(other); }, {"for 57 to 60"});
+
+  const auto single = path_of(3, 60);
+  const auto alone = stepper_of(single, baoab());
+  for (const std::uint64_t number : {0U, 2U, 4U}) {
+    auto shifted = alone.open(start, number);
+    refused([&] { alone.advance(shifted, 1); }, {"trajectory 3", "not of " + std::to_string(number)});
+  }
+  using T = pack<double, 4>;
+  const auto four = path_of<T>(3, 60);
+  const auto together = stepper_of(four, baoab());
+  auto shifted = together.open(start.cast<T>(), 4);  // would see its neighbours' noise
+  refused([&] { together.advance(shifted, 1); }, {"trajectory 3", "not of 4"});
+  auto beyond = together.open(start, 7);
+  refused([&] { together.advance(beyond, 1); }, {"trajectory 3", "not of 7"});
+  auto last = together.open(start, 6);
+  together.advance(last, 1);
+}
+
+BOOST_AUTO_TEST_CASE(steps_are_whole_intervals_in_the_parts_that_are_needed) {
+  const auto path = path_of(0, 6);
+  const auto refused = [&](const auto& method, double h, std::initializer_list<std::string_view> words) {
+    return refuses<wrong>([&] { noise_of(path, method, h); }, words);
+  };
+  BOOST_TEST(!refused(baoab(), 0.06, {}));
+  BOOST_TEST(refused(symmetric, 0.06, {"the step 0.06 in the 2 parts", "whole intervals 0.02"}));
+  BOOST_TEST(refused(baoab(), 0.05, {"the step 0.05 in the 1 parts"}));
+  BOOST_TEST(refused(baoab(), 0.01, {"the step 0.01"}));
+  BOOST_TEST(refused(baoab(), -0.02, {"the step -0.02"}));
+  BOOST_TEST(!refused(thirds, 0.06, {}));
+  BOOST_TEST(refused(thirds, 0.04, {"in the 3 parts"}));
 }

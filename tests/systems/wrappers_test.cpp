@@ -1,14 +1,29 @@
 // SPDX-License-Identifier: BSL-1.0
-// Systems around systems: in a bath, or with a quadratic part split off, a system is what it was.
+// Systems around systems: in a bath, or with a quadratic part split off, a system is what it was. With the
+// time as a coordinate, which drifts carry, driven motion has its order, is symplectic and reversible, and is
+// learned.
 #include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
 
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
+#include "nysalt/derivatives/check_force.hpp"
+#include "nysalt/derivatives/symplecticity.hpp"
 #include "nysalt/energy.hpp"
+#include "nysalt/ensembles/listed.hpp"
+#include "nysalt/families/aba.hpp"
+#include "nysalt/integrate.hpp"
 #include "nysalt/lanes.hpp"
+#include "nysalt/learn.hpp"
+#include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/in_bath.hpp"
+#include "nysalt/systems/in_time.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -17,7 +32,6 @@ namespace {
 
 const auto some_bath = bath::of_sigma(0.01, 0.05);
 using wrong = std::invalid_argument;
-const Eigen::MatrixXd spring{{1.0, -1.0}, {-1.0, 1.0}};  // that of two_masses
 
 /// What the concepts say of S is true of S in a bath, and force, energy, masses, modes and kick are the same.
 template <System S>
@@ -63,72 +77,38 @@ BOOST_AUTO_TEST_CASE(in_a_bath_it_is_what_the_system_is) {
   check_in_bath(black_box_with_derivative());
 }
 
-BOOST_AUTO_TEST_CASE(a_system_knows_its_bath_and_itself_alone) {
-  const in_bath system(fpu_chain<3>(50.0), bath::of_temperature(0.1, 2.0));
-  BOOST_TEST(system.bath().temperature() == 2.0);
-  BOOST_TEST(system.bath().friction() == 0.1);
-  BOOST_TEST(describe(system.base()) == "fpu_chain(pairs=3, omega=50)");
-}
-
 BOOST_AUTO_TEST_CASE(a_system_names_its_bath_if_that_acts) {
   const fpu_chain<3> chain(50.0);
-  BOOST_TEST(describe(in_bath(chain, some_bath)) ==
-             "fpu_chain(pairs=3, omega=50) in bath(friction=0.01, sigma=0.05)");
+  const in_bath system(chain, some_bath);
+  BOOST_TEST(system.bath().sigma() == 0.05);
+  BOOST_TEST(system.bath().friction() == 0.01);
+  BOOST_TEST(counted(system).bath().sigma() == 0.05);
+  BOOST_TEST(describe(system) == "fpu_chain(pairs=3, omega=50) in bath(friction=0.01, sigma=0.05)");
+  BOOST_TEST(describe(counted(system)) == describe(system));
+  BOOST_TEST(describe(system.base()) == describe(chain));
   BOOST_TEST(describe(in_bath(chain, bath::of_sigma(0.0, 0.0))) == describe(chain));
   BOOST_TEST(describe(in_bath(chain, bath::of_temperature(0.0, 1.0))) == describe(chain));
   BOOST_TEST(describe(in_bath(chain, bath::of_sigma(0.1, 0.0))) != describe(chain));
   // Another bath, another system: what was learned in one is not for the other.
-  BOOST_TEST(describe(in_bath(chain, some_bath)) != describe(in_bath(chain, bath::of_sigma(0.01, 0.06))));
+  BOOST_TEST(describe(system) != describe(in_bath(chain, bath::of_sigma(0.01, 0.06))));
   const potential_only unnamed;
   BOOST_TEST(describe(in_bath(unnamed, some_bath)) == describe(unnamed) + " in " + some_bath.description());
 }
 
-BOOST_AUTO_TEST_CASE(counting_keeps_the_bath) {
-  const counted watched(in_bath(fpu_chain<3>(50.0), some_bath));
-  BOOST_TEST(watched.bath().sigma() == 0.05);
-  BOOST_TEST(describe(watched) == describe(in_bath(fpu_chain<3>(50.0), some_bath)));
-}
-
-// A quadratic part split off changes nothing but what is soft.
+// A quadratic part split off.
 
 static_assert(HasQuadraticPart<with_quadratic_part<two_masses>>);
 static_assert(HasQuadraticPart<with_quadratic_part<potential_only>>);
 static_assert(!HasQuadraticPart<two_masses> && !HasQuadraticPart<potential_only>);
 
-BOOST_AUTO_TEST_CASE(what_is_soft_is_the_force_without_the_quadratic_part) {
-  const with_quadratic_part split(two_masses(), spring);
-  draws random;
-  for (int n = 0; n < 10; ++n) {
-    const auto q = random.state(split, 1.0).q;
-    vector<double, 2> soft;
-    split.soft_force(q, soft);
-    for (Eigen::Index i = 0; i < 2; ++i) {
-      BOOST_TEST(std::abs(soft[i] + q[i] * q[i] * q[i]) <= 8.0 * eps);  // eight operations below 1
-    }
-    vector<double, 2> whole;
-    vector<double, 2> alone;
-    force<double>(split, q, whole);
-    force<double>(two_masses(), q, alone);
-    BOOST_TEST((whole == alone));
-    BOOST_TEST((whole - soft).norm() > 1e-6);
-  }
-}
-
 BOOST_AUTO_TEST_CASE(the_modes_are_those_of_the_matrix_and_the_masses) {
-  const auto modes = with_quadratic_part(two_masses(), spring).modes();
+  const auto modes = split_masses().modes();
   BOOST_TEST(modes.frequencies[0] == 0.0);
   BOOST_TEST(std::abs(modes.frequencies[1] - std::sqrt(1.25)) <= 8.0 * eps);  // 1/m1 + 1/m2
-  const auto unit = with_quadratic_part(henon_heiles(), Eigen::MatrixXd::Identity(2, 2)).modes();
-  BOOST_TEST((unit.frequencies - Eigen::Vector2d::Ones()).norm() <= 4.0 * eps);
-}
-
-BOOST_AUTO_TEST_CASE(it_says_what_was_split_off) {
   const with_quadratic_part split(henon_heiles(), Eigen::MatrixXd::Identity(2, 2) * 4.0);
+  BOOST_TEST((split.modes().frequencies - Eigen::Vector2d(2.0, 2.0)).norm() <= 8.0 * eps);
   BOOST_TEST(describe(split) == describe(henon_heiles()) + " with a quadratic part of frequencies up to 2");
   BOOST_TEST(describe(split.base()) == describe(henon_heiles()));
-}
-
-BOOST_AUTO_TEST_CASE(a_matrix_that_does_not_fit_is_refused) {
   const auto made = [](const Eigen::MatrixXd& stiffness) {
     return [=] { with_quadratic_part(henon_heiles(), stiffness); };
   };
@@ -136,4 +116,116 @@ BOOST_AUTO_TEST_CASE(a_matrix_that_does_not_fit_is_refused) {
   BOOST_TEST(refuses<wrong>(made(-Eigen::MatrixXd::Identity(2, 2)), {"with_quadratic_part", "must be >= 0"}));
   BOOST_TEST(refuses<wrong>(made(Eigen::MatrixXd{{1.0, 2.0}, {0.0, 1.0}}), {"symmetric"}));
   BOOST_TEST(!refuses<wrong>(made(Eigen::MatrixXd::Zero(2, 2)), {}));
+}
+
+// In time.
+
+namespace {
+
+const in_time<driven_pendulum> pendulum_in_time(driven_pendulum(0.4, 1.7));
+const auto start = pendulum_in_time.state({vector<double, 1>(0.5), vector<double, 1>(-0.2)}, 0.3);
+
+template <class M>
+phase_point<double, 2> after(const M& method, double step, int steps) {
+  return integrate(pendulum_in_time, method, step, start, steps).finish;
+}
+
+/// q'' = -q + cos(w t) from rest at q = 0 at the time 0: (cos w t - cos t)/(1 - w^2).
+struct driven_oscillator {
+  static constexpr int dimension = 1;
+  template <class T>
+  T potential(const vector<T, 1>& q, const T& t) const {
+    using std::cos;
+    return q[0] * q[0] * 0.5 - q[0] * cos(t * 0.6);
+  }
+};
+/// Unequal masses, each of which counts.
+struct driven_pair {
+  static constexpr int dimension = 2;
+  double inverse_mass(Eigen::Index i) const { return i == 0 ? 1.0 : 0.25; }
+  template <class T>
+  T potential(const vector<T, 2>& q, const T& t) const {
+    return (q[0] - q[1]) * (q[0] - q[1]) * 0.5 + q[0] * t;
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(time_goes_as_it_does) {
+  const auto end = after(verlet(), 0.125, 80);  // sums of eighths are exact
+  BOOST_TEST(pendulum_in_time.time(start) == 0.3);
+  BOOST_TEST(std::abs(pendulum_in_time.time(end) - 10.3) <= 80.0 * 10.0 * eps);
+  BOOST_TEST(pendulum_in_time.at_its_time(start).q[0] == 0.5);
+  BOOST_TEST(pendulum_in_time.at_its_time(start).p[0] == -0.2);
+  BOOST_CHECK_THROW(driven_pendulum(std::numeric_limits<double>::quiet_NaN(), 1.0), wrong);
+  BOOST_CHECK_THROW(pendulum_in_time.state({vector<double, 1>(0.0), vector<double, 1>(0.0)},
+                                           std::numeric_limits<double>::infinity()),
+                    wrong);
+  static_assert(!NystromSystem<in_time<driven_pendulum>> && SeparableSystem<in_time<driven_pendulum>>);
+}
+
+// S6 at a step of .01 errs by some 1e-13, and rounding of 1000 steps by as much.
+BOOST_AUTO_TEST_CASE(a_driven_oscillator_goes_where_it_must) {
+  const in_time<driven_oscillator> system;
+  const auto from = system.state({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.0);
+  const auto end = integrate(system, blanes_moan_s6(), 0.01, from, 1000).finish;
+  const double exact = (std::cos(6.0) - std::cos(10.0)) / (1.0 - 0.36);
+  BOOST_TEST(std::abs(end.q[0] - exact) <= 1e-11);
+  BOOST_TEST(std::abs(end.q[0] - (std::cos(6.06) - std::cos(10.0)) / 0.64) > 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE(masses_of_driven_systems_count) {
+  const in_time<driven_pair> system;
+  const auto x = system.state({{0.1, 0.2}, {1.0, 2.0}}, 0.5);
+  vector<double, 3> v;
+  system.velocity(x.p, v);
+  BOOST_TEST(v[0] == 1.0);
+  BOOST_TEST(v[1] == 0.5);
+  BOOST_TEST(v[2] == 1.0);
+  BOOST_TEST(std::abs(energy<double>(system, x)) <= 4.0 * eps);
+  BOOST_TEST(check_force(system, {x.q}, {x.p}).passed());
+}
+
+BOOST_AUTO_TEST_CASE(words_have_their_orders_on_driven_motion) {
+  const auto exact = after(blanes_moan_s6(), 0.005, 1000);
+  const auto order = [&](const auto& method, double step, int steps) {
+    return std::log2(distance(after(method, step, steps), exact) /
+                     distance(after(method, step / 2, 2 * steps), exact));
+  };
+  // The next even power of the step changes the ratio by less than a tenth of an order here.
+  BOOST_TEST(std::abs(order(verlet(), 0.05, 100) - 2.0) < 0.1);
+  BOOST_TEST(std::abs(order(forest_ruth(), 0.05, 100) - 4.0) < 0.2);
+}
+
+// Four products a sum, of entries of order one, each off by some hundred roundings.
+BOOST_AUTO_TEST_CASE(steps_are_symplectic_and_go_back) {
+  BOOST_TEST(symplecticity_defect(pendulum_in_time, pefrl(), 0.2, start) <= 4.0 * 100.0 * eps);
+  auto x = start;
+  make_stepper(pendulum_in_time, pefrl(), 0.2).step(x);
+  BOOST_TEST(distance(x, start) > 0.01);
+  make_stepper(pendulum_in_time, pefrl(), -0.2).step(x);
+  BOOST_TEST(distance(x, start) <= 100.0 * eps);
+}
+
+// H changes, as work is done, and H + p_t hardly does.
+BOOST_AUTO_TEST_CASE(the_energy_with_that_of_the_drive_stays) {
+  const auto end = after(verlet(), 0.01, 1000);
+  BOOST_TEST(std::abs(energy<double>(pendulum_in_time, end)) < 1e-4);
+  BOOST_TEST(std::abs(end.p[1] - start.p[1]) > 0.01);
+}
+
+BOOST_AUTO_TEST_CASE(a_method_is_learned_on_driven_motion) {
+  std::vector<phase_point<double, 2>> states;
+  for (int k = 0; k < 32; ++k) {
+    states.push_back(pendulum_in_time.state(
+        {vector<double, 1>(0.05 * k - 0.8), vector<double, 1>(0.3 - 0.02 * k)}, 0.37 * k));
+  }
+  const auto data = [&](std::ptrdiff_t from) {
+    const listed<2> starts({states.begin() + from, states.begin() + from + 16});
+    return make_flow_map_data(pendulum_in_time, starts, fine_steps(0.01, blanes_moan_s6()),
+                              {.step = 0.5, .horizon = 5.0, .trajectories = 16, .seed = 1});
+  };
+  const auto found = learn(aba<3>(), pendulum_in_time, data(0), data(16), {.random_starts = 4});
+  BOOST_TEST(found.summary.usable, found.summary.reason);
+  BOOST_TEST(found.summary.held_out_loss < 0.6 * found.summary.held_out_start_loss);
 }
