@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
-// The bath's formulas, against more digits and in their limits.
-#include "nysalt/bath.hpp"
-
-#include <fmt/format.h>
-
-#include <cmath>
-#include <limits>
-#include <utility>
-
+// Compiled with -O1: 3 s at -O0, 0.1 s at -O1.
+// The bath's formulas, against more digits and in their limits; and two letters O that meet between steps:
+// one draw for the run, and two independent halves for who looks.
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/scalars/pack.hpp"
+#include "../support/seeds.hpp"
+#include "../support/statistics.hpp"
+#include "../support/systems.hpp"
+#include "nysalt/core.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -37,7 +34,6 @@ double some_size(draws& random, double low, double high) {
 }
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -61,14 +57,18 @@ BOOST_AUTO_TEST_CASE(the_naive_formula_would_be_found_out) {
   BOOST_TEST(naive_deviation(1e-10, 1.0, 1e-8) == 0.0);
 }
 
+// 1 - e^{-2 gamma t} is 2 gamma t to a relative gamma t: nothing is left of it but sigma sqrt(t). Below the
+// least normal number 1/gamma overflows.
 BOOST_AUTO_TEST_CASE(without_friction_the_deviation_grows_as_a_random_walk) {
   const auto heating = bath::of_sigma(0.0, 0.7);
   for (const double time : {1e-8, 0.01, 3.0}) {
     BOOST_TEST(heating.deviation(time) == std::sqrt(time) * 0.7);
     BOOST_TEST(heating.decay(time) == 1.0);
-    // and that is where small frictions go: sqrt(1 - gamma t) from it.
-    BOOST_TEST(relative(bath::of_sigma(1e-20, 0.7).deviation(time), 0.7 * std::sqrt(time)) <= 4.0 * eps);
+    for (const double friction : {1e-20, 1e-300, 1e-310, 5e-324}) {
+      BOOST_TEST(relative(bath::of_sigma(friction, 0.7).deviation(time), 0.7 * std::sqrt(time)) <= 4.0 * eps);
+    }
   }
+  BOOST_TEST(relative(bath::of_sigma(1e-3, 0.7).deviation(0.01), heating.deviation(0.01)) > 4.0 * eps);
 }
 
 BOOST_AUTO_TEST_CASE(a_long_time_forgets) {
@@ -125,18 +125,20 @@ BOOST_AUTO_TEST_CASE(without_friction_there_is_no_temperature_unless_it_was_give
 }
 
 BOOST_AUTO_TEST_CASE(it_acts_if_there_is_friction_or_noise) {
-  BOOST_TEST(!bath::of_sigma(0.0, 0.0).acts());
-  BOOST_TEST(!bath::of_temperature(0.0, 1.0).acts());
-  BOOST_TEST(bath::of_sigma(0.1, 0.0).acts());
+  for (const auto& idle : {bath::of_sigma(0.0, 0.0), bath::of_temperature(0.0, 1.0)}) {
+    BOOST_TEST(!idle.acts());
+    BOOST_TEST(idle.deviation(0.3) == 0.0);
+  }
   BOOST_TEST(bath::of_sigma(0.0, 0.1).acts());
-  BOOST_TEST(bath::of_temperature(0.1, 0.0).acts());
-  BOOST_TEST(bath::of_temperature(0.1, 0.0).deviation(0.3) == 0.0);
-  BOOST_TEST(bath::of_sigma(0.0, 0.0).deviation(0.3) == 0.0);
+  for (const auto& cold : {bath::of_sigma(0.1, 0.0), bath::of_temperature(0.1, 0.0)}) {
+    BOOST_TEST(cold.acts());
+    BOOST_TEST(cold.deviation(0.3) == 0.0);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   using wrong = std::invalid_argument;
-  for (const double bad : {-1e-300, -1.0, infinite, -infinite, not_a_number}) {
+  for (const double bad : {-1e-300, -1.0, infinite, -infinite, std::nan("")}) {
     const std::string said = fmt::format("got {}", bad);
     BOOST_TEST(refuses<wrong>([&] { bath::of_sigma(bad, 1.0); }, {"bath", "friction", "negative", said}));
     BOOST_TEST(refuses<wrong>([&] { bath::of_sigma(1.0, bad); }, {"bath", "sigma", "negative", said}));
@@ -152,12 +154,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   BOOST_TEST(std::isfinite(bath::of_temperature(8e307, 1.0).sigma()));
 }
 
-BOOST_AUTO_TEST_CASE(it_says_what_it_is) {
-  BOOST_TEST(bath::of_sigma(0.01, 0.05).description() == "bath(friction=0.01, sigma=0.05)");
-}
-
 // da/dt = -gamma a, and d(s^2)/dt = sigma^2 a^2.
-BOOST_AUTO_TEST_CASE(derivatives_flow_through_it) {
+BOOST_AUTO_TEST_CASE(derivatives_and_lanes_flow_through_it) {
   using D = dual<double, 1>;
   draws random;
   for (int n = 0; n < 50; ++n) {
@@ -170,21 +168,10 @@ BOOST_AUTO_TEST_CASE(derivatives_flow_through_it) {
     BOOST_TEST(std::abs(a.derivative[0] + noisy.friction() * a.value) <= 4.0 * eps * noisy.friction());
     const double slope = noisy.sigma() * noisy.sigma() * a.value * a.value / (2.0 * s.value);
     BOOST_TEST(relative(s.derivative[0], slope) <= 16.0 * eps);
+    const pack<double, 2> times(time.value);
+    BOOST_TEST((noisy.decay(times)[1] == a.value && noisy.deviation(times)[1] == s.value));
     const D walk = bath::of_sigma(0.0, noisy.sigma()).deviation(time);
     BOOST_TEST(relative(walk.derivative[0], 0.5 * noisy.sigma() / std::sqrt(time.value)) <= 4.0 * eps);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(each_lane_has_the_bits_of_double) {
-  draws random;
-  const auto noisy = bath::of_sigma(0.3, 0.7);
-  pack<double, 5> time;
-  for (int k = 0; k < 5; ++k) time.set(k, random.uniform(0.0, 1.0));
-  const auto a = noisy.decay(time);
-  const auto s = noisy.deviation(time);
-  for (int k = 0; k < 5; ++k) {
-    BOOST_TEST(a[k] == noisy.decay(time[k]));
-    BOOST_TEST(s[k] == noisy.deviation(time[k]));
   }
 }
 
@@ -207,12 +194,167 @@ BOOST_AUTO_TEST_CASE(the_deviation_of_no_time_has_the_derivative_of_its_limit) {
   }
 }
 
-// 1 - e^{-2 gamma t} is 2 gamma t to a relative gamma t: nothing is left of it but sigma sqrt(t). Below the
-// least normal number 1/gamma overflows.
-BOOST_AUTO_TEST_CASE(friction_that_is_hardly_there_is_none) {
-  const double walk = bath::of_sigma(0.0, 0.05).deviation(0.01);
-  for (const double friction : {1e-20, 1e-300, 1e-310, 5e-324}) {
-    BOOST_TEST(relative(bath::of_sigma(friction, 0.05).deviation(0.01), walk) <= 4.0 * eps);
+namespace {
+
+using O = ornstein_uhlenbeck;
+using cursor = noise_cursor<counter_noise, double, 2, no_room>;
+using state = flow_state<double, 2>;
+
+const counter_noise source(seed(1));
+const potential_only system_of_unit_masses;
+
+/// c and h are such that the two halves differ.
+struct meeting {
+  bath heat_bath;
+  O::prepared<double> end = O::prepare(0.3, 0.5, heat_bath);
+  O::prepared<double> begin = O::prepare(0.7, 0.5, heat_bath);
+  merged_half_steps<double> seam{end, begin, heat_bath.sigma() > 0.0};
+};
+
+cursor at(std::uint64_t trajectory, std::int64_t step, bool bath_is_warm = true) {
+  return {&source, trajectory, step, 2, bath_is_warm, {}, {}};
+}
+state moving(double p) { return {{{0.1, 0.2}, {p, p}}, {0.0, 0.0}}; }
+
+/// Momenta after a part of the seam of what is at rest before it: the noise of that part.
+vector<double, 2> noise_of(auto&& part, std::uint64_t trajectory, std::int64_t step) {
+  auto x = moving(0.0);
+  auto where = at(trajectory, step);
+  part(where, x);
+  return x.p;
+}
+vector<double, 2> end_of(const meeting& two, std::uint64_t trajectory, std::int64_t step) {
+  return noise_of([&](auto&... at) { two.seam.end(system_of_unit_masses, at...); }, trajectory, step);
+}
+vector<double, 2> begin_of(const meeting& two, std::uint64_t trajectory, std::int64_t step) {
+  return noise_of([&](auto&... at) { two.seam.begin(system_of_unit_masses, at...); }, trajectory, step);
+}
+vector<double, 2> across(const meeting& two, std::uint64_t trajectory, std::int64_t step) {
+  return noise_of([&](auto&... at) { two.seam.cross(system_of_unit_masses, at...); }, trajectory, step);
+}
+
+struct samples {
+  std::vector<double> first;   // should be xi_1
+  std::vector<double> second;  // should be xi_2
+};
+
+/// How far the covariance is from the identity, in standard errors, which are sqrt(2/n) for variances and
+/// sqrt(1/n) for the covariance.
+double off_identity(const samples& s) {
+  const auto n = static_cast<double>(s.first.size());
+  return std::max({std::abs(covariance(s.first, s.first) - 1.0) * std::sqrt(n / 2.0),
+                   std::abs(covariance(s.second, s.second) - 1.0) * std::sqrt(n / 2.0),
+                   std::abs(covariance(s.first, s.second)) * std::sqrt(n)});
+}
+
+const std::vector<meeting> meetings{{bath::of_sigma(0.8, 0.6)}, {bath::of_sigma(0.0, 0.6)}};
+constexpr std::uint64_t many = 20'000;
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_halves_are_independent_and_standard_normal) {
+  constexpr double each = false_alarms / 18;  // two baths, nine comparisons
+  const double allowed = standard_errors(each);
+  for (const auto& two : meetings) {
+    samples same_step;
+    samples next_step;
+    for (std::uint64_t m = 0; m < many; ++m) {
+      same_step.first.push_back(end_of(two, m, 3)[1] / two.end.deviation);
+      same_step.second.push_back(begin_of(two, m, 3)[1] / two.begin.deviation);
+      next_step.first.push_back(same_step.second.back());
+      next_step.second.push_back(end_of(two, m, 4)[1] / two.end.deviation);
+    }
+    BOOST_TEST(off_identity(same_step) < allowed);
+    BOOST_TEST(off_identity(next_step) < allowed);
+    BOOST_TEST(mean_off(same_step.first, 0.0, 1.0) < allowed);
+    BOOST_TEST(mean_off(same_step.second, 0.0, 1.0) < allowed);
+    BOOST_TEST(kolmogorov_smirnov(same_step.second) < kolmogorov_smirnov_limit(each));
   }
-  BOOST_TEST(relative(bath::of_sigma(1e-3, 0.05).deviation(0.01), walk) > 4.0 * eps);
+}
+
+// xi_1 = u xi + v zeta with xi_2 = v xi + u zeta are correlated by 2 u v, and without zeta they are one.
+BOOST_AUTO_TEST_CASE(a_wrong_sign_or_weight_would_be_found_out) {
+  const auto& two = meetings.front();
+  const double of_end = two.begin.decay * two.end.deviation;
+  const double u = of_end / std::hypot(of_end, two.begin.deviation);
+  const double v = two.begin.deviation / std::hypot(of_end, two.begin.deviation);
+  samples right;
+  samples wrong_sign;
+  samples wrong_weight;
+  for (std::uint64_t m = 0; m < many; ++m) {
+    vector<double, 2> xi;
+    vector<double, 2> zeta;
+    source.normals({m, 3, 0}, xi);
+    source.halving({m, 3, 0}, zeta);
+    right.first.push_back(u * xi[1] + v * zeta[1]);
+    right.second.push_back(v * xi[1] - u * zeta[1]);
+    wrong_sign.first.push_back(right.first.back());
+    wrong_sign.second.push_back(v * xi[1] + u * zeta[1]);
+    wrong_weight.first.push_back(u * xi[1] + u * zeta[1]);
+    wrong_weight.second.push_back(right.second.back());
+    // What the seam itself does, to rounding: two products of numbers below 6 and a sum.
+    BOOST_TEST(std::abs(end_of(two, m, 3)[1] / two.end.deviation - right.first.back()) <= 32.0 * eps);
+    BOOST_TEST(std::abs(begin_of(two, m, 3)[1] / two.begin.deviation - right.second.back()) <= 32.0 * eps);
+  }
+  BOOST_TEST(off_identity(right) < standard_errors(false_alarms / 3));
+  BOOST_TEST(off_identity(wrong_sign) > 40.0);
+  BOOST_TEST(off_identity(wrong_weight) > 10.0);
+}
+
+// a_2 (a_1 p + s_1 xi_1) + s_2 xi_2 = a_2 a_1 p + s xi, to some ten roundings of numbers below 6.
+BOOST_AUTO_TEST_CASE(what_crosses_the_seam_is_its_two_halves) {
+  for (const auto& two : meetings) {
+    const double s = std::hypot(two.begin.decay * two.end.deviation, two.begin.deviation);
+    for (std::uint64_t m = 0; m < 100; ++m) {
+      auto merged = moving(1.5);
+      auto plain = merged;
+      auto where = at(m, 5);
+      two.seam.cross(system_of_unit_masses, where, merged);
+      two.seam.end(system_of_unit_masses, where, plain);
+      const double between = plain.p[0];
+      two.seam.begin(system_of_unit_masses, where, plain);
+      BOOST_TEST((merged.p - plain.p).cwiseAbs().maxCoeff() <= 64.0 * eps);
+      BOOST_TEST(std::abs(merged.p[0] - between) > 1e-6);
+      vector<double, 2> xi;
+      source.normals({m, 5, 0}, xi);
+      BOOST_TEST(std::abs(across(two, m, 5)[0] - s * xi[0]) <= 64.0 * eps);
+      BOOST_TEST((merged.q == moving(0.0).q));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(before_the_first_step_there_is_only_the_half_that_begins_it) {
+  const auto& two = meetings.front();
+  for (std::uint64_t m = 0; m < 10; ++m) {
+    BOOST_TEST((across(two, m, 0) == begin_of(two, m, 0)));
+    BOOST_TEST((across(two, m, 1) != begin_of(two, m, 1)));
+    BOOST_TEST((end_of(two, m, 0) == vector<double, 2>::Zero()));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_cold_bath_damps_and_draws_nothing) {
+  const meeting two{bath::of_sigma(0.8, 0.0)};
+  cursor where{nullptr, 0, 3, 2, false, {}, {}};  // a draw would crash
+  const auto damped_by = [&](auto&& part) {
+    auto x = moving(1.0);
+    part(x);
+    return x.p[0];
+  };
+  BOOST_TEST(damped_by([&](auto& x) { two.seam.cross(system_of_unit_masses, where, x); }) ==
+             two.begin.decay * two.end.decay);
+  BOOST_TEST(damped_by([&](auto& x) { two.seam.end(system_of_unit_masses, where, x); }) == two.end.decay);
+  BOOST_TEST(damped_by([&](auto& x) { two.seam.begin(system_of_unit_masses, where, x); }) == two.begin.decay);
+}
+
+// Letters O with coefficient 0 at both ends are odd, but not NaN.
+BOOST_AUTO_TEST_CASE(a_seam_without_a_duration_does_nothing) {
+  const auto heat_bath = bath::of_sigma(0.8, 0.6);
+  const auto none = O::prepare(0.0, 0.5, heat_bath);
+  const merged_half_steps<double> seam(none, none, true);
+  auto x = moving(1.0);
+  auto where = at(0, 3);
+  seam.end(system_of_unit_masses, where, x);
+  seam.begin(system_of_unit_masses, where, x);
+  seam.cross(system_of_unit_masses, where, x);
+  BOOST_TEST((x.p == moving(1.0).p));
 }

@@ -1,33 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
-// One run: what it refuses, when it is looked at, and when it is given up. Trajectories side by side go as
-// each would alone: to the bit, to the step at which it diverges, and in what an observer is shown.
-#include "nysalt/integrate.hpp"
-
+// One run: what it refuses, when it is looked at, and when it is given up. That trajectories side by side go
+// as each would alone, also where one diverges, is in data/ensembles_test.cpp.
 #include <boost/numeric/odeint/integrate/integrate_const.hpp>
 #include <boost/numeric/odeint/integrate/integrate_n_steps.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <span>
-#include <type_traits>
-#include <vector>
-
 #include "../laws/laws.hpp"
-#include "../support/draws.hpp"
 #include "../support/refusal.hpp"
-#include "../support/rounding.hpp"
-#include "nysalt/detail/divergence.hpp"
-#include "nysalt/detail/lockstep.hpp"
-#include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/core.hpp"
 #include "nysalt/references/odeint_stepper.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/in_bath.hpp"
-#include "nysalt/systems/pendulum.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -140,7 +120,6 @@ BOOST_AUTO_TEST_CASE(the_observer_is_called_every_so_often_with_the_synchronous_
 
 BOOST_AUTO_TEST_CASE(divergence_is_named_by_its_first_step_whoever_looks) {
   gives_up_in_time(oscillator, by_verlet, 2.001, one(1, 0));  // by its energy
-  gives_up_in_time(oscillator, tabulated(mclachlan2()), 2.6, one(1, 0));
   gives_up_in_time(chain, by_verlet, 0.05, {Eigen::VectorXd::Constant(6, 0.1), Eigen::VectorXd::Ones(6)});
   gives_up_in_time(runaway(), by_verlet, 0.1, one(1, 1));  // without an energy, by what is not finite
   BOOST_TEST(first_bad_step(oscillator, by_verlet, 1.99, one(1, 0), 5000) == -1);
@@ -218,79 +197,6 @@ BOOST_AUTO_TEST_CASE(a_bath_that_heats_has_no_bound) {
 
 namespace {
 
-struct watched {
-  std::vector<std::int64_t> steps;
-  std::vector<double> numbers;
-  std::optional<std::int64_t> diverged_at;
-  friend bool operator==(const watched&, const watched&) = default;
-};
-
-/// What an observer of one trajectory sees from its first step on.
-template <int N>
-watched alone(const auto& stepper, const phase_point<double, N>& start, std::int64_t steps,
-              std::int64_t every) {
-  watched seen;
-  const auto observe = [&](std::int64_t n, double, const auto& x) {
-    if (n == 0) return;
-    seen.steps.push_back(n);
-    seen.numbers.insert(seen.numbers.end(), x.q.begin(), x.q.end());
-    seen.numbers.insert(seen.numbers.end(), x.p.begin(), x.p.end());
-  };
-  seen.diverged_at = integrate(stepper, start, steps, observe, every).diverged_at;
-  return seen;
-}
-
-/// The same of each lane.
-template <class T, class Stepper, int N>
-std::vector<watched> together(const Stepper& stepper, const std::vector<phase_point<double, N>>& starts,
-                              std::int64_t steps, std::int64_t every) {
-  const auto n = static_cast<std::size_t>(starts.front().size());
-  const auto count = static_cast<int>(starts.size());
-  std::vector<watched> seen(starts.size());
-  const auto start = gather<T, N>(count, [&](int k) { return starts[static_cast<std::size_t>(k)]; });
-  lockstep<Stepper, T> all(stepper, start, count);
-  const auto read = [&](const auto& x, std::span<T> numbers) {
-    for (std::size_t i = 0; i < n; ++i) {
-      numbers[i] = x.q[static_cast<Eigen::Index>(i)];
-      numbers[n + i] = x.p[static_cast<Eigen::Index>(i)];
-    }
-  };
-  const auto take = [&](std::int64_t step, std::span<const T> numbers, const auto& live) {
-    for (int k = 0; k < count; ++k) {
-      if (!lane(live, k)) continue;
-      auto& of_lane = seen[static_cast<std::size_t>(k)];
-      of_lane.steps.push_back(step);
-      for (const T& number : numbers) of_lane.numbers.push_back(lane(number, k));
-    }
-  };
-  all.go_on(steps, every, 2 * n, read, take);
-  for (int k = 0; k < count; ++k) seen[static_cast<std::size_t>(k)].diverged_at = all.diverged_at(k);
-  return seen;
-}
-
-/// How many of as many starts as there are lanes, or fewer, diverge; each must go as it would alone.
-template <class T, int N>
-int diverged_of(const auto& stepper, std::vector<phase_point<double, N>> starts, std::int64_t steps,
-                std::int64_t every) {
-  starts.resize(std::min<std::size_t>(starts.size(), lanes_in<T>));
-  const auto all = together<T>(stepper, starts, steps, every);
-  int diverged = 0;
-  for (std::size_t k = 0; k < starts.size(); ++k) {
-    const watched expected = alone(stepper, starts[k], steps, every);
-    BOOST_TEST((all[k] == expected), describe(stepper.system()) << ", lane " << k << " of " << lanes_in<T>);
-    diverged += expected.diverged_at ? 1 : 0;
-  }
-  return diverged;
-}
-
-/// Half of them stay in the well, below its saddle at energy 1/6; others leave it at times of their own.
-std::vector<phase_point<double, 2>> near_the_saddle() {
-  draws random;
-  std::vector<phase_point<double, 2>> starts;
-  for (int m = 0; m < 11; ++m) starts.push_back(random.state(henon_heiles(), m % 2 == 0 ? 0.2 : 1.5));
-  return starts;
-}
-
 struct at_most_four : henon_heiles {
   static constexpr int lanes = 4;
 };
@@ -301,57 +207,23 @@ static_assert(std::is_same_v<scalar_of_lanes<4>, pack<double, 4>>);
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_lane_goes_as_it_would_alone_and_leaves_the_others_alone_where_it_diverges) {
-  const henon_heiles galaxy;
-  const auto fixed = make_stepper(galaxy, verlet(), .05);
-  const auto starts = near_the_saddle();
-  for (const std::int64_t every : {1, 5, 64, 1000}) {
-    for (const int diverged : {diverged_of<pack<double, 16>>(fixed, starts, 1000, every),
-                               diverged_of<pack<double, 3>>(fixed, starts, 1000, every)}) {
-      BOOST_TEST(diverged > 0);
-      BOOST_TEST(diverged < 11);
-    }
-    diverged_of<double>(fixed, starts, 1000, every);
-  }
-  const auto all = together<pack<double, 16>>(fixed, starts, 100, 7);
-  BOOST_TEST((all[0] == alone(fixed, starts[0], 100, 7)));
-  BOOST_TEST(!(all[0] == alone(fixed, starts[2], 100, 7)));
-  BOOST_TEST(!(all[0] == alone(fixed, starts[0], 100, 8)));
-}
-
 BOOST_AUTO_TEST_CASE(any_system_goes_in_lanes) {
   draws random;
   for (const specimen& one : specimens_with([](const model& system) { return system.facts().in_lanes; })) {
-    std::vector<state> starts;
-    for (int m = 0; m < 5; ++m) starts.push_back(one.at_random(random));
     for (const auto& method : {by_verlet, tabulated(srkn6b())}) {
-      diverged_of<detail::lanes>(make_stepper(one.system, method, .02), starts, 70, 3);
+      const run_of run{one.system, method, 0.02};
+      BOOST_TEST(run.lanes_are_alone(one, random), describe(one.system) << ", " << method.name());
     }
   }
-}
-
-// In parts or at once: the same, as long as the parts end where divergence is looked for.
-BOOST_AUTO_TEST_CASE(parts_make_a_whole) {
-  using T = pack<double, 16>;
-  const henon_heiles galaxy;
-  const auto fixed = make_stepper(galaxy, verlet(), .05);
-  const auto starts = near_the_saddle();
-  const auto start = gather<T, 2>(11, [&](int k) { return starts[static_cast<std::size_t>(k)]; });
-  lockstep<decltype(fixed), T> whole(fixed, start, 11);
-  lockstep<decltype(fixed), T> parts(fixed, start, 11);
-  whole.go_on(256);
-  for (int end = 64; end <= 256; end += 64) parts.go_on(end);
-  BOOST_TEST(parts.step() == 256);
-  for (int k = 0; k < 11; k += 2) {
-    BOOST_TEST((lane(whole.synchronous(), k).q == lane(parts.synchronous(), k).q));
-  }
+  const auto& galaxy = specimen_of("henon_heiles");
+  BOOST_TEST(!(run_of{galaxy.system, by_verlet, 0.02}).lanes_are_alone(galaxy, random, 32));  // a step apart
 }
 
 // Within Boost.Odeint's loops our methods give our states.
 BOOST_AUTO_TEST_CASE(the_loops_of_odeint_see_our_states) {
   namespace odeint = boost::numeric::odeint;
   const henon_heiles galaxy;
-  const auto start = near_the_saddle()[0];
+  const auto start = draws().state(galaxy, 0.2);
   constexpr double h = 0.1;
   constexpr std::size_t steps = 100;
   using states = std::vector<phase_point<double, 2>>;

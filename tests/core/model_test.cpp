@@ -1,32 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 // A model steps with the bits of its system, refuses in the same words, and tells what the type of the system
 // does.
-#include "nysalt/model.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "../laws/models.hpp"
-#include "../support/draws.hpp"
-#include "../support/in_lanes.hpp"
 #include "../support/noises.hpp"
 #include "../support/refusal.hpp"
-#include "nysalt/energy.hpp"
+#include "../support/systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/ensembles/typical_and_energetic.hpp"
-#include "nysalt/families/r_aba.hpp"
-#include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/frequency_to_fit.hpp"
-#include "nysalt/methods/tabulated.hpp"
-#include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/phase_points.hpp"
-#include "nysalt/stepper.hpp"
-#include "nysalt/systems/in_bath.hpp"
-#include "nysalt/systems/linear_chain.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -65,12 +46,10 @@ void add(std::vector<double>& all, const dual<T, K>& x) {
   add(all, x.value);
   for (const T& slope : x.derivative) add(all, slope);
 }
-void add_vector(std::vector<double>& all, const auto& x) {
-  for (Eigen::Index i = 0; i < x.size(); ++i) add(all, x[i]);
-}
 void add_state(std::vector<double>& all, const auto& x) {
-  add_vector(all, x.q);
-  add_vector(all, x.p);
+  for (const auto* part : {&x.q, &x.p}) {
+    for (const auto& number : *part) add(all, number);
+  }
 }
 
 /// As many states as there are lanes.
@@ -111,9 +90,7 @@ std::vector<double> numbers_of_run(const S& system, const tabulated& method, dou
       all.push_back(static_cast<double>(n));
       add_state(all, seen);
     };
-    fixed.advance(run, 7, every, observe);
-    fixed.advance(run, 57, every, observe);
-    fixed.advance(run, 0, every, observe);
+    for (const std::int64_t steps : {7, 57, 0}) fixed.advance(run, steps, every, observe);
     add_state(all, fixed.synchronous(run));
   }
   auto plain = x;
@@ -141,17 +118,15 @@ std::vector<double> numbers_of_step(const S& system, const tabulated& method, do
   return all;
 }
 
-/// numbers(system, step, table) of the system and of its model are the same, and another step or table has
-/// others.
+/// numbers(system, table, step) of the system and of its model are the same, and another table has others.
 template <class S>
 void compare(const S& system, const tabulated& method, const auto& numbers) {
   constexpr double step = 0.05;
   const auto expected = numbers(system, method, step);
-  BOOST_TEST(expected.size() > 0U);
-  for (const double x : expected) BOOST_REQUIRE(std::isfinite(x));
+  BOOST_REQUIRE(!expected.empty());
+  BOOST_REQUIRE(std::ranges::all_of(expected, [](double x) { return std::isfinite(x); }));
   const model erased(system);
   BOOST_TEST((numbers(erased, method, step) == expected));
-  BOOST_TEST((numbers(erased, method, step * (1.0 + 1e-12)) != expected));
   auto changed = method.coefficients();
   for (const std::size_t i : {std::size_t{0}, changed.size() / 2}) changed[i] += 1e-9;
   const tabulated another("another", method.letters(), changed, method);
@@ -232,23 +207,6 @@ BOOST_AUTO_TEST_CASE(a_model_in_a_bath_feels_the_noise_of_its_system) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_bath_that_does_not_act_is_none) {
-  const in_bath idle(fixed_chain, bath::of_sigma(0.0, 0.0));
-  const auto starts = starts_of(fixed_chain);
-  for (const tabulated& method : noisy_words) {
-    const auto expected = numbers_of_run<double>(idle, method, 0.05, starts, no_noise());
-    BOOST_TEST((numbers_of_run<double>(model(idle), method, 0.05, starts, no_noise()) == expected));
-    BOOST_TEST((numbers_of_run<double>(model(fixed_chain), method, 0.05, starts, no_noise()) == expected));
-  }
-  const model alone = model(warm).base();
-  BOOST_TEST(model(warm).bath().acts());
-  BOOST_TEST(!alone.bath().acts());
-  BOOST_TEST(describe(alone) == describe(fixed_chain));
-  const tabulated method{verlet()};
-  BOOST_TEST((numbers_of_run<lanes>(alone, method, 0.05, starts, no_noise()) ==
-              numbers_of_run<lanes>(model(fixed_chain), method, 0.05, starts, no_noise())));
-}
-
 BOOST_AUTO_TEST_CASE(a_model_refuses_what_its_system_refuses_in_the_same_words) {
   int refused = 0;
   int served = 0;
@@ -258,15 +216,14 @@ BOOST_AUTO_TEST_CASE(a_model_refuses_what_its_system_refuses_in_the_same_words) 
       const run_time_word word(letters);
       const auto compare_over = [&]<Scalar T>(T) {
         const auto expected = refusal_of([&] { require_served<S, T>(word, system); });
-        BOOST_TEST(refusal_of([&] { require_served<model, T>(word, erased); }) == expected);
+        BOOST_TEST(refusal_of([&] { require_served<model, T>(word, erased); }) == expected,
+                   describe(system) << ", " << letters);
         (expected.empty() ? served : refused) += 1;
       };
-      BOOST_TEST_CONTEXT(describe(system) << ", " << letters) {
-        compare_over(0.0);
-        compare_over(slopes(0.0));
-        if constexpr (detail::serves<S, lanes>) compare_over(lanes(0.0));
-        if constexpr (detail::serves<S, lanes_with_slopes>) compare_over(lanes_with_slopes(0.0));
-      }
+      compare_over(0.0);
+      compare_over(slopes(0.0));
+      if constexpr (detail::serves<S, lanes>) compare_over(lanes(0.0));
+      if constexpr (detail::serves<S, lanes_with_slopes>) compare_over(lanes_with_slopes(0.0));
     }
   };
   for_each_type(check);
@@ -276,20 +233,20 @@ BOOST_AUTO_TEST_CASE(a_model_refuses_what_its_system_refuses_in_the_same_words) 
 }
 
 BOOST_AUTO_TEST_CASE(the_stepper_of_a_model_refuses_in_the_same_words) {
-  const auto same = [](const auto& system, const char* letters, const std::vector<double>& c, double h) {
+  const auto same = [](const auto& system, const char* letters, double h) {
     const auto by = [&](const auto& tested) {
-      return refusal_of([&] { stepper(tested, run_time_word(letters), c, h); });
+      const run_time_word word(letters);
+      return refusal_of([&] { stepper(tested, word, std::vector<double>(word.length, 0.5), h); });
     };
-    const model erased(system);
     BOOST_TEST(by(system) != "");
-    BOOST_TEST(by(erased) == by(system));
+    BOOST_TEST(by(model(system)) == by(system));
   };
-  same(warm, "ABA", {0.5, 1.0, 0.5}, 0.1);              // without O
-  same(warm, "BAOAB", {0.5, 0.5, 1.0, 0.5, 0.5}, 0.1);  // without noise
-  same(fixed_chain, "ABA", {0.5, 1.0, 0.5}, 0.0);
+  same(warm, "ABA", 0.1);    // without O
+  same(warm, "BAOAB", 0.1);  // without noise
+  same(fixed_chain, "ABA", 0.0);
   // States are of any size until they are stepped.
   const model erased(fixed_chain);
-  const stepper fixed(erased, run_time_word("ABA"), {0.5, 1.0, 0.5}, 0.1);
+  const auto fixed = make_stepper(erased, tabulated(verlet()), 0.1);
   const phase_point<double, Eigen::Dynamic> of_three{Eigen::VectorXd::Zero(3), Eigen::VectorXd::Zero(3)};
   BOOST_TEST(refuses<wrong>([&] { fixed.open(of_three); }, {"3 positions", "6 degrees of freedom"}));
 }
@@ -334,6 +291,9 @@ BOOST_AUTO_TEST_CASE(facts_are_those_of_the_concepts) {
   for_each_type(check);
   check(relativistic());
   check(in_lanes<fpu_chain<3>, 1>(fixed_chain));
+  const model alone = model(warm).base();
+  BOOST_TEST(!alone.bath().acts());
+  BOOST_TEST(describe(alone) == describe(fixed_chain));
 }
 
 BOOST_AUTO_TEST_CASE(forces_and_energies_have_the_bits_of_the_system) {
@@ -343,14 +303,12 @@ BOOST_AUTO_TEST_CASE(forces_and_energies_have_the_bits_of_the_system) {
     const auto compare_over = [&]<Scalar T>(T) {
       const auto values = [&](const auto& tested) {
         constexpr int N = std::remove_cvref_t<decltype(tested)>::dimension;
-        const auto x = gathered<T, N>(starts);
-        auto f = x.q;
-        auto v = x.q;
-        force<T>(tested, x.q, f);
-        velocity<T>(tested, x.p, v);
+        auto x = gathered<T, N>(starts);
+        auto f = x;
+        force<T>(tested, x.q, f.q);
+        velocity<T>(tested, x.p, f.p);
         std::vector<double> all;
-        add_vector(all, f);
-        add_vector(all, v);
+        add_state(all, f);
         if constexpr (HasEnergy<S, T>) {
           add(all, energy<T>(tested, x));
           add(all, kinetic_energy<T>(tested, x.p));
@@ -404,6 +362,7 @@ BOOST_AUTO_TEST_CASE(packs_are_refused_by_a_system_of_one_lane) {
 }
 
 namespace {
+
 /// q'' = -k q, of which somebody changes k.
 struct changing {
   static constexpr int dimension = 1;
@@ -416,6 +375,7 @@ double force_at_one(const model& system) {
   system.force(q, f);
   return f[0];
 }
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(copies_share_a_copy_of_the_system_and_a_separate_one_has_its_own) {
@@ -425,13 +385,12 @@ BOOST_AUTO_TEST_CASE(copies_share_a_copy_of_the_system_and_a_separate_one_has_it
   BOOST_TEST(force_at_one(first) == -1.0);
   BOOST_TEST(force_at_one(system) == -2.0);
   const model copy = first;
-  for (int n = 0; n < 2; ++n) force_at_one(copy);
-  BOOST_TEST(first.calls() == 3);
-  BOOST_TEST(copy.calls() == 3);
+  BOOST_TEST(force_at_one(copy) == -1.0);
+  BOOST_TEST((first.calls() == 2 && copy.calls() == 2));
   const model own = first.separate();
   BOOST_TEST(own.calls() == 0);  // counted for itself
   BOOST_TEST(force_at_one(own) == -1.0);
   BOOST_TEST(own.calls() == 1);
-  BOOST_TEST(copy.calls() == 3);
+  BOOST_TEST(copy.calls() == 2);
   BOOST_TEST(describe(own) == describe(first));
 }

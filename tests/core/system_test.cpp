@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is asked of a system: evaluations, which are counted, and modes, which diagonalise a stiffness matrix
-// and lead to modal coordinates and back.
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include "../support/draws.hpp"
+// What is asked of a system: evaluations, which are counted, and modes of a stiffness matrix, which lead to
+// modal coordinates and back. That they diagonalise it is a law (systems/system_laws_test.cpp).
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/stiffness_modes.hpp"
-#include "nysalt/systems/counted.hpp"
-#include "nysalt/systems/fpu_chain.hpp"
+#include "../support/systems.hpp"
+#include "nysalt/core.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 
 using namespace nysalt;
@@ -30,11 +20,6 @@ struct box {
   void force(const vector<double, 1>& q, vector<double, 1>& f) const {
     ++*calls;
     f[0] = -std::sin(q[0]);
-  }
-};
-struct with_derivative : box {
-  void force_derivative(const vector<double, 1>& q, const vector<double, 1>& v, vector<double, 1>& g) const {
-    g[0] = -std::cos(q[0]) * v[0];
   }
 };
 struct with_potential : box {
@@ -54,6 +39,21 @@ std::int64_t evaluations_over(const S& system, const vector<T, 1>& q = vector<T,
   return watched.evaluations;
 }
 
+/// Three masses on two springs, held by nothing.
+const Eigen::MatrixXd of_free_chain{{2.0, -2.0, 0.0}, {-2.0, 5.0, -3.0}, {0.0, -3.0, 3.0}};
+
+/// Two springs whose modes are told from outside.
+struct told {
+  static constexpr int dimension = 2;
+  normal_modes given_modes;
+  template <class T>
+  void force(const vector<T, 2>& q, vector<T, 2>& f) const {
+    f = -q;
+  }
+  normal_modes modes() const { return given_modes; }
+  std::string description() const { return "two springs"; }
+};
+
 }  // namespace
 
 // Of a black box each call counts: a difference of two for each direction, and two more where its step does
@@ -62,7 +62,7 @@ BOOST_AUTO_TEST_CASE(a_force_counts_one_and_each_call_of_a_black_box) {
   BOOST_TEST(evaluations_over<double>(box()) == 1);
   BOOST_TEST((evaluations_over<dual<double, 1>>(box()) == 3));
   BOOST_TEST((evaluations_over<dual<double, 2>>(box()) == 5));
-  BOOST_TEST((evaluations_over<dual<double, 2>>(with_derivative()) == 3));
+  BOOST_TEST((evaluations_over<dual<double, 2>>(black_box_with_derivative()) == 3));
   // A potential that can be differentiated goes before differences.
   BOOST_TEST((evaluations_over<dual<double, 2>>(with_potential()) == 1));
   BOOST_TEST(derivative_source<with_potential>() == std::string("automatic differentiation"));
@@ -78,50 +78,16 @@ BOOST_AUTO_TEST_CASE(a_force_counts_one_and_each_call_of_a_black_box) {
   BOOST_TEST(std::abs(f[0].derivative[1] / (-std::cos(2.0) * 1e9) - 1.0) < 1e-7);
 }
 
-namespace {
-
-/// Three masses on two springs, held by nothing.
-Eigen::MatrixXd of_free_chain() {
-  return Eigen::MatrixXd{{2.0, -2.0, 0.0}, {-2.0, 5.0, -3.0}, {0.0, -3.0, 3.0}};
-}
-
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(modes_diagonalise_the_weighted_stiffness) {
-  draws random;
-  for (const Eigen::Index n : {1, 2, 5, 12}) {
-    Eigen::MatrixXd half(n, n);
-    for (double& x : half.reshaped()) x = random.uniform(-1.0, 1.0);
-    Eigen::MatrixXd stiffness = half * half.transpose();
-    stiffness = 0.5 * (stiffness + Eigen::MatrixXd(stiffness.transpose()));
-    Eigen::VectorXd inverse_masses(n);
-    for (double& x : inverse_masses) x = random.uniform(0.2, 5.0);
-    const normal_modes modes = stiffness_modes(stiffness, inverse_masses, "test");
-    const Eigen::MatrixXd& basis = modes.basis;
-    const Eigen::VectorXd root = inverse_masses.cwiseSqrt();
-    const Eigen::MatrixXd weighted = root.asDiagonal() * stiffness * root.asDiagonal();
-    // An eigensolver errs by some n eps |K|, the product of three matrices adds 3 n eps |K|.
-    const double rounding = 8.0 * static_cast<double>(n * n) * eps;
-    const Eigen::MatrixXd squares = modes.frequencies.cwiseAbs2().asDiagonal();
-    BOOST_TEST(norm(basis.transpose() * basis - Eigen::MatrixXd::Identity(n, n)) <= rounding);
-    BOOST_TEST(norm(basis.transpose() * weighted * basis - squares) <= rounding * norm(weighted));
-    BOOST_TEST(norm(basis.transpose() * stiffness * basis - squares) > 1e-3);  // masses matter
-    BOOST_TEST(modes.frequencies.minCoeff() >= 0.0);
-  }
-}
-
 // Where squares of entries overflow or underflow too. A power of four scales without rounding.
 BOOST_AUTO_TEST_CASE(frequencies_scale_with_the_root_of_the_stiffness_and_zero_is_no_rounding) {
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(3);
-  const auto known = stiffness_modes(of_free_chain(), ones, "test").frequencies;
+  const auto known = stiffness_modes(of_free_chain, ones, "test").frequencies;
   for (const int power : {-260, -1, 1, 260}) {
-    const auto scaled =
-        stiffness_modes(std::ldexp(1.0, 2 * power) * of_free_chain(), ones, "test").frequencies;
+    const auto scaled = stiffness_modes(std::ldexp(1.0, 2 * power) * of_free_chain, ones, "test").frequencies;
     BOOST_TEST((scaled == std::ldexp(1.0, power) * known), "4^" << power << ": " << scaled.transpose());
   }
-  const auto free = stiffness_modes(of_free_chain(), Eigen::Vector3d(1.0, 0.5, 0.2), "test");
-  BOOST_TEST(free.frequencies[0] == 0.0);
-  BOOST_TEST(free.frequencies[1] > 0.1);
+  BOOST_TEST(known[0] == 0.0);
+  BOOST_TEST(known[1] > 0.1);
   BOOST_TEST(stiffness_modes(Eigen::MatrixXd::Zero(2, 2), Eigen::Vector2d(1.0, 1.0), "").frequencies.norm() ==
              0.0);
   const auto soft = stiffness_modes(Eigen::Vector2d(1.0, 1e-12).asDiagonal(), Eigen::Vector2d(1.0, 1.0), "");
@@ -137,11 +103,11 @@ BOOST_AUTO_TEST_CASE(what_is_no_stiffness_matrix_is_refused) {
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(2, 2);
   BOOST_TEST(refused(Eigen::MatrixXd(0, 0), 0, {"who asks", "square", "0 x 0"}));
   BOOST_TEST(refused(Eigen::MatrixXd::Zero(2, 3), 2, {"square", "2 x 3"}));
-  BOOST_TEST(refused(identity, 3, {"who asks"}));
+  BOOST_TEST(refused(identity, 3, {}));
   BOOST_TEST(refused(identity * std::nan(""), 2, {"who asks", "must be finite"}));
   BOOST_TEST(refused(Eigen::MatrixXd{{1.0, 0.5}, {0.25, 1.0}}, 2, {"who asks", "symmetric"}));
   BOOST_TEST(refused(Eigen::Vector2d(1.0, -1e-3).asDiagonal(), 2, {"who asks", "must be >= 0", "-0.001"}));
-  BOOST_TEST(!refused(of_free_chain(), 3, {}));
+  BOOST_TEST(!refused(of_free_chain, 3, {}));
 }
 
 BOOST_AUTO_TEST_CASE(modal_coordinates_are_the_modes_with_masses) {
@@ -176,24 +142,7 @@ BOOST_AUTO_TEST_CASE(modal_coordinates_are_the_modes_with_masses) {
   BOOST_TEST(std::abs(sum(q) - energy) > 0.01);
   // Entries that are zero are left out: each mode of this chain has two masses of its own.
   BOOST_TEST(modal_coordinates::of(fpu_chain<>(8, 50.0))->entries().size() == 2U * 16U);
-  BOOST_TEST(modal_coordinates::of(linear_chain::between_walls(4, 1.0))->entries().size() == 16U);
 }
-
-namespace {
-
-/// Two springs whose modes are told from outside.
-struct told {
-  static constexpr int dimension = 2;
-  normal_modes given_modes;
-  template <class T>
-  void force(const vector<T, 2>& q, vector<T, 2>& f) const {
-    f = -q;
-  }
-  normal_modes modes() const { return given_modes; }
-  std::string description() const { return "two springs"; }
-};
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(modes_that_cannot_be_are_refused) {
   const auto refused = [](const Eigen::MatrixXd& basis, const Eigen::VectorXd& frequencies) {

@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // Lists of points hold copies, one after the other, and items are the points where they lie. Numbers in
 // sentences are written as fmt writes them.
-#include <fmt/format.h>
-
-#include <bit>
-#include <cmath>
-#include <cstdint>
 #include <cstdlib>
-#include <limits>
-#include <random>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <utility>
-#include <vector>
 
+#include "nysalt/core.hpp"
 #include "nysalt/detail/in_digits.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/phase_points.hpp"
-#include "nysalt/scalars/dual.hpp"
 
 using namespace nysalt;
 
@@ -53,10 +40,7 @@ BOOST_AUTO_TEST_CASE(points_of_any_dimension_become_a_list_and_come_out_of_it) {
   BOOST_TEST((is_point(second, 2.0) && is_point(also_second, 2.0)));
   also_second.q[0] = 17.0;  // a copy
   BOOST_TEST(is_point(fixed[1], 2.0));
-  const auto lifted = fixed[1].cast<dual<double, 1>>();
-  BOOST_TEST(lifted.q[1].value == 2.25);
-  BOOST_TEST(lifted.q[1].derivative[0] == 0.0);
-  BOOST_TEST(fixed[1].size() == 2);
+  BOOST_TEST((fixed[1].cast<dual<double, 1>>().q[1].value == 2.25));
   // q lies before p, and one point before the next.
   BOOST_TEST(fixed[0].p.data() == fixed[0].q.data() + 2);
   BOOST_TEST(fixed[2].p.data() == fixed[0].q.data() + 10);
@@ -75,6 +59,9 @@ BOOST_AUTO_TEST_CASE(what_is_written_to_an_item_is_in_the_list) {
   BOOST_TEST((before == three() && before != points));  // copies are lists of their own
   points[1].p *= 2.0;
   BOOST_TEST(std::as_const(points)[1].p[1] == 5.0);
+  points[0].p[1] = limits::quiet_NaN();
+  points[2].q[0] = limits::infinity();
+  for (const std::size_t i : {0U, 1U, 2U}) BOOST_TEST(is_finite(std::as_const(points)[i]) == (i == 1));
   for (auto x : points) x.q[1] = -1.0;
   for (const auto& x : std::as_const(points)) BOOST_TEST(x.q[1] == -1.0);
   points.set(2, point(8.0));
@@ -103,44 +90,28 @@ BOOST_AUTO_TEST_CASE(points_are_added_behind_those_that_there_are) {
 BOOST_AUTO_TEST_CASE(points_that_are_there_stay_when_the_number_changes) {
   phase_points points = three();
   points.resize(5);
-  BOOST_TEST(points.size() == 5U);
-  BOOST_TEST(points.dimension() == 2);
+  BOOST_TEST((points.size() == 5U && points.dimension() == 2));
   for (std::size_t i = 0; i < 3; ++i) BOOST_TEST(is_point(points[i], static_cast<double>(i + 1)));
   points.resize(2);
   BOOST_TEST(repeats(points, 2));
   points.resize(4, 3);
-  BOOST_TEST(points.dimension() == 3);
-  BOOST_TEST(points[3].p.size() == 3);
+  BOOST_TEST((points.dimension() == 3 && points[3].p.size() == 3));
   points.clear();
-  BOOST_TEST(points.empty());
-  BOOST_TEST(points.dimension() == 3);
+  BOOST_TEST((points.empty() && points.dimension() == 3));
   const phase_points none;
   BOOST_TEST(none.dimension() == 0);
   BOOST_TEST((none.empty() && none.begin() == none.end() && none != three()));
   BOOST_TEST((none == phase_points(std::vector<phase_point<double, 2>>()) && none == phase_points(0, 4)));
 }
 
-BOOST_AUTO_TEST_CASE(what_is_not_finite_is_seen) {
-  phase_points points = three();
-  BOOST_TEST(is_finite(points[1]));
-  points[1].p[0] = limits::quiet_NaN();
-  points[2].q[1] = limits::infinity();
-  BOOST_TEST(!is_finite(points[1]));
-  BOOST_TEST(!is_finite(std::as_const(points)[1]));
-  BOOST_TEST(!is_finite(points[2]));
-  BOOST_TEST(is_finite(points[0]));
-}
-
 BOOST_AUTO_TEST_CASE(vectors_stand_one_after_the_other) {
   vector_list vectors(2, 3);
-  vectors[0] = Eigen::Vector3d(1.0, 2.0, 3.0);
-  vectors[1] = Eigen::Vector3d(4.0, 5.0, 6.0);
+  for (int i = 0; i < 2; ++i) vectors[static_cast<std::size_t>(i)].setConstant(i);
   BOOST_TEST(vectors[1].data() == vectors[0].data() + 3);
   vectors.push_back(vectors[0]);
   vectors.append(vectors);
   BOOST_TEST(vectors.size() == 6U);
-  BOOST_TEST(vectors[2][1] == 2.0);
-  BOOST_TEST(vectors[4][2] == 6.0);
+  BOOST_TEST((vectors[2][1] == 0.0 && vectors[4][2] == 1.0));
   vectors.clear();
   BOOST_TEST((vectors.size() == 0U && vectors.begin() == vectors.end()));
 }
@@ -185,17 +156,16 @@ BOOST_AUTO_TEST_CASE(numbers_are_written_as_by_fmt) {
                               0.1,
                               1.0 / 3.0,
                               1e15,
-                              123456789012345678.0,
                               5e-324,
-                              limits::min(),
-                              limits::max(),
-                              limits::epsilon(),
                               0x1p53,
                               1e22,
                               1e23,
                               100.0,
+                              limits::max(),
+                              limits::epsilon(),
                               limits::infinity(),
-                              limits::quiet_NaN()};
+                              limits::quiet_NaN(),
+                              123456789012345678.0};
   for (const double edge : {1e-4, 1e-5, 1e16, 1e17, limits::min()}) {  // where the form may change
     special.insert(special.end(), {edge, std::nextafter(edge, 0.0), std::nextafter(edge, 1e300)});
   }
@@ -210,12 +180,7 @@ BOOST_AUTO_TEST_CASE(numbers_are_written_as_by_fmt) {
     // The same digits where numbers are written without an exponent, or nearly.
     require_same(std::ldexp(static_cast<double>(draw() >> 11), -80 + static_cast<int>(draw() % 96)));
   }
-  // Another form would be seen.
-  BOOST_TEST(std::to_string(0.1) != fmt::format("{}", 0.1));
-  BOOST_TEST(sentence("{}", 1e16) == "1e+16");
-  BOOST_TEST(sentence("{}", 9999999999999998.0) == "9999999999999998");
-  BOOST_TEST(sentence("{}", 1e-4) == "0.0001");
-  BOOST_TEST(sentence("{}", std::nextafter(1e-4, 0.0)) == "9.999999999999999e-05");
+  BOOST_TEST(std::to_string(0.1) != fmt::format("{}", 0.1));  // another form would be seen
 }
 
 BOOST_AUTO_TEST_CASE(numbers_are_cut_to_their_first_digits) {

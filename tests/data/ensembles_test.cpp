@@ -2,27 +2,15 @@
 // Compiled with -O1: 1.1 s at -O0, 0.1 s at -O1.
 // What an observer of many trajectories is given is what an observer of each would see, in a bath too, in
 // whatever lanes; and trajectories that are saved and resumed go on as if nothing had happened.
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <stdexcept>
-#include <type_traits>
-#include <vector>
-
-#include "../support/in_lanes.hpp"
 #include "../support/refusal.hpp"
+#include "../support/systems.hpp"
+#include "nysalt/core.hpp"
 #include "nysalt/ensemble_run.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/initial_states.hpp"
-#include "nysalt/integrate.hpp"
 #include "nysalt/integrate_ensemble.hpp"
-#include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/noises/counter_noise.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/in_bath.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -32,46 +20,51 @@ namespace {
 using wrong = std::invalid_argument;
 constexpr std::int64_t trajectories = 37;  // fill no number of lanes
 constexpr std::int64_t steps = 300;
-constexpr std::int64_t every = 7;
 
 /// Some of these leave the well, at times of their own.
 const henon_heiles galaxy;
 const normal_around<2> law_of_type({vector<double, 2>::Zero(), vector<double, 2>::Zero()}, 0.45, 0.45);
 const initial_states law = law_of_type;
 
-/// What is seen of each trajectory, from several threads.
+/// What is seen of each trajectory every so many steps, from several threads.
 struct seen {
+  std::int64_t every = 7;
   std::vector<std::vector<double>> values{static_cast<std::size_t>(trajectories)};
-  std::vector<std::optional<std::int64_t>> diverged_at;
+  std::vector<std::optional<std::int64_t>> diverged_at{};
   friend bool operator==(const seen&, const seen&) = default;
 
   auto take() {
-    return [this](std::int64_t m, std::int64_t n, std::span<const double> number) {
+    return [this](std::int64_t m, std::int64_t n, std::span<const double> numbers) {
       auto& samples = values[static_cast<std::size_t>(m)];
-      if (n != every * std::ssize(samples)) throw std::logic_error("out of the order of time");
-      samples.push_back(number[0]);
+      if (2 * n != every * std::ssize(samples)) throw std::logic_error("out of the order of time");
+      samples.insert(samples.end(), numbers.begin(), numbers.end());
     };
   }
 };
 
 template <class T>
-const auto read_first = [](const auto& x, std::span<T> number) { number[0] = x.q[0]; };
+const auto read_two = [](const auto& x, std::span<T> numbers) {
+  numbers[0] = x.q[0];
+  numbers[1] = x.p[1];
+};
 
 /// By integrate, one after the other, with the noise of trajectory m + shift.
-seen alone(const auto& stepper, std::uint64_t shift = 0) {
-  seen all;
+seen alone(const auto& stepper, std::int64_t every = 7, std::uint64_t shift = 0) {
+  seen all{every};
   for (std::uint64_t m = 0; m < trajectories; ++m) {
-    const auto observe = [&](std::int64_t, double, const auto& x) { all.values[m].push_back(x.q[0]); };
+    const auto observe = [&](std::int64_t, double, const auto& x) {
+      all.values[m].insert(all.values[m].end(), {x.q[0], x.p[1]});
+    };
     all.diverged_at.push_back(integrate(stepper, law(1, m), steps, observe, every, m + shift).diverged_at);
   }
   return all;
 }
 
 template <class T>
-seen together(const auto& stepper) {
-  seen all;
+seen together(const auto& stepper, std::int64_t every = 7) {
+  seen all{every};
   const ensemble_options options{.trajectories = trajectories, .steps = steps, .every = every, .threads = 2};
-  all.diverged_at = integrate_ensemble<T>(stepper, law, options, 1, read_first<T>, all.take());
+  all.diverged_at = integrate_ensemble<T>(stepper, law, options, 2, read_two<T>, all.take());
   return all;
 }
 
@@ -84,7 +77,7 @@ seen cut(const Stepper& stepper, const std::vector<std::int64_t>& cuts) {
     using run_type = ensemble_run<P, Stepper>;
     auto run = saved.step == 0 ? run_type(stepper, law, 1, 0, trajectories)
                                : run_type(stepper, law, 1, 0, trajectories, saved);
-    run.go_on(end, every, 1, read_first<P>, all.take(), 2);
+    run.go_on(end, all.every, 2, read_two<P>, all.take(), 2);
     saved = run.save();
   };
   bool odd = false;
@@ -114,42 +107,36 @@ BOOST_AUTO_TEST_CASE(each_trajectory_is_as_if_alone_and_goes_on_where_it_was_sav
       BOOST_TEST((together<detail::lanes>(stepper) == expected));
       BOOST_TEST((cut<detail::lanes>(stepper, {128, steps}) == expected));
       BOOST_TEST((cut<detail::lanes>(stepper, {64, 64, 192, 256, steps}) == expected));
-      BOOST_TEST((alone(stepper, 1) == expected) == (system == &quiet));  // each has its own noise
+      BOOST_TEST((alone(stepper, 7, 1) == expected) == (system == &quiet));  // each has its own noise
     }
+  }
+  for (const std::int64_t every : {1, 64, 1000}) {
+    const auto stepper = make_stepper(quiet, tabulated(verlet()), 0.1);
+    BOOST_TEST((together<detail::lanes>(stepper, every) == alone(stepper, every)));
   }
 }
 
 // Lanes of any number, by the types of system and method.
 BOOST_AUTO_TEST_CASE(an_observable_is_read_in_any_number_of_lanes) {
-  const auto first_coordinate = [](const auto& x) { return x.q[0]; };
-  const auto by = [&](const auto& system) {
-    seen all;
-    const auto take = [&](std::int64_t m, std::int64_t n, double value) {
-      all.take()(m, n, std::span(&value, 1));
-    };
-    all.diverged_at = integrate_ensemble(system, verlet(), 0.1, law_of_type,
-                                         {.trajectories = trajectories, .steps = steps, .every = every},
-                                         first_coordinate, take);
-    return all;
+  const auto by = [](const auto& system) {
+    std::vector<std::vector<double>> values(static_cast<std::size_t>(trajectories));
+    const auto diverged_at = integrate_ensemble(
+        system, verlet(), 0.1, law_of_type, {.trajectories = trajectories, .steps = steps, .every = 7},
+        [](const auto& x) { return x.q[0]; },
+        [&](std::int64_t m, std::int64_t, double value) {
+          values[static_cast<std::size_t>(m)].push_back(value);
+        });
+    return std::pair(values, diverged_at);
   };
   const model system = galaxy;
   const auto expected = alone(make_stepper(system, tabulated(verlet()), 0.1));
-  BOOST_TEST((by(galaxy) == expected));
-  BOOST_TEST((by(in_lanes<henon_heiles, 3>(galaxy)) == expected));
-}
-
-BOOST_AUTO_TEST_CASE(a_part_of_an_ensemble_is_that_part_of_the_whole) {
-  const model warm = in_bath(galaxy, bath::of_sigma(0.05, 0.05));
-  const auto stepper = make_stepper(warm, tabulated(obabo()), 0.1, counter_noise(5));
-  const auto whole = alone(stepper);
-  ensemble_options options{.trajectories = 11, .steps = steps, .every = every};
-  options.first = 20;
-  seen part;
-  part.diverged_at =
-      integrate_ensemble<detail::lanes>(stepper, law, options, 1, read_first<detail::lanes>, part.take());
-  for (std::size_t i = 0; i < 11; ++i) {
-    BOOST_TEST((part.values[20 + i] == whole.values[20 + i]));
-    BOOST_TEST((part.diverged_at[i] == whole.diverged_at[20 + i]));
+  const auto found = by(in_lanes<henon_heiles, 3>(galaxy));
+  BOOST_TEST((by(galaxy) == found));
+  BOOST_TEST((found.second == expected.diverged_at));
+  for (std::size_t m = 0; m < expected.values.size(); ++m) {
+    for (std::size_t k = 0; k < found.first[m].size(); ++k) {
+      BOOST_TEST(found.first[m][k] == expected.values[m][2 * k]);
+    }
   }
 }
 

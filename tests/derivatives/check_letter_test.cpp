@@ -2,17 +2,7 @@
 // What letters claim is tried, and what is not so is named.
 #include "nysalt/derivatives/check_letter.hpp"
 
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include "nysalt/flows/exact_flow.hpp"
-#include "nysalt/scalars/dual.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
+#include "../support/systems_with_letters.hpp"
 
 using namespace nysalt;
 
@@ -27,40 +17,6 @@ std::string report(double h = 0.7) {
   return found.report();
 }
 
-struct turn : exact_flow<'t'> {
-  template <System S, class State, class C>
-  static void apply(const S&, const C& t, State& x, auto&) {
-    using std::cos;
-    using std::sin;
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      const auto q = x.q[i];
-      x.q[i] = q * cos(t) + x.p[i] * sin(t);
-      x.p[i] = x.p[i] * cos(t) - q * sin(t);
-    }
-  }
-};
-/// The new q goes into the new p.
-struct slip : turn {
-  template <System S, class State, class C>
-  static void apply(const S&, const C& t, State& x, auto&) {
-    using std::cos;
-    using std::sin;
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      x.q[i] = x.q[i] * cos(t) + x.p[i] * sin(t);
-      x.p[i] = x.p[i] * cos(t) - x.q[i] * sin(t);
-    }
-  }
-};
-/// Symplectic, but x(-c) is not its inverse: the middle of a shear and a kick in turn.
-struct no_inverse : exact_flow<'n'> {
-  template <System S, class State, class C>
-  static void apply(const S&, const C& t, State& x, auto&) {
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      x.q[i] += x.p[i] * t;
-      x.p[i] -= x.q[i] * t;
-    }
-  }
-};
 /// Symplectic and taken back, but of order two in t: not additive.
 struct leapfrog : exact_flow<'l'> {
   template <System S, class State, class C>
@@ -79,8 +35,7 @@ struct honest_leapfrog : leapfrog {
 struct spin : exact_flow<'s'> {
   template <System S, class State, class C>
   static void apply(const S&, const C& t, State& x, auto&) {
-    using std::cos;
-    using std::sin;
+    using std::cos, std::sin;
     for (auto* z : {&x.q, &x.p}) {
       const auto first = (*z)[0];
       (*z)[0] = first * cos(t) - (*z)[1] * sin(t);
@@ -91,81 +46,69 @@ struct spin : exact_flow<'s'> {
 struct honest_spin : spin {
   static constexpr bool reversible = false;
 };
-struct moves_in_secret : turn {
-  static constexpr bool moves_q = false;
-};
 /// Its value is right, and its derivative is lost.
 struct without_slope : exact_flow<'w'> {
   static constexpr bool moves_q = false;
   template <System S, class State, class C>
   static void apply(const S&, const C& t, State& x, auto&) {
-    double value = 0.0;
-    if constexpr (requires { t.value; }) {
-      value = t.value;
-    } else {
-      value = t;
-    }
+    const double value = [&] {
+      if constexpr (requires { t.value; })
+        return t.value;
+      else
+        return t;
+    }();
     for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] -= x.q[i] * value;
   }
 };
-struct not_a_number : turn {
+struct not_a_number : lettered::turn {
   template <System S, class State, class C>
   static void apply(const S&, const C&, State& x, auto&) {
-    x.q[0] = x.q[0] * std::numeric_limits<double>::quiet_NaN();
+    x.q[0] = x.q[0] * std::nan("");
   }
 };
-
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(what_is_so_passes) {
-  BOOST_TEST(report<turn>() == "the letter t is what it states");
-  BOOST_TEST(report<honest_leapfrog>() == "the letter l is what it states");
-  BOOST_TEST(report<honest_spin>() == "the letter s is what it states");
-  BOOST_TEST(report<turn>(-30.0) == "the letter t is what it states");
-}
-
-BOOST_AUTO_TEST_CASE(letters_of_the_library_pass) {
-  BOOST_TEST(report<drift>() == "the letter A is what it states");
-  BOOST_TEST(report<kick>() == "the letter B is what it states");
-  BOOST_TEST(report<gradient_kick>() == "the letter G is what it states");
-  BOOST_TEST(report<displaced_kick>() == "the letter D is what it states");
-  BOOST_TEST(report<rotation>() == "the letter R is what it states");
-  BOOST_TEST(report<soft_kick>() == "the letter S is what it states");
-}
-
-BOOST_AUTO_TEST_CASE(what_is_not_so_is_refused_by_name) {
-  BOOST_TEST(report<slip>().starts_with("the letter t is not symplectic: it is off by "));
-  BOOST_TEST(report<no_inverse>().starts_with(
-      "the letter n is not taken back by negated coefficients: it is off by "));
-  BOOST_TEST(report<leapfrog>().starts_with("the letter l is not additive: it is off by "));
-  BOOST_TEST(report<spin>().starts_with("the letter s is not reversible: it is off by "));
-  BOOST_TEST(report<moves_in_secret>() == "the letter t moves q, but states moves_q = false; say true");
-  BOOST_TEST(
-      report<without_slope>().starts_with("the letter w has a derivative by its coefficients that is off"));
-  BOOST_TEST(report<not_a_number>() ==
-             "the letter t is not finite, or has no finite derivatives, at a point");
-}
-
-namespace {
 struct claims_more : displaced_kick {
   static constexpr bool symplectic = true;
 };
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(the_displaced_kick_is_not_symplectic_as_it_says) {
-  BOOST_TEST(report<claims_more>().starts_with("the letter D is not symplectic"));
-}
-
-// A slip of one part in ten thousand is far above the tolerance, whatever the units.
-namespace {
-struct slightly_off : turn {
+/// A slip of one part in ten thousand is far above the tolerance, whatever the units.
+struct slightly_off : lettered::turn {
   template <System S, class State, class C>
   static void apply(const S& system, const C& t, State& x, auto& room) {
     turn::apply(system, t, x, room);
     x.p[0] = x.p[0] * 1.0001;
   }
 };
+
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(what_is_so_passes_as_do_letters_of_the_library) {
+  const auto passes = [](const std::string& said, char letter) {
+    BOOST_TEST(said == std::string("the letter ") + letter + " is what it states");
+  };
+  passes(report<lettered::turn>(), 't');
+  passes(report<lettered::turn>(-30.0), 't');
+  passes(report<honest_leapfrog>(), 'l');
+  passes(report<honest_spin>(), 's');
+  passes(report<drift>(), 'A');
+  passes(report<kick>(), 'B');
+  passes(report<gradient_kick>(), 'G');
+  passes(report<displaced_kick>(), 'D');
+  passes(report<rotation>(), 'R');
+  passes(report<soft_kick>(), 'S');
+}
+
+BOOST_AUTO_TEST_CASE(what_is_not_so_is_refused_by_name) {
+  const auto refused = [](const std::string& said, const std::string& words) {
+    BOOST_TEST(said.starts_with("the letter " + words), said);
+  };
+  refused(report<lettered::slipped_turn>(), "s is not symplectic: it is off by ");
+  refused(report<lettered::even_turn>(), "e is not taken back by negated coefficients: it is off by ");
+  refused(report<leapfrog>(), "l is not additive: it is off by ");
+  refused(report<spin>(), "s is not reversible: it is off by ");
+  refused(report<lettered::moving_kick>(), "m moves q, but states moves_q = false; say true");
+  refused(report<without_slope>(), "w has a derivative by its coefficients that is off");
+  refused(report<not_a_number>(), "t is not finite, or has no finite derivatives, at a point");
+  refused(report<claims_more>(), "D is not symplectic");
+}
 
 BOOST_AUTO_TEST_CASE(units_do_not_matter) {
   std::vector<phase_point<double, 2>> tiny = points;
@@ -173,12 +116,14 @@ BOOST_AUTO_TEST_CASE(units_do_not_matter) {
     x.q *= 1e-30;
     x.p *= 1e-30;
   }
-  BOOST_TEST(check_letter<turn>(henon_heiles(), tiny, 0.7).passed());
-  BOOST_TEST(!check_letter<slightly_off>(henon_heiles(), tiny, 0.7).passed());
-  BOOST_TEST(!check_letter<slightly_off>(henon_heiles(), points, 0.7).passed());
+  BOOST_TEST(check_letter<lettered::turn>(henon_heiles(), tiny, 0.7).passed());
+  for (const auto& at : {tiny, points}) {
+    BOOST_TEST(!check_letter<slightly_off>(henon_heiles(), at, 0.7).passed());
+  }
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_tried_is_refused) {
-  BOOST_CHECK_THROW(check_letter<turn>(henon_heiles(), {}, 0.7), std::invalid_argument);
-  BOOST_CHECK_THROW(check_letter<turn>(henon_heiles(), points, 0.7, {1.0, 2.0}), std::invalid_argument);
+  BOOST_CHECK_THROW(check_letter<lettered::turn>(henon_heiles(), {}, 0.7), std::invalid_argument);
+  BOOST_CHECK_THROW(check_letter<lettered::turn>(henon_heiles(), points, 0.7, {1.0, 2.0}),
+                    std::invalid_argument);
 }

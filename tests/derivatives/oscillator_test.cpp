@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // Words on oscillators: the matrix of a step, its energy error, its powers and its resonances.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "../support/step_matrix.hpp"
 #include "nysalt/derivatives/energy_on_oscillator.hpp"
+#include "nysalt/derivatives/jacobian.hpp"
 #include "nysalt/derivatives/near_resonance.hpp"
 #include "nysalt/derivatives/sum_resonance.hpp"
 #include "nysalt/derivatives/transient_growth.hpp"
@@ -21,7 +13,6 @@
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/classical_methods.hpp"
-#include "nysalt/stepper.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
 using namespace nysalt;
@@ -47,11 +38,10 @@ struct split_oscillator {
   normal_modes modes() const { return {Eigen::MatrixXd::Ones(1, 1), Eigen::VectorXd::Constant(1, omega)}; }
 };
 
-tabulated classical_word(const std::string& name) {
-  for (const auto& row : classical_table) {
-    if (row.name == name) return as_data(row);
-  }
-  throw std::invalid_argument(name);
+tabulated classical_word(std::string_view name) {
+  std::vector<classical_row> rows(std::begin(classical_table), std::end(classical_table));
+  rows.insert(rows.end(), std::begin(processed_table), std::end(processed_table));
+  return as_data(*std::ranges::find(rows, name, &classical_row::name));
 }
 
 double rho(const tabulated& method, double z) {
@@ -70,11 +60,11 @@ double growth(const tabulated& method, double z, int steps) {
 
 const std::vector<double> halves{0.5, 1.0, 0.5};
 
+/// The largest norm of a power of the step, in coordinates scaled by the frequency.
 double by_powers(const run_time_word& word, const std::vector<double>& c, double theta, double k, int steps) {
   const auto times_k = [k](double x) { return k * x; };
   Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
-  step_on_oscillator(word, c, theta, times_k, one(0, 0), one(1, 0));
-  step_on_oscillator(word, c, theta, times_k, one(0, 1), one(1, 1));
+  for (const int i : {0, 1}) step_on_oscillator(word, c, theta, times_k, one(0, i), one(1, i));
   const double omega = std::sqrt(theta * theta + k);
   one(0, 1) *= omega;
   one(1, 0) /= omega;
@@ -111,15 +101,9 @@ with_quadratic_part<coupled> two_modes(const Eigen::Matrix2d& rest) {
 
 /// Logarithm of the spectral radius of the matrix of one step.
 double growth_of_step(const auto& system, const run_time_word& word, const std::vector<double>& c, double h) {
-  const stepper<std::remove_cvref_t<decltype(system)>, run_time_word> one(system, word, c, h);
-  Eigen::Matrix4d step;
-  for (Eigen::Index j = 0; j < 4; ++j) {
-    phase_point<double, 2> x{vector<double, 2>(0.0, 0.0), vector<double, 2>(0.0, 0.0)};
-    (j < 2 ? x.q : x.p)[j % 2] = 1.0;
-    one.step(x);
-    step.col(j) << x.q, x.p;
-  }
-  return std::log(spectral_radius(step));
+  const tabulated method("a step", word, c, {1, false, false});
+  const phase_point<double, 2> anywhere{{0.1, 0.2}, {0.3, 0.1}};
+  return std::log(spectral_radius(jacobian(step_map(system, method, h), anywhere)));
 }
 
 std::optional<resonance> near(const tabulated& method, const std::vector<frequency_band>& bands,
@@ -167,28 +151,19 @@ BOOST_AUTO_TEST_CASE(letters_act_as_in_a_step) {
   }
 }
 
-// Velocity Verlet: trace/2 = 1 - z^2/2. Impulses: cos theta - k sin(theta)/(2 theta).
+// Velocity Verlet: trace/2 = 1 - x/2 with x = z^2; Takahashi and Imada's has x^2/24 more. Impulses: cos theta
+// - k sin(theta)/(2 theta). The bath is left out.
 BOOST_AUTO_TEST_CASE(traces_are_the_known_ones) {
-  const auto verlet = half_trace(run_time_word("BAB"), {0.5, 1.0, 0.5}, 0.0, 1.0, 9.0);
-  BOOST_TEST(std::abs(verlet.at_low() - 0.5) < 10.0 * eps);
-  BOOST_TEST(std::abs(verlet.at_high() + 3.5) < 100.0 * eps);
-  const auto impulse = half_trace(run_time_word("SRS"), {0.5, 1.0, 0.5}, 2.0, 0.0, 3.0);
-  BOOST_TEST(std::abs(impulse.at_low() - std::cos(2.0)) < 10.0 * eps);
-  BOOST_TEST(std::abs(impulse.at_high() - (std::cos(2.0) - 0.75 * std::sin(2.0))) < 10.0 * eps);
-}
-
-// Takahashi and Imada's: 1 - z^2/2 + z^4/24 in the trace.
-BOOST_AUTO_TEST_CASE(gradient_kicks_have_two_coefficients) {
-  const auto trace = half_trace(run_time_word("AGA"), {0.5, 1.0, 1.0 / 24.0, 0.5}, 0.0, 1.0, 4.0);
-  BOOST_TEST(std::abs(trace.at_low() - (0.5 + 1.0 / 24.0)) < 10.0 * eps);
-  BOOST_TEST(std::abs(trace.at_high() - (-1.0 + 16.0 / 24.0)) < 20.0 * eps);
-}
-
-BOOST_AUTO_TEST_CASE(the_bath_is_left_out) {
-  const auto with = half_trace(run_time_word("BAOAB"), {0.5, 0.5, 1.0, 0.5, 0.5}, 0.0, 1.0, 4.0);
-  const auto without = half_trace(run_time_word("BAAB"), {0.5, 0.5, 0.5, 0.5}, 0.0, 1.0, 4.0);
-  BOOST_TEST(with.at_low() == without.at_low());
-  BOOST_TEST(with.at_high() == without.at_high());
+  const auto are = [](const char* letters, const std::vector<double>& c, double theta, double low,
+                      double high, double at_low, double at_high) {
+    const auto trace = half_trace(run_time_word(letters), c, theta, low, high);
+    BOOST_TEST(std::abs(trace.at_low() - at_low) < 10.0 * eps, letters);
+    BOOST_TEST(std::abs(trace.at_high() - at_high) < 100.0 * eps, letters);
+  };
+  are("BAB", halves, 0.0, 1.0, 9.0, 0.5, -3.5);
+  are("BAOAB", {0.5, 0.5, 1.0, 0.5, 0.5}, 0.0, 1.0, 9.0, 0.5, -3.5);
+  are("AGA", {0.5, 1.0, 1.0 / 24.0, 0.5}, 0.0, 1.0, 4.0, 0.5 + 1.0 / 24.0, -1.0 + 16.0 / 24.0);
+  are("SRS", halves, 2.0, 0.0, 3.0, std::cos(2.0), std::cos(2.0) - 0.75 * std::sin(2.0));
 }
 
 // After n steps the energy has grown by sin^2(n t) rho, cos t = trace/2. The matrix errs by some 10 roundings
@@ -222,8 +197,7 @@ BOOST_AUTO_TEST_CASE(of_verlet_it_is_the_closed_form) {
     BOOST_TEST(std::abs(rho(tabulated(verlet{}), z) - closed) <= relative * closed);
     BOOST_TEST(std::abs(rho(tabulated(bcss2{}), z) - closed) > relative * closed);
   }
-  BOOST_TEST(rho(tabulated(verlet{}), 2.01) == std::numeric_limits<double>::infinity());
-  BOOST_TEST(rho(tabulated(verlet{}), 2.0) == std::numeric_limits<double>::infinity());
+  for (const double beyond : {2.0, 2.01}) BOOST_TEST(std::isinf(rho(tabulated(verlet{}), beyond)));
 }
 
 // Exchanging kicks and drifts exchanges omega q and p, up to a sign. B + C is the difference of entries below
@@ -247,21 +221,20 @@ BOOST_AUTO_TEST_CASE(slopes_are_those_of_the_value) {
   for (const char* name : {"mclachlan2v", "bcss3", "chin4a", "chin4a_displaced"}) {
     const tabulated method = classical_word(name);
     const double z = random.uniform(0.7, 1.3);
-    auto c = method.coefficients();
+    const auto c = method.coefficients();
     const auto at = detail::energy_defect_on_oscillator(method.letters(), c, z);
     BOOST_TEST(at.value * at.value == rho(method, z), boost::test_tools::tolerance(1e-12));
     for (std::size_t i = 0; i < c.size(); ++i) {
       constexpr double change = 1e-5;
-      const double before = c[i];
-      c[i] = before + change;
-      const double above = detail::energy_defect_on_oscillator(method.letters(), c, z).value;
-      c[i] = before - change;
-      const double below = detail::energy_defect_on_oscillator(method.letters(), c, z).value;
-      c[i] = before;
+      const auto changed_by = [&](double d) {
+        auto changed = c;
+        changed[i] += d;
+        return detail::energy_defect_on_oscillator(method.letters(), changed, z).value;
+      };
+      const double found = (changed_by(change) - changed_by(-change)) / (2.0 * change);
       const double slope = at.slopes[static_cast<Eigen::Index>(i)];
-      BOOST_TEST_CONTEXT(name << ", coefficient " << i + 1) {
-        BOOST_TEST(std::abs((above - below) / (2.0 * change) - slope) <= 1e-8 * (1.0 + std::abs(slope)));
-      }
+      BOOST_TEST(std::abs(found - slope) <= 1e-8 * (1.0 + std::abs(slope)),
+                 name << ", coefficient " << i + 1);
     }
   }
 }
@@ -269,14 +242,7 @@ BOOST_AUTO_TEST_CASE(slopes_are_those_of_the_value) {
 BOOST_AUTO_TEST_CASE(words_that_are_no_plain_step_are_refused) {
   using wrong = std::invalid_argument;
   for (const char* name : {"impulse", "baoab", "takahashi_imada_processed"}) {
-    for (const auto* table : {&classical_table[0], &processed_table[0]}) {
-      const std::size_t rows =
-          table == &classical_table[0] ? std::size(classical_table) : std::size(processed_table);
-      for (std::size_t k = 0; k < rows; ++k) {
-        if (table[k].name != name) continue;
-        BOOST_TEST(refuses<wrong>([&] { rho(as_data(table[k]), 0.5); }, {"no rotation", "no processor"}));
-      }
-    }
+    BOOST_TEST(refuses<wrong>([&] { rho(classical_word(name), 0.5); }, {"no rotation", "no processor"}));
   }
   BOOST_TEST(refuses<wrong>([] { energy_error_on_oscillator(run_time_word("BAB"), {0.5, 1.0}, 0.5); }, {}));
 }
@@ -313,13 +279,9 @@ BOOST_AUTO_TEST_CASE(impulses_grow_linearly_at_a_resonance) {
   BOOST_TEST(transient_growth(run_time_word("RSR"), halves, 0.9 * pi, k, 10'000) < 1.1);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_exact_magnifies_nothing) {
+BOOST_AUTO_TEST_CASE(what_is_exact_magnifies_nothing_and_what_is_no_number_is_not_within_a_bound) {
   BOOST_TEST(transient_growth(run_time_word("R"), {1.0}, 2.0, 1e-30, 10'000) <= 1.0 + 1e-9);
-}
-
-BOOST_AUTO_TEST_CASE(what_is_no_number_is_not_within_a_bound) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  BOOST_TEST(!(transient_growth(run_time_word("RSR"), {0.5, nan, 0.5}, 2.0, 0.1, 100) <= 1e300));
+  BOOST_TEST(!(transient_growth(run_time_word("RSR"), {0.5, std::nan(""), 0.5}, 2.0, 0.1, 100) <= 1e300));
 }
 
 BOOST_AUTO_TEST_CASE(growth_is_that_of_the_eigenvalues_of_a_step) {
@@ -358,8 +320,7 @@ BOOST_AUTO_TEST_CASE(the_guard_objects_to_a_sum_resonance) {
   const auto said = guard.objection(run_time_word("SRS"), halves, step);
   BOOST_TEST(said.find("which soft forces couple") != std::string::npos, said);
   for (const double part : {0.8, 0.9, 1.15}) {
-    BOOST_TEST(guard.admits(run_time_word("SRS"), halves, part * step),
-               guard.objection(run_time_word("SRS"), halves, part * step));
+    BOOST_TEST(guard.objection(run_time_word("SRS"), halves, part * step) == "");
   }
   // Without the coupling there is nothing, and at a difference resonance there is nothing either.
   const Eigen::Matrix2d apart = soft.diagonal().asDiagonal();
@@ -382,30 +343,23 @@ BOOST_AUTO_TEST_CASE(near_means_within_a_tenth_of_the_half_turns) {
   }
 }
 
+// What counts is the phase of the word: Verlet in two steps turns by 3.6 where h omega is pi: the step of
+// another motion, as that of one Verlet step of half the length. Slow motion and rotations have none.
 BOOST_AUTO_TEST_CASE(a_band_is_near_where_one_of_its_frequencies_is) {
   const tabulated method = many_steps(64);
   BOOST_TEST(near(method, {{40.0, 50.0}}, 0.95 * pi / 40.0).has_value());
   BOOST_TEST(near(method, {{40.0, 50.0}}, 0.95 * pi / 50.0).has_value());
   BOOST_TEST(!near(method, {{40.0, 50.0}}, 0.85 * pi / 50.0));
-}
-
-// Verlet in two steps turns by 3.6 where h omega is pi: the step of another motion, as that of one Verlet
-// step of half the length.
-BOOST_AUTO_TEST_CASE(what_counts_is_the_phase_of_the_word) {
+  BOOST_TEST(near(method, {{50.0, 50.0}}, pi / 50.0).has_value());
   BOOST_TEST(!near(many_steps(2), {{50.0, 50.0}}, pi / 50.0));
-  BOOST_TEST(near(many_steps(64), {{50.0, 50.0}}, pi / 50.0).has_value());
-}
-
-BOOST_AUTO_TEST_CASE(slow_motion_and_rotations_have_none) {
-  BOOST_TEST(!near(many_steps(64), {{0.0, 30.0}}, pi / 30.0));
-  BOOST_TEST(!near(many_steps(64), {{49.0, 51.0}}, 0.01));
-  BOOST_TEST(!near(many_steps(64), {}, 1.0));
+  BOOST_TEST(!near(method, {{0.0, 30.0}}, pi / 30.0));
+  BOOST_TEST(!near(method, {{49.0, 51.0}}, 0.01));
+  BOOST_TEST(!near(method, {}, 1.0));
   BOOST_TEST(!near(tabulated(impulse{}), {{50.0, 50.0}}, pi / 50.0));
 }
 
 BOOST_AUTO_TEST_CASE(in_words_it_says_which) {
   const std::string text = in_words(*near(many_steps(64), {{49.0, 51.0}}, 0.118));
-  BOOST_TEST(text.find("2 pi") != std::string::npos);
-  BOOST_TEST(text.find("10 %") != std::string::npos);
-  BOOST_TEST(text.find("49 to 51") != std::string::npos);
+  for (const char* words : {"2 pi", "10 %", "49 to 51"})
+    BOOST_TEST(text.find(words) != std::string::npos, text);
 }

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 // The ends of the spectrum of a Hessian, and the frequencies of the linearised motion, against Eigen's
 // eigenvalues.
-#include <boost/test/unit_test.hpp>
-
-#include <limits>
-#include <vector>
-
 #include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
+#include "nysalt/core.hpp"
 #include "nysalt/derivatives/frequencies_at.hpp"
-#include "nysalt/derivatives/hessian_spectrum.hpp"
-#include "nysalt/derivatives/lanczos.hpp"
-#include "nysalt/systems/fpu_chain.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
 using namespace nysalt;
@@ -83,13 +75,11 @@ template <NystromSystem S>
 stiffness_range by_eigenvalues(const S& system, const states_of<S>& states) {
   stiffness_range result;
   for (const auto& state : states) {
-    Eigen::MatrixXd a = hessian(system, state.q);
+    Eigen::VectorXd root = Eigen::VectorXd::Ones(state.size());
     if constexpr (HasInverseMass<S>) {
-      for (Eigen::Index i = 0; i < a.rows(); ++i) {
-        a.row(i) *= std::sqrt(system.inverse_mass(i));
-        a.col(i) *= std::sqrt(system.inverse_mass(i));
-      }
+      for (Eigen::Index i = 0; i < root.size(); ++i) root[i] = std::sqrt(system.inverse_mass(i));
     }
+    const Eigen::MatrixXd a = root.asDiagonal() * hessian(system, state.q) * root.asDiagonal();
     const Eigen::VectorXd values = symmetric_eigen(a).values;
     result.lowest = std::min(result.lowest, values[0]);
     result.highest = std::max(result.highest, values[a.rows() - 1]);
@@ -134,18 +124,15 @@ BOOST_AUTO_TEST_CASE(large_spectra_are_bounded_within_two_percent) {
     Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(200, lowest, 1.0);
     const auto ends = ends_of(symmetric(random, values), random_vector(random, 200));
     BOOST_TEST_CONTEXT("lowest " << lowest) {
-      BOOST_TEST(ends.highest >= 0.99);
-      BOOST_TEST(ends.highest <= 1.01);
-      BOOST_TEST(ends.lowest <= lowest + 0.01 * std::max(1.0, -lowest));
-      BOOST_TEST(ends.lowest >= lowest - 0.01 * std::max(1.0, -lowest));
+      BOOST_TEST(std::abs(ends.highest - 1.0) <= 0.01);
+      BOOST_TEST(std::abs(ends.lowest - lowest) <= 0.01 * std::max(1.0, -lowest));
       BOOST_TEST(ends.products < 100);
     }
   }
 }
 
-// The ends are bounds: a Ritz value lies inside the spectrum, and is moved outwards by its residual. Some
-// eigenvalue lies within the residual, at most 0.01, of a Ritz value. That is the end itself where all others
-// are 0.1 away.
+// The ends are bounds: a Ritz value lies inside the spectrum, and is moved outwards by its residual, at most
+// 0.01, within which some eigenvalue lies: the end itself where all others are 0.1 away.
 BOOST_AUTO_TEST_CASE(isolated_ends_are_not_passed_inwards) {
   constexpr Eigen::Index n = 200;
   Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(n, -0.9, 0.9);
@@ -177,14 +164,16 @@ BOOST_AUTO_TEST_CASE(larger_negative_eigenvalues_do_not_hide_the_highest) {
   BOOST_TEST(std::abs(v.dot(a * v) + 50.0) < 1.0);
 }
 
-BOOST_AUTO_TEST_CASE(eigenvalues_that_are_all_one_are_found_at_once) {
+BOOST_AUTO_TEST_CASE(eigenvalues_that_are_all_one_are_found_at_once_and_none_of_what_is_not_finite) {
   const auto multiple = ends_of(4.0 * Eigen::MatrixXd::Identity(20, 20), Eigen::VectorXd::Ones(20));
   BOOST_TEST(multiple.products <= 2);
   BOOST_TEST(std::abs(multiple.highest - 4.0) < 1e-11);  // closed where the rest is 1e-12 of the size
   BOOST_TEST(std::abs(multiple.lowest - 4.0) < 1e-11);
   const auto nothing = ends_of(Eigen::MatrixXd::Zero(20, 20), Eigen::VectorXd::Ones(20));
-  BOOST_TEST(nothing.highest == 0.0);
-  BOOST_TEST(nothing.lowest == 0.0);
+  BOOST_TEST((nothing.highest == 0.0 && nothing.lowest == 0.0));
+  Eigen::MatrixXd infinite = Eigen::MatrixXd::Identity(3, 3);
+  infinite(1, 1) = std::numeric_limits<double>::infinity();
+  BOOST_TEST(std::isnan(ends_of(infinite, Eigen::Vector3d::Ones()).highest));
 }
 
 BOOST_AUTO_TEST_CASE(a_start_that_lacks_a_direction_does_not_find_it) {
@@ -193,22 +182,17 @@ BOOST_AUTO_TEST_CASE(a_start_that_lacks_a_direction_does_not_find_it) {
   BOOST_TEST(ends_of(a, Eigen::Vector3d(1.0, 1.0, 1e-3)).highest >= 9.0 - 1e-9);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_not_finite_is_not_a_number) {
-  Eigen::MatrixXd a = Eigen::MatrixXd::Identity(3, 3);
-  a(1, 1) = std::numeric_limits<double>::infinity();
-  BOOST_TEST(std::isnan(ends_of(a, Eigen::Vector3d::Ones()).highest));
-}
-
 BOOST_AUTO_TEST_CASE(ends_are_those_of_eigen) {
   draws random;
-  const fpu_chain<3> chain(50.0);
-  check_states(chain, random_states(chain, random, 0.8, 50));
-  const fpu_chain<> long_chain(30, 5.0);
-  check_states(long_chain, random_states(long_chain, random, 0.8, 10));
-  check_states(henon_heiles(), random_states(henon_heiles(), random, 0.8, 50));
-  check_states(two_masses(), random_states(two_masses(), random, 0.8, 50));
-  check_states(potential_only(), random_states(potential_only(), random, 0.8, 50));
-  check_states(black_box_with_derivative(), random_states(black_box_with_derivative(), random, 0.8, 50));
+  const auto check = [&](const auto& system, int count) {
+    check_states(system, random_states(system, random, 0.8, count));
+  };
+  check(fpu_chain<3>(50.0), 50);
+  check(fpu_chain<>(30, 5.0), 10);
+  check(henon_heiles(), 50);
+  check(two_masses(), 50);
+  check(potential_only(), 50);
+  check(black_box_with_derivative(), 50);
 }
 
 // Bond lengths where the force pushes, and where it pulls ever less.
@@ -231,9 +215,8 @@ BOOST_AUTO_TEST_CASE(negative_curvature_does_not_pass_for_stiffness) {
 
 // A hilltop has no frequency at all.
 BOOST_AUTO_TEST_CASE(where_all_curvature_is_negative_the_highest_frequency_is_zero) {
-  const black_box_with_derivative pendulum;
   const phase_point<double, 1> top{vector<double, 1>(3.14), vector<double, 1>(0.0)};
-  const auto found = hessian_spectrum(pendulum, std::vector{top});
+  const auto found = hessian_spectrum(black_box_with_derivative(), std::vector{top});
   BOOST_TEST(found.highest < 0.0);
   BOOST_TEST(found.highest_frequency() == 0.0);
 }
@@ -262,7 +245,7 @@ BOOST_AUTO_TEST_CASE(the_order_of_states_does_not_matter_to_a_percent) {
 
 BOOST_AUTO_TEST_CASE(nothing_to_look_at_is_refused) {
   BOOST_TEST(refuses<std::invalid_argument>(
-      [] { hessian_spectrum(henon_heiles(), states_of<henon_heiles>()); }, {"states must", "none"}));
+      [] { hessian_spectrum(trapped_pair(), states_of<trapped_pair>()); }, {"states must", "none"}));
   const phase_point<double, 2> together{vector<double, 2>(0.0, 0.0), vector<double, 2>(0.0, 0.0)};
   BOOST_TEST(refuses<std::invalid_argument>([&] { hessian_spectrum(trapped_pair(), std::vector{together}); },
                                             {"finite derivative", "state 0"}));
@@ -273,14 +256,12 @@ BOOST_AUTO_TEST_CASE(all_frequencies_of_a_state_are_those_of_the_hessian) {
   const dynamic_potential ring{5};
   for (int n = 0; n < 10; ++n) {
     const auto state = random.state(ring, 0.8);
-    const Eigen::MatrixXd a = hessian(ring, state.q);
-    const Eigen::VectorXd expected = symmetric_eigen(a).values;
+    const Eigen::VectorXd squares = symmetric_eigen(hessian(ring, state.q)).values;
     const auto found = frequencies_at(ring, state);
-    BOOST_REQUIRE(found.size() == 5U);
-    for (std::size_t k = 0; k < 5; ++k) {
-      const double square = expected[static_cast<Eigen::Index>(k)];
-      // Squares of order ten that are known to rounding.
-      BOOST_TEST(std::abs(found[k] * found[k] - std::max(0.0, square)) < 1e-12);
+    BOOST_REQUIRE(std::ssize(found) == squares.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {  // squares of order ten that are known to rounding
+      const double square = std::max(0.0, squares[static_cast<Eigen::Index>(k)]);
+      BOOST_TEST(std::abs(found[k] * found[k] - square) < 1e-12);
     }
   }
 }
@@ -304,8 +285,7 @@ BOOST_AUTO_TEST_CASE(of_large_systems_the_highest_alone_is_known) {
   BOOST_TEST(!found.are_complete);
   BOOST_REQUIRE(found.of_state.size() == 2U);
   for (std::size_t n = 0; n < 2; ++n) {
-    const Eigen::MatrixXd a = hessian(large, states[n].q);
-    const double highest = std::sqrt(symmetric_eigen(a).values.maxCoeff());
+    const double highest = std::sqrt(symmetric_eigen(hessian(large, states[n].q)).values.maxCoeff());
     BOOST_TEST(std::abs(found.of_state[n][0] / highest - 1.0) < 0.01);
   }
   BOOST_TEST(found.highest().frequency == std::max(found.of_state[0][0], found.of_state[1][0]));

@@ -3,21 +3,13 @@
 // rank fails on all, in the same words.
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <cstdint>
 #include <mutex>
 #include <new>
 #include <numeric>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "../support/ranks_as_threads.hpp"
-#include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/detail/collectively.hpp"
-#include "nysalt/detail/tree_sum.hpp"
 #include "nysalt/shard.hpp"
 
 using namespace nysalt;

@@ -2,15 +2,7 @@
 // Compiled with -O1: 20 s at -O0, 1 s at -O1.
 // A trajectory whose sites are shared has the bits of a plain loop: by tiles, on threads, and by ranks, also
 // where it is saved and resumed by other ranks.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <exception>
-#include <limits>
 #include <mutex>
-#include <stdexcept>
-#include <utility>
-#include <vector>
 
 #include "../laws/compiled_specimens.hpp"
 #include "../support/draws.hpp"
@@ -19,13 +11,8 @@
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/sanitizers.hpp"
-#include "nysalt/detail/tiled_steps.hpp"
+#include "nysalt/core.hpp"
 #include "nysalt/distributed_run.hpp"
-#include "nysalt/integrate.hpp"
-#include "nysalt/model.hpp"
-#include "nysalt/noises/counter_noise.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/in_bath.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -1,29 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
 // Threads that share trajectories: each is followed once, the first exception is the one that is thrown, a
 // black box with memory is used by one thread at a time, and no handler of signals runs where it must wait.
-#include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <csignal>
-#include <cstdint>
 #include <future>
-#include <stdexcept>
-#include <string>
-#include <thread>
-#include <type_traits>
-#include <vector>
 
 #include "../support/refusal.hpp"
-#include "../support/with_memory.hpp"
+#include "../support/systems.hpp"
 #include "nysalt/analysis/error_measures/energy.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
-#include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/held_signals.hpp"
 #include "nysalt/ensemble_run.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
-#include "nysalt/references/fine_steps.hpp"
 #include "nysalt/trial_run.hpp"
 
 using namespace nysalt;
