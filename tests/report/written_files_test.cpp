@@ -3,11 +3,9 @@
 // no entry.
 #include <boost/test/unit_test.hpp>
 
-#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -75,22 +73,6 @@ BOOST_AUTO_TEST_CASE(where_it_cannot_be_written_nothing_is_left) {
   BOOST_TEST((folder.files() == names{"file", "occupied"}));
   BOOST_TEST(contents(folder / "file") == "here");
   BOOST_TEST(contents(folder / "occupied" / "inside") == "kept");
-}
-
-BOOST_AUTO_TEST_CASE(a_full_disk_is_told) {
-  const scratch folder("write_file");
-  write_file(folder / "a.txt", "before");
-  std::signal(SIGXFSZ, SIG_IGN);
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const rlimit little{1000, before.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &little);  // write() then fails with EFBIG
-  const bool is_told = refuses<std::runtime_error>(
-      [&] { write_file(folder / "a.txt", std::string(100'000, 'x')); }, {"cannot write", "full"});
-  setrlimit(RLIMIT_FSIZE, &before);
-  BOOST_TEST(is_told);
-  BOOST_TEST(contents(folder / "a.txt") == "before");
-  BOOST_TEST((folder.files() == names{"a.txt"}));
 }
 
 BOOST_AUTO_TEST_CASE(what_is_in_the_way_is_not_followed) {

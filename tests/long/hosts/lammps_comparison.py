@@ -11,6 +11,7 @@ frequency, and taken to the crystal, as one would.
 import argparse
 import math
 import os
+import statistics
 import subprocess
 
 import common
@@ -34,26 +35,22 @@ thermo_modify norm no
 TEMPERATURE = 0.1
 
 
-def learned(program, folder, name, *options):
+def learned(folder, name, *options):
     file = os.path.join(folder, name + ".json")
     if not os.path.exists(file):
-        subprocess.run([program, "learn", *options, "--output", file], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([common.PROGRAM, "learn", *options, "--output", file], check=True, stdout=subprocess.DEVNULL)
     return file
 
 
 def run(driver, lines, seed, folder):
     """Numbers that the script prints to `found`, one row a line."""
-    text = CRYSTAL.format(twice=2 * TEMPERATURE, seed=seed) + "\n".join(lines) + "\n"
-    with open(os.path.join(folder, "script"), "w") as file:
-        file.write(text)
-    subprocess.run([driver, "script"], check=True, cwd=folder)
+    host.run(driver, CRYSTAL.format(twice=2 * TEMPERATURE, seed=seed) + "\n".join(lines) + "\n", folder)
     with open(os.path.join(folder, "found")) as file:
         return [[float(one) for one in line.split()] for line in file if not line.startswith("#")]
 
 
 def mean_and_error(numbers):
-    mean = sum(numbers) / len(numbers)
-    return mean, math.sqrt(sum((one - mean) ** 2 for one in numbers) / (len(numbers) - 1) / len(numbers))
+    return statistics.mean(numbers), statistics.stdev(numbers) / math.sqrt(len(numbers))
 
 
 def energies(driver, fix, timestep, stages, seed, folder):
@@ -64,10 +61,8 @@ def energies(driver, fix, timestep, stages, seed, folder):
                         f"fix out all print {stages} \"$(v_e:%.17g)\" file found screen no title \"\"", f"run {forces}"],
                seed, folder)
     values = [row[0] / 108 for row in rows if row]
-    mean = sum(values) / len(values)
     tenth = len(values) // 10
-    drift = sum(values[-tenth:]) / tenth - sum(values[:tenth]) / tenth
-    return math.sqrt(sum((one - mean) ** 2 for one in values) / len(values)), drift
+    return statistics.pstdev(values), statistics.mean(values[-tenth:]) - statistics.mean(values[:tenth])
 
 
 def potential_energy(driver, fixes, timestep, stages, seed, time, folder):
@@ -110,7 +105,7 @@ def main():
             "| time a force | method | deviation | drift |", "|---|---|---|---|"]
     for timestep in (0.005, 0.0075, 0.01):
         words = [(f"{family} learned", learned(
-            common.PROGRAM, folder, f"{family}_{timestep}", "--system", "lennard_jones", "--space", "3", "--atoms", "13",
+            folder, f"{family}_{timestep}", "--system", "lennard_jones", "--space", "3", "--atoms", "13",
             "--spread", "1.5", "--family", family, "--step", repr(round(stages * timestep, 6)), "--loss", "energy",
             "--trajectories", "16"), stages) for family, stages in (("bab3", 3), ("bab6", 6))]
         for name, method, stages in (("fix nve", None, 1), ("bcss3 exported", "bcss3", 3), ("srkn6b exported", "srkn6b", 6),
@@ -134,7 +129,7 @@ def main():
     page.append(f"| 0.002 | baoab exported | {truth:.5f} ± {truth_off:.0e} itself |")
     print(page[-1], flush=True)
     for timestep in (0.01, 0.02, 0.03, 0.04):
-        word = learned(common.PROGRAM, folder, f"bath_{timestep}", "--system", "linear_chain", "--masses", "8", "--spring", "225",
+        word = learned(folder, f"bath_{timestep}", "--system", "linear_chain", "--masses", "8", "--spring", "225",
                        "--friction", "1", "--temperature", str(TEMPERATURE), "--placement", "middle", "--family", "bab3",
                        "--step", repr(3 * timestep), "--loss", "covariance")
         langevin = f"fix 2 all langevin {TEMPERATURE} {TEMPERATURE} 1.0 {{seed}}"
