@@ -2,6 +2,7 @@
 """A Hamiltonian by functions of Python: the theta of the compiled one, and what goes wrong in functions."""
 import gc
 import traceback
+import warnings
 import weakref
 
 import numpy as np
@@ -157,3 +158,29 @@ def test_it_may_be_in_a_bath_and_has_masses():
     # p^2/m is kT times chi-squared: of 200 the mean errs by kT sqrt(2/200), and this is five times that.
     assert abs(run.values[:, -1, 0].mean() - 0.5) <= 5 * 0.5 * 0.1
     assert run.values[0, 0, 0] == 0.25
+
+
+def wells(number, kind=None):
+    """Quartic wells of one's own."""
+
+    def starts(seed, n):
+        draw = np.random.default_rng([seed, n])
+        return 0.5 * draw.standard_normal(number), draw.standard_normal(number)
+
+    return nysalt.hamiltonian(f"wells({number})", dimension=number, potential=lambda q: 0.25 * np.sum(q**4),
+                              force=lambda q: -(q**3), starts=starts, frequency=3.0, kind=kind)
+
+
+def test_systems_of_a_kind_share_schemes_with_a_warning():
+    assert nysalt.system("fpu", omega=50).kind == nysalt.system("fpu", omega=50, pairs=20).kind == "fpu_chain(omega=50)"
+    scheme = nysalt.learn(wells(1, kind="wells"), "nystrom", step=0.3, trajectories=4, horizon=3, loss="state:1",
+                          effort="quick")
+    assert scheme.document["system"]["kind"] == "wells"
+    with pytest.warns(UserWarning, match=r"learned at another size, .* passed the trial run for wells\(3\)"):
+        nysalt.run(wells(3, kind="wells"), scheme, step=0.3, horizon=3, trajectories=2)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        nysalt.run(wells(1, kind="wells"), scheme, step=0.3, horizon=3, trajectories=2)
+    for other in (wells(3), wells(3, kind="other wells")):
+        with pytest.raises(ValueError, match="must run on wells"):
+            nysalt.run(other, scheme, step=0.3, horizon=3, trajectories=2)
