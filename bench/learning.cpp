@@ -11,8 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "../tests/support/one_step.hpp"
-#include "../tests/support/sample_blocks.hpp"
+#include "../tests/support/losses.hpp"
 #include "counting.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"

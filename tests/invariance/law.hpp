@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "../support/in_lanes.hpp"
 #include "../support/ranks_as_threads.hpp"
+#include "../support/systems.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/detail/divergence.hpp"

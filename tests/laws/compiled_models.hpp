@@ -4,7 +4,6 @@
 
 #include <memory>
 
-#include "../support/in_lanes.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/systems/fpu_chain.hpp"

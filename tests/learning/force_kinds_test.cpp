@@ -8,7 +8,7 @@
 
 #include "../support/black_box_in_units.hpp"
 #include "../support/dense.hpp"
-#include "../support/one_step.hpp"
+#include "../support/losses.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/ensembles/normal_around.hpp"

@@ -4,10 +4,8 @@
 #include <boost/test/unit_test.hpp>
 
 #include "../laws/models.hpp"
-#include "../support/central_difference.hpp"
-#include "../support/one_step.hpp"
+#include "../support/losses.hpp"
 #include "../support/rounding.hpp"
-#include "../support/sample_blocks.hpp"
 #include "../support/tableau.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/learning/curvature.hpp"

@@ -8,9 +8,8 @@
 
 #include "../support/dense.hpp"
 #include "../support/draws.hpp"
-#include "../support/families.hpp"
+#include "../support/losses.hpp"
 #include "../support/rounding.hpp"
-#include "../support/sample_blocks.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/aba.hpp"
@@ -243,7 +242,7 @@ BOOST_AUTO_TEST_CASE(a_flat_direction_is_reported_and_the_rest_is_learned) {
   const auto data = make_flow_map_data(oscillator, around_rest, exact_linear(oscillator),
                                        {.step = 0.5, .horizon = 2.0, .trajectories = 20});
   const metric measure(oscillator, data, coordinates::qp);
-  const run_time_family family{aba4()};
+  const run_time_family family{aba<4>()};
   const after_steps<> loss(family, oscillator, data, state_error(measure));
   const auto fit = learn(family, oscillator, data, data, {.loss = loss_named("state:1")});
   BOOST_TEST_CONTEXT(fit.summary.full()) {
@@ -291,6 +290,6 @@ void compare_searches(const S& system, double step, const std::vector<Eigen::Ind
 BOOST_AUTO_TEST_CASE(it_ends_where_it_ends_with_a_block_for_each_sample) {
   compare_searches<nystrom>(two_masses(), 0.6, {0, 1});
   compare_searches<nystrom>(two_masses(), 0.6, {1});
-  compare_searches<aba4>(dynamic_potential(), 0.8, {0, 1, 2});
+  compare_searches<aba<4>>(dynamic_potential(), 0.8, {0, 1, 2});
   compare_searches<nystrom>(black_box(), 0.8, {0, 1});
 }

@@ -10,7 +10,6 @@
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "../support/step_matrix.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"

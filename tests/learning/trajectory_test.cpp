@@ -3,7 +3,7 @@
 // What a fit to whole trajectories has over a fit to one step, and how it is found.
 #include <boost/test/unit_test.hpp>
 
-#include "../support/central_difference.hpp"
+#include "../support/losses.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/detail/oscillator_loss.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"

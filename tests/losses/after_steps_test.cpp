@@ -9,12 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "../support/central_difference.hpp"
+#include "../support/losses.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "../support/same_squares.hpp"
-#include "../support/sample_blocks.hpp"
-#include "../support/steps_in_bath.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/aba.hpp"

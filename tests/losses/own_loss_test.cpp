@@ -4,10 +4,9 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "../support/central_difference.hpp"
+#include "../support/losses.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "../support/same_squares.hpp"
 #include "nysalt/detail/tree_sum.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/aba.hpp"

@@ -11,8 +11,7 @@
 
 #include "../support/dense.hpp"
 #include "../support/draws.hpp"
-#include "../support/langevin_linear.hpp"
-#include "../support/langevin_methods.hpp"
+#include "../support/langevin.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/langevin.hpp"

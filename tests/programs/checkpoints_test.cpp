@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "../support/signed_again.hpp"
+#include "../support/forged.hpp"
 #include "../support/stopping.hpp"
 #include "../support/table.hpp"
 

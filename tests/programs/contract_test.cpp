@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../support/document.hpp"
+#include "../support/program.hpp"
 #include "../support/rounding.hpp"
 #include "../support/table.hpp"
 

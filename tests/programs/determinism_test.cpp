@@ -8,7 +8,6 @@
 
 #include "../../src/comparison/seeds.hpp"
 #include "../support/program.hpp"
-#include "../support/without_times.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "../support/document.hpp"
+#include "../support/program.hpp"
 #include "../support/rounding.hpp"
 
 using namespace nysalt::test;

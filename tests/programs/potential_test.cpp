@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "../support/document.hpp"
+#include "../support/program.hpp"
 
 using namespace nysalt::test;
 

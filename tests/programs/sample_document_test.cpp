@@ -5,7 +5,6 @@
 #include <numbers>
 #include <string>
 
-#include "../support/document.hpp"
 #include "../support/program.hpp"
 
 using namespace nysalt::test;

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <string>
 
-#include "../support/bad_input.hpp"
 #include "../support/program.hpp"
 #include "../support/table.hpp"
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "../support/document.hpp"
+#include "../support/program.hpp"
 #include "../support/rounding.hpp"
 
 using namespace nysalt::test;

@@ -7,9 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "../support/bad_input.hpp"
+#include "../support/forged.hpp"
 #include "../support/program.hpp"
-#include "../support/signed_again.hpp"
 #include "../support/table.hpp"
 
 using namespace nysalt::test;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "../../src/comparison/seeds.hpp"
-#include "../support/document.hpp"
+#include "../support/program.hpp"
 #include "nysalt/analysis/acceptance.hpp"
 #include "nysalt/analysis/error_measures/energy.hpp"
 #include "nysalt/analysis/error_measures/exchange.hpp"

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-#include "../support/unoptimised_plugins.hpp"
+#include "../support/program.hpp"
 
 using namespace nysalt::test;
 

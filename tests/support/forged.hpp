@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Scheme files that somebody has changed and signed again.
+// Scheme files, checkpoints and lines of journals that somebody has changed and signed again.
 #pragma once
 
 #include <boost/crc.hpp>
@@ -10,18 +10,35 @@
 
 namespace nysalt::test {
 
-/// The file's text after a change to its document, under a checksum that fits again.
+/// The CRC-32 of a text, in eight digits.
+inline std::string digits_of_crc(const std::string& text) {
+  boost::crc_32_type sum;
+  sum.process_bytes(text.data(), text.size());
+  char digits[9];
+  std::snprintf(digits, sizeof digits, "%08x", static_cast<unsigned>(sum.checksum()));
+  return digits;
+}
+
+/// A checkpoint with the sum that it ought to end with.
+inline std::string signed_again(const std::string& text) {
+  const std::string bare = text.substr(0, text.rfind("\ncrc32 "));
+  return bare + "\ncrc32 " + digits_of_crc(bare) + "\n";
+}
+
+/// A line of a journal, an object without spaces, with the checksum that it ought to end with.
+inline std::string signed_line(const std::string& line) {
+  std::string bare = line.substr(0, line.rfind(",\"checksum\":"));
+  if (bare.size() == line.size()) bare.pop_back();
+  return bare + ",\"checksum\":\"crc32:" + digits_of_crc(bare + "}") + "\"}";
+}
+
+/// A scheme file's text after a change to its document, under a checksum that fits again.
 inline std::string forged(const std::string& text,
                           const std::function<void(nlohmann::ordered_json&)>& change) {
   auto document = nlohmann::ordered_json::parse(text);
   change(document);
   document.erase("checksum");
-  const std::string bare = document.dump();
-  boost::crc_32_type crc;
-  crc.process_bytes(bare.data(), bare.size());
-  char digits[16];
-  std::snprintf(digits, sizeof digits, "crc32:%08x", static_cast<unsigned>(crc.checksum()));
-  document["checksum"] = digits;
+  document["checksum"] = "crc32:" + digits_of_crc(document.dump());
   return document.dump(2);
 }
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "program.hpp"
-#include "without_times.hpp"
 
 namespace nysalt::test {
 

@@ -16,8 +16,12 @@
 #include <utility>
 
 #include "forged.hpp"
+#include "program.hpp"
 #include "table.hpp"
-#include "without_times.hpp"
+
+#if !defined NYSALT_FAULTS  // where nothing can be preloaded, and for nysalt_paper
+#define NYSALT_FAULTS ""
+#endif
 
 namespace nysalt::test {
 
@@ -34,7 +38,8 @@ finished shell(const scratch& folder, const std::string& line, int limit) {
   const std::string out = streams / "out";
   const std::string err = streams / "err";
   std::string whole = "cd '" + folder.path().string();
-  whole += "' && export nysalt='" + program() + "' source='" NYSALT_SOURCE_DIR "/tests/programs' && { ";
+  whole += "' && export nysalt='" + program() + "' source='" NYSALT_SOURCE_DIR "/tests/programs";
+  whole += "' faults='" NYSALT_FAULTS "' && { ";
   whole += line + "\n} </dev/null >'";
   whole += out + "' 2>'";
   whole += err + "'";

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "program.hpp"
-#include "without_times.hpp"
 
 namespace nysalt::test {
 

@@ -2,8 +2,11 @@
 // Systems that only tests need: one for each way in which a user may write one.
 #pragma once
 
+#include <atomic>
 #include <cmath>
+#include <thread>
 
+#include "nysalt/lanes.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt::test {
@@ -117,6 +120,43 @@ template <System S>
 struct without_kick : S {
   explicit without_kick(const S& system) : S(system) {}
   void kick() const = delete;
+};
+
+/// The same system, stepped in another number of lanes.
+template <class S, int L>
+struct in_lanes : S {
+  static constexpr int lanes = L;
+  explicit in_lanes(const S& system) : S(system) {}
+};
+
+/// A black box whose force and potential have memory: an oscillator that counts how often two threads met in
+/// one object. A copy begins anew; each Test has a count of its own.
+template <class Test>
+struct with_memory {
+  static constexpr int dimension = 1;
+  static inline std::atomic<int> meetings = 0;
+  mutable std::atomic<int> inside = 0;
+
+  with_memory() = default;
+  with_memory(const with_memory&) {}
+  with_memory& operator=(const with_memory&) { return *this; }
+  ~with_memory() = default;
+
+  void force(const vector<double, 1>& q, vector<double, 1>& f) const {
+    visit();
+    f[0] = -q[0];
+  }
+  double potential(const vector<double, 1>& q) const {
+    visit();
+    return 0.5 * q[0] * q[0];
+  }
+
+ private:
+  void visit() const {
+    if (++inside != 1) ++meetings;
+    std::this_thread::yield();
+    --inside;
+  }
 };
 
 }  // namespace nysalt::test

@@ -7,7 +7,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "../../support/draws.hpp"
-#include "../../support/one_step.hpp"
+#include "../../support/losses.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"

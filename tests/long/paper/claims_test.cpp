@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "../../support/document.hpp"
+#include "../../support/program.hpp"
 
 using namespace nysalt::test;
 using json = nlohmann::ordered_json;

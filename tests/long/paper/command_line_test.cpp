@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "../../support/bad_input.hpp"
+#include "../../support/program.hpp"
 
 using namespace nysalt::test;
 

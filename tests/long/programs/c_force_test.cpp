@@ -9,7 +9,6 @@
 #include <string>
 
 #include "../../support/program.hpp"
-#include "../../support/without_times.hpp"
 
 using namespace nysalt::test;
 using json = nlohmann::ordered_json;

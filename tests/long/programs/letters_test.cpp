@@ -19,11 +19,10 @@
 #include <utility>
 #include <vector>
 
-#include "../../support/document.hpp"
 #include "../../support/forged.hpp"
+#include "../../support/program.hpp"
 #include "../../support/stopping.hpp"
 #include "../../support/systems_with_letters.hpp"
-#include "../../support/unoptimised_plugins.hpp"
 #include "nysalt/run_time_family.hpp"
 #include "nysalt/stepper.hpp"
 

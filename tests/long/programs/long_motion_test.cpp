@@ -3,7 +3,7 @@
 // tests/programs/cases/comparison.txt and stability.txt.
 #include <boost/test/unit_test.hpp>
 
-#include "../../support/document.hpp"
+#include "../../support/program.hpp"
 
 using namespace nysalt::test;
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "../../support/document.hpp"
+#include "../../support/program.hpp"
 
 using namespace nysalt::test;
 using json = nlohmann::ordered_json;

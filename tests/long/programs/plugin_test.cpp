@@ -15,10 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "../../support/document.hpp"
+#include "../../support/program.hpp"
 #include "../../support/sanitizers.hpp"
-#include "../../support/unoptimised_plugins.hpp"
-#include "../../support/without_times.hpp"
 
 using namespace nysalt::test;
 using json = nlohmann::ordered_json;

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "../../support/document.hpp"
+#include "../../support/program.hpp"
 
 using namespace nysalt::test;
 using json = nlohmann::ordered_json;

@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: BSL-1.0
-// The damped oscillator dq = p dt, dp = (-omega^2 q - gamma p) dt + sigma dW: its solution and every word of
-// A, B and O on it are linear maps with normal noise, known here without the library.
+// The damped oscillator dq = p dt, dp = (-omega^2 q - gamma p) dt + sigma dW: its solution, exact paths of it
+// and every word of A, B and O on it are linear maps with normal noise, known here without the library.
 #pragma once
 
 #include <Eigen/Core>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
 
 #include "dense.hpp"
+#include "nysalt/families/nystrom.hpp"
+#include "nysalt/families/thermostatted.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/noises/counter_based.hpp"
+#include "nysalt/reference.hpp"
+#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/in_bath.hpp"
 
 namespace nysalt::test {
 
@@ -188,5 +198,102 @@ inline square<2> error_after(const gaussian_step<4>& step, const square<2>& star
   for (; n > 0; --n) both = (step.map * both * step.map.transpose() + step.covariance).eval();
   return both.bottomRightCorner<2, 2>();
 }
+
+/// Two stages in a bath, at a member that is near the optimum and not quite Verlet.
+template <placement P>
+struct two_stages : member<thermostatted_family<nystrom, P>> {
+  two_stages() : member<thermostatted_family<nystrom, P>>({0.5, 0.41}) {}
+};
+template <placement P>
+struct bathed_verlet : thermostatted_method<P, verlet> {
+  bathed_verlet() : thermostatted_method<P, verlet>(verlet()) {}
+};
+
+/// As data, so that what follows is compiled once. Verlet in a symmetric placement is obabo, and with O in
+/// the middle baoab.
+inline std::vector<tabulated> langevin_methods() {
+  return {tabulated(baoab()),
+          tabulated(obabo()),
+          tabulated(aboba()),
+          tabulated(baoab_2x()),
+          tabulated(two_stages<placement::end>()),
+          tabulated(two_stages<placement::symmetric>()),
+          tabulated(two_stages<placement::middle>()),
+          tabulated(bathed_verlet<placement::end>())};
+}
+
+using bathed_oscillator = in_bath<harmonic_oscillator>;
+
+inline bathed_oscillator bathed_system(const damped_oscillator& x) {
+  return {harmonic_oscillator(x.omega), bath::of_sigma(x.gamma, x.sigma)};
+}
+inline std::vector<spelled> spell(const tabulated& method) {
+  return spell(method.letters().letters(), method.coefficients());
+}
+
+inline phase_point<double, 1> point(double q, double p) {
+  return {vector<double, 1>(q), vector<double, 1>(p)};
+}
+inline Eigen::Vector2d coordinates_of(const phase_point<double, 1>& x) { return {x.q[0], x.p[0]}; }
+
+/// The number 1 for one letter O of a step, 0 for the others.
+struct one_at {
+  static constexpr bool is_memoryless = false;
+  int flow;
+  template <class T, int N>
+  void normals(const noise_place& at, vector<T, N>& xi) const {
+    xi.fill(T(at.flow == flow ? 1.0 : 0.0));
+  }
+};
+
+/// A step of the library's as it is: what it makes of unit states and of unit numbers, as it is linear.
+inline gaussian_step<2> library_step(const damped_oscillator& x, const tabulated& method, double h) {
+  const auto system = bathed_system(x);
+  gaussian_step<2> result;
+  const auto stepped = [&](phase_point<double, 1> state, int flow) {
+    make_stepper(system, method, h, one_at{flow}).step(state);
+    return coordinates_of(state);
+  };
+  result.map << stepped(point(1.0, 0.0), -1), stepped(point(0.0, 1.0), -1);
+  for (int flow = 0; flow < method.letters().stochastic_letters; ++flow) {
+    const Eigen::Vector2d response = stepped(point(0.0, 0.0), flow);
+    result.covariance += response * response.transpose();
+  }
+  return result;
+}
+
+/// Exact paths of the damped oscillator, and their noise, as a PathReference. Over each part of the time, (q,
+/// p) and the noise of the bath come from their joint law.
+class exact_paths {
+ public:
+  explicit exact_paths(const damped_oscillator& x) : oscillator_(x) {}
+
+  template <class S, class T>
+  void advance(const S&, phase_point<T, 1>& x, double t, const path_place& at,
+               std::span<vector<T, 1>> xi) const {
+    const auto parts = std::max<std::int64_t>(std::ssize(xi), 1);
+    const auto part = oscillator_.exact_with_bath(t / static_cast<double>(parts));
+    const square<3> L = cholesky(part.covariance);
+    const auto& E = part.map;
+    const double deviation = std::sqrt(part.covariance(2, 2));
+    std::array<T, 3> z;
+    for (std::int64_t k = 0; k < parts; ++k) {
+      standard_normals<T>(at.seed, {.trajectory = at.trajectory, .step = at.step * parts + k}, z);
+      const T q = x.q[0];
+      const T p = x.p[0];
+      x.q[0] = q * E(0, 0) + p * E(0, 1) + z[0] * L(0, 0);
+      x.p[0] = q * E(1, 0) + p * E(1, 1) + z[0] * L(1, 0) + z[1] * L(1, 1);
+      if (xi.empty() || deviation == 0.0) continue;
+      const T noise = z[0] * L(2, 0) + z[1] * L(2, 1) + z[2] * L(2, 2);
+      xi[static_cast<std::size_t>(k)][0] = noise * (1.0 / deviation);
+    }
+  }
+
+  exact_paths finer() const { return *this; }
+  std::string description() const { return "exact_paths()"; }
+
+ private:
+  damped_oscillator oscillator_;
+};
 
 }  // namespace nysalt::test

@@ -1,29 +1,138 @@
 // SPDX-License-Identifier: BSL-1.0
-// The loss over steps as a textbook has it: window after window over double, by the word as a type, and a
-// Ceres block for each. It shares no loop with the library's own: an oracle for tests, and what benchmarks
-// compare with.
+// What tests of losses compare with: differences, data that a method made itself, and the loss over steps as
+// a textbook has it.
 #pragma once
 
 #include <ceres/cost_function.h>
 #include <ceres/problem.h>
-
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <utility>
 #include <vector>
 
 #include "nysalt/energy.hpp"
 #include "nysalt/family.hpp"
+#include "nysalt/flow_map_data.hpp"
+#include "nysalt/langevin.hpp"
+#include "nysalt/learning/curvature.hpp"
 #include "nysalt/learning/minimise.hpp"
 #include "nysalt/losses/after_steps.hpp"
 #include "nysalt/losses/metric.hpp"
+#include "nysalt/losses/squares.hpp"
+#include "nysalt/losses/state_error.hpp"
+#include "nysalt/method.hpp"
+#include "nysalt/noises/along_path.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt::test {
 
-/// Refers to system, data and metric.
+/// The slope by differences of f at x along coordinate k: (f(x + s e_k) - f(x - s e_k))/(2 s).
+template <class F, class X, class K>
+class central_difference {
+ public:
+  central_difference(const F& f, const X& x, K k) : f_(f), x_(x), k_(k) {}
+
+  double operator()(double s) const {
+    X ahead = x_;
+    X behind = x_;
+    ahead[k_] += s;
+    behind[k_] -= s;
+    return (f_(ahead) - f_(behind)) / (2.0 * s);
+  }
+  /// Truncation falls to a quarter with s, so it is a third of the change.
+  double truncation(double s) const { return std::abs((*this)(s) - (*this)(2.0 * s)) / 3.0; }
+
+ private:
+  F f_;
+  X x_;
+  K k_;
+};
+
+/// Whether two passes over data came to the same bits.
+inline bool same(const squares& a, const squares& b) {
+  return a.value == b.value && a.half_gradient == b.half_gradient && a.normal_matrix == b.normal_matrix;
+}
+
+/// The one-step loss of a family that is a type, with theta as the family holds it.
+template <Family F, Scalar R = detail::lanes>
+struct one_step : after_steps<R> {
+  one_step(const model& system, const flow_map_data& data, const metric& measure, int threads = 1)
+      : after_steps<R>(run_time_family(F()), system, data, state_error<R>(measure), {.threads = threads}) {}
+};
+
+template <Family F, Scalar R>
+double loss_value(const one_step<F, R>& loss, const parameters_of<F>& theta) {
+  return nysalt::loss_value(loss, column_of(theta));
+}
+template <Family F, Scalar R>
+std::vector<Eigen::VectorXd> trajectory_gradients(const one_step<F, R>& loss, const parameters_of<F>& theta) {
+  return nysalt::trajectory_gradients(loss, column_of(theta));
+}
+template <Family F, Scalar R>
+squares squares_at(const one_step<F, R>& loss, const parameters_of<F>& theta) {
+  return nysalt::squares_at(loss, column_of(theta));
+}
+template <Family F, Scalar R>
+Eigen::MatrixXd hessian(const one_step<F, R>& loss, const parameters_of<F>& theta) {
+  return nysalt::hessian(loss, column_of(theta));
+}
+
+/// Where the coefficients of a family are defined.
+template <Family F>
+std::function<bool(const Eigen::VectorXd&)> defined_for() {
+  return [family = run_time_family(F())](const Eigen::VectorXd& theta) { return family.is_defined(theta); };
+}
+
+struct steps_options {
+  double step;
+  std::int64_t steps = 10;  // of each trajectory
+  std::int64_t trajectories = 30;
+  std::uint64_t seed = 1;
+  int parts = 2;  // of a step, in which its noise is told
+};
+
+/// Noise `parts` times a step, and with it a plain step of the method from each state to the next.
+template <class S, Ensemble<S> E, Method M>
+flow_map_data made_by_steps(const S& system, const E& ensemble, const M& method,
+                            const steps_options& options) {
+  using numbers = vector<double, S::dimension>;
+  flow_map_data data;
+  data.step = options.step;
+  data.noise_parts = options.parts;
+  data.system = describe(system);
+  data.seed = options.seed;
+  data.first_of = {0};
+  const auto intervals = intervals_of_noise(word_of(method), method.coefficients());
+  for (std::int64_t m = 0; m < options.trajectories; ++m) {
+    const auto trajectory = static_cast<std::uint64_t>(m);
+    recorded_path<double, S::dimension> path(options.step / options.parts, system.bath().friction(),
+                                             trajectory);
+    for (std::int64_t n = 0; n < options.steps * options.parts; ++n) {
+      numbers xi = make_vector<double>(system);
+      counter_noise(options.seed).normals(noise_place{trajectory, n, 0}, xi);
+      data.noise.push_back(xi);
+      path.add(std::move(xi));
+    }
+    const along_path<double, S::dimension> noise(path, intervals, options.step);
+    const auto stepper = make_stepper(system, method, options.step, noise);
+    auto x = ensemble(options.seed, trajectory);
+    for (std::int64_t n = 0; n < options.steps; ++n) {
+      data.start.push_back(x);
+      stepper.step(x, trajectory, n);
+      data.finish.push_back(x);
+    }
+    data.first_of.push_back(data.pairs());
+  }
+  return data;
+}
+
+/// The loss window after window over double, by the word as a type, and a Ceres block for each. It shares no
+/// loop with the library's own: an oracle for tests, and what benchmarks compare with. Refers to system, data
+/// and metric.
 template <Family F, SeparableSystem S>
 class sample_blocks {
  public:
