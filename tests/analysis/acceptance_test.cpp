@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: BSL-1.0
-// Compiled with -O1: 1.0 s at -O0, 0.2 s at -O1.
-// The acceptance of proposals of Hybrid Monte Carlo: in closed form, and along trajectories.
-#include "nysalt/analysis/acceptance.hpp"
-
+// Compiled with -O1: 2.2 s at -O0, 0.8 s at -O1.
+// The acceptance of proposals of Hybrid Monte Carlo: in closed form, and along trajectories; and the step
+// that has it, against Gaussian targets and against chains.
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "../support/refusal.hpp"
-#include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
-#include "nysalt/analysis/gaussian_acceptance.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/ensembles/gibbs_of_modes.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/families/free_composition.hpp"
-#include "nysalt/integrate.hpp"
-#include "nysalt/methods/classical.hpp"
+#include "nysalt/nysalt.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -48,24 +42,6 @@ double accepted(double mu) {
   return sum * 2.0 * reach / points / std::sqrt(2.0 * std::numbers::pi);
 }
 
-/// On the oscillator n steps are a linear map of determinant 1. In (omega q, p)/sqrt(kT) it has singular
-/// values s and 1/s, and a start of the Gibbs law is two standard normals (u, v) along its axes:
-/// (H' - H)/kT = ((s^2 - 1) u^2 - (1 - s^-2) v^2)/2 falls where |u/v| < 1/s, with the probability
-/// (2/pi) arctan(1/s). A reversible map that keeps volume accepts twice as often as it loses energy.
-double expected(const model& system, double omega, const tabulated& method, double step, std::int64_t steps) {
-  const auto image = [&](double x, double p) {
-    const phase_point<double, Eigen::Dynamic> at{Eigen::VectorXd::Constant(1, x / omega),
-                                                 Eigen::VectorXd::Constant(1, p)};
-    const auto end = integrate(system, method, step, at, steps).finish;
-    return std::array{end.q[0] * omega, end.p[0]};
-  };
-  const auto [a, c] = image(1.0, 0.0);
-  const auto [b, d] = image(0.0, 1.0);
-  const double sum = a * a + b * b + c * c + d * d;  // s^2 + 1/s^2
-  const double s = std::sqrt((sum + std::sqrt(sum * sum - 4.0)) / 2.0);
-  return 4.0 / std::numbers::pi * std::atan(1.0 / s);
-}
-
 /// K = sqrt(1 + p^2) + tilt p + bend p^3, odd where it must not be.
 struct tilted {
   static constexpr int dimension = 2;
@@ -82,6 +58,23 @@ struct tilted {
     return sqrt(p[0] * p[0] + p[1] * p[1] + 1.0) + p[1] * tilt + p[1] * p[1] * p[1] * bend;
   }
 };
+
+/// Independent oscillators of frequencies from 1 to 1.5.
+const Eigen::VectorXd frequencies = Eigen::VectorXd::LinSpaced(16, 1.0, 1.5);
+const std::span<const double> spectrum(frequencies.data(), 16);
+const linear_chain oscillators{frequencies.cwiseAbs2().asDiagonal().toDenseMatrix()};
+const model system_of_all(oscillators);
+
+initial_states thermal(double temperature = 1.0) {
+  return gibbs_of_modes<Eigen::Dynamic>(oscillators, temperature);
+}
+
+acceptance_step step_of(const tabulated& method, double acceptance, double guess,
+                        const proposal_options& options) {
+  return step_at_acceptance(
+      system_of_all, [&](double) { return method; }, acceptance, guess, thermal(options.temperature),
+      options);
+}
 
 }  // namespace
 
@@ -116,58 +109,35 @@ BOOST_AUTO_TEST_CASE(the_gaussian_step_of_verlet_is_the_closed_form) {
   BOOST_TEST(gaussian_energy_error(by_verlet, std::vector{1.0}, 2.5) == infinite);
 }
 
-BOOST_AUTO_TEST_CASE(the_acceptance_on_the_oscillator_is_the_closed_form) {
-  constexpr double omega = 2.0;
-  const harmonic_oscillator system(omega);
-  const auto check = [&](const tabulated& method, double z, double temperature) {
-    const trajectory_options options{
-        .step = z / omega, .steps = 5, .trajectories = 8000, .seed = seed(1), .threads = 2};
-    const gibbs_of_modes<1> starts(system, temperature);
-    const auto found = acceptance(system, method, starts, options, temperature).probability;
-    const double known = expected(system, omega, method, z / omega, options.steps);
-    BOOST_TEST(known < 0.97);
-    const double allowed = standard_errors(false_alarms / 3);
-    BOOST_TEST(std::abs(found.mean - known) < allowed * found.standard_error);
-    BOOST_TEST(found.standard_error < 0.5 / std::sqrt(8000.0));  // of numbers within [0, 1]
-    const auto colder = acceptance(system, method, starts, options, 0.5 * temperature).probability;
-    BOOST_TEST(known - colder.mean > allowed * colder.standard_error);
-  };
-  check(by_verlet, 1.0, 1.0);
-  check(by_verlet, 1.5, 0.3);
-  check(tabulated(bcss2()), 3.0, 2.0);
-}
-
+// What diverged is rejected: a mean of errors would leave it out.
 BOOST_AUTO_TEST_CASE(it_is_the_mean_over_trajectories_of_what_integrate_says) {
-  const trajectory_options options{.step = 0.03, .steps = 70, .trajectories = 37, .seed = 3};
-  const auto all = acceptance(chain, verlet(), law, options, 0.1);
-  BOOST_REQUIRE(all.of_each.size() == 37U);
-  double sum = 0.0;
-  for (std::uint64_t m = 0; m < 37; ++m) {
-    const phase_point<double, Eigen::Dynamic> start{law(options.seed, m).q, law(options.seed, m).p};
-    const auto end = integrate(of_chain, by_verlet, options.step, start, options.steps).finish;
-    const double rise = energy<double>(of_chain, end) - energy<double>(of_chain, start);
-    const double of_one = std::min(1.0, std::exp(-rise / 0.1));
-    BOOST_TEST(all.of_each[m] == of_one);
-    sum += of_one;
+  for (const double step : {0.03, 0.05}) {
+    const trajectory_options options{
+        .step = step, .steps = step == 0.03 ? 70 : 3, .trajectories = 37, .seed = 3};
+    const auto all = acceptance(chain, verlet(), law, options, 0.1);
+    BOOST_REQUIRE(all.of_each.size() == 37U);
+    double sum = 0.0;
+    std::size_t lost = 0;
+    for (std::uint64_t m = 0; m < 37; ++m) {
+      const phase_point<double, Eigen::Dynamic> start{law(options.seed, m).q, law(options.seed, m).p};
+      const auto run = integrate(of_chain, by_verlet, step, start, options.steps);
+      const double rise = energy<double>(of_chain, run.finish) - energy<double>(of_chain, start);
+      const double of_one = run.diverged_at ? 0.0 : std::min(1.0, std::exp(-rise / 0.1));
+      BOOST_TEST(all.of_each[m] == of_one);
+      sum += of_one;
+      if (!run.diverged_at) continue;
+      BOOST_TEST(all.diverged_at.at(lost).trajectory == static_cast<std::int64_t>(m));
+      BOOST_TEST(all.diverged_at.at(lost++).step == *run.diverged_at);
+    }
+    BOOST_TEST(all.diverged_at.size() == lost);
+    BOOST_TEST((lost > 0U) == (step == 0.05));
+    BOOST_TEST(lost < 37U);
+    BOOST_TEST(all.probability.mean == sum / 37.0, boost::test_tools::tolerance(1e-14));  // 37 roundings
+    BOOST_TEST((all.probability.mean > 0.1 || lost > 0U));
+    BOOST_TEST(all.probability.mean < 0.99);
+    BOOST_TEST(all.evaluations_per_time == double(options.steps + 1) / (double(options.steps) * step),
+               boost::test_tools::tolerance(1e-14));
   }
-  BOOST_TEST(all.probability.mean == sum / 37.0, boost::test_tools::tolerance(1e-14));  // 37 roundings
-  BOOST_TEST(all.probability.mean > 0.1);
-  BOOST_TEST(all.probability.mean < 0.99);
-  BOOST_TEST(all.evaluations_per_time == 71.0 / (70 * 0.03), boost::test_tools::tolerance(1e-14));
-}
-
-BOOST_AUTO_TEST_CASE(what_diverged_is_rejected) {
-  const trajectory_options options{.step = 0.05, .steps = 3, .trajectories = 40};
-  const auto all = acceptance(chain, verlet(), law, options);
-  BOOST_TEST(all.diverged_at.size() > 0U);
-  BOOST_TEST(all.diverged_at.size() < 40U);
-  for (const auto& [m, step] : all.diverged_at) {
-    BOOST_TEST(all.of_each[static_cast<std::size_t>(m)] == 0.0);
-    const auto start = law(options.seed, static_cast<std::uint64_t>(m));
-    const phase_point<double, Eigen::Dynamic> x{start.q, start.p};
-    BOOST_TEST(integrate(of_chain, by_verlet, 0.05, x, 3).diverged_at.value() == step);
-  }
-  BOOST_TEST(!std::isnan(all.probability.mean));  // a mean of errors would leave them out
 }
 
 // With an odd K a palindrome runs back from (q, p) by -h, and not from (q, -p).
@@ -212,4 +182,92 @@ BOOST_AUTO_TEST_CASE(gaussian_targets_that_cannot_be_are_refused) {
       refuses<wrong>([&] { gaussian_step(method, many, 1.0 - 1e-12); }, {"must be one that verlet reaches"}));
   BOOST_TEST(refuses<wrong>([&] { gaussian_step(tabulated(mclachlan_atela4{}), one, 0.9); },
                             {"must be reversible"}));
+}
+
+// Long trajectories have the mean of sin^2, 1/2 but for its end: one part in the phase, 2 pi 100. The second
+// moment has mu + mu^2/2 for mu, 2 % at the largest mu here, 0.04, beside what the sample allows.
+BOOST_AUTO_TEST_CASE(of_a_gaussian_target_many_times_larger_the_step_is_that_of_its_spectrum) {
+  constexpr double larger = 500.0;
+  const proposal_options options{.length = 100.0, .times_larger = larger, .states = 400, .seed = seed(1)};
+  const double of_part = acceptance_at(energy_error_at(0.9) / larger);
+  for (const auto& method : {by_verlet, tabulated(bcss3{})}) {
+    const double exact = gaussian_step(method, spectrum, of_part);
+    const auto found = step_of(method, 0.9, 0.5 * exact, options);
+    BOOST_TEST(!found.is_longest);
+    const double relative = standard_errors(false_alarms / 2) * found.log_step.standard_error +
+                            0.005;  // a fourth of 2 %, as mu is of h^4
+    BOOST_TEST(std::abs(found.step / exact - 1.0) <= relative);
+    BOOST_TEST(relative < 0.1);  // sharp enough for what must differ
+    const double not_scaled = gaussian_step(method, spectrum, 0.9);
+    BOOST_TEST(std::abs(found.step / not_scaled - 1.0) > 5.0 * relative);
+    BOOST_TEST(std::accumulate(found.log_of_each.begin(), found.log_of_each.end(), 0.0) / 400.0 ==
+                   std::log(found.step),
+               boost::test_tools::tolerance(1e-12));
+  }
+}
+
+// Chains at the step that was found are accepted as often as asked, within what both errors allow. All chains
+// have the same durations, 2000 of them, over which the acceptance varies by 0.1 at most.
+BOOST_AUTO_TEST_CASE(chains_are_accepted_as_often_as_asked) {
+  const proposal_options options{.length = 1.5, .temperature = 0.5, .states = 1600, .seed = seed(1)};
+  const auto found = step_of(by_verlet, 0.8, 0.1, options);
+  const auto accepted = [&](double step) {
+    return hmc(system_of_all, by_verlet, thermal(0.5),
+               {.step = step,
+                .length = 1.5,
+                .temperature = 0.5,
+                .chains = 32,
+                .burn_in = 0,
+                .draws = 2000,
+                .seed = seed(1)},
+               [](const hmc_draw&) {})
+        .acceptance;
+  };
+  const auto here = acceptance_of_proposals(system_of_all, by_verlet, found.step, thermal(0.5), options);
+  const auto of_chains = accepted(found.step);
+  const double error = standard_errors(false_alarms) *
+                       (here.probability.standard_error + of_chains.standard_error + 0.1 / std::sqrt(2000.0));
+  BOOST_TEST(std::abs(here.probability.mean - 0.8) <= 2e-3);
+  BOOST_TEST(std::abs(of_chains.mean - 0.8) <= error);
+  BOOST_TEST(error < 0.04);
+  BOOST_TEST(std::abs(accepted(1.3 * found.step).mean - 0.8) > error);
+}
+
+// s_aia3 up to z = h 1.5 ends at h = 4.
+BOOST_AUTO_TEST_CASE(a_method_may_depend_on_the_step_and_end) {
+  const proposal_options options{.length = 5.0, .states = 64};
+  const auto found = step_at_acceptance(
+      system_of_all, [](double step) { return tabulated(s_aia3(1.5 * step)); }, 0.5, 1.0, thermal(), options);
+  BOOST_TEST(found.step < 4.0);
+  BOOST_TEST(found.step > 2.0);
+  BOOST_TEST(!found.is_longest);
+}
+
+// One oscillator and trajectories of a fifth of a radian: nothing is rejected.
+BOOST_AUTO_TEST_CASE(where_all_is_accepted_the_step_is_the_length) {
+  const harmonic_oscillator spring(1.0);
+  const auto found = step_at_acceptance(model(spring), [](double) { return by_verlet; }, 0.9, 0.01,
+                                        gibbs_of_modes<1>(spring, 1.0), {.length = 0.2, .states = 32});
+  BOOST_TEST(found.is_longest);
+  BOOST_TEST(found.step == 0.2);
+}
+
+BOOST_AUTO_TEST_CASE(proposals_that_cannot_be_are_refused) {
+  const auto at = [&](proposal_options options, double step = 0.1) {
+    return acceptance_of_proposals(system_of_all, by_verlet, step, thermal(), options);
+  };
+  BOOST_TEST(refuses<wrong>([&] { at({.length = 0.0}); }, {"length must be positive"}));
+  BOOST_TEST(refuses<wrong>([&] { at({.length = 1.0, .times_larger = -1.0}); }, {"times_larger"}));
+  BOOST_TEST(refuses<wrong>([&] { at({.length = 1.0}, 1e-9); }, {"at most 1", "take a larger step"}));
+  BOOST_TEST(refuses<wrong>([&] { at({.length = 1.0}, -0.1); }, {"step must be positive"}));
+  const tabulated one_way("one way", run_time_word("AB"), {1.0, 1.0}, {1, false, false});
+  BOOST_TEST(refuses<wrong>([&] { step_of(one_way, 0.9, 0.1, {.length = 1.0}); }, {"must be reversible"}));
+  for (const double acceptance : {0.0, 1.0}) {
+    BOOST_TEST(
+        refuses<wrong>([&] { step_of(by_verlet, acceptance, 0.1, {.length = 1.0}); }, {"between 0 and 1"}));
+  }
+  // No word of wrong order keeps the energy of a part of 1e30.
+  BOOST_TEST(refuses<std::runtime_error>(
+      [&] { step_of(by_verlet, 0.9, 1.0, {.length = 5.0, .times_larger = 1e30, .states = 8}); },
+      {"must be one that a step down to"}));
 }

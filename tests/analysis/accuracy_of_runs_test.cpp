@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: BSL-1.0
-// The accuracy of single runs: the energy error of a symplectic method is bounded and has no trend, and that
-// of any other grows; errors at a horizon fall with the step by the order of the method.
+// Accuracy and cost of runs: the energy error of a symplectic method is bounded and has no trend, and that of
+// any other grows; errors at a horizon fall with the step by the order of the method; how long trajectories
+// can be predicted; force evaluations follow from the first two steps, and jobs that are timed take turns.
 #include <boost/test/unit_test.hpp>
 
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "../support/allocations.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/analysis/convergence_order.hpp"
-#include "nysalt/analysis/energy_drift.hpp"
-#include "nysalt/analysis/statistics.hpp"
-#include "nysalt/methods/classical.hpp"
-#include "nysalt/references/fine_steps.hpp"
+#include "../support/seeds.hpp"
+#include "../support/statistics.hpp"
+#include "nysalt/analysis/evaluations.hpp"
+#include "nysalt/analysis/predictability.hpp"
+#include "nysalt/nysalt.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -35,7 +40,11 @@ const galaxy_with_torque galaxy;
 const galaxy_with_torque twisted{{}, 1e-3};
 const phase_point<double, 2> star{{0.1, 0.2}, {0.25, -0.1}};
 
-phase_point<double, 1> at(double q, double p) { return {vector<double, 1>(q), vector<double, 1>(p)}; }
+/// On the oscillator of frequency 2.
+energy_record drift_of_oscillator(double step, double q, std::int64_t steps) {
+  const phase_point<double, 1> x{vector<double, 1>(q), vector<double, 1>(0.0)};
+  return energy_drift(harmonic_oscillator(2.0), verlet(), step, x, steps);
+}
 
 const model swing{pendulum()};
 const phase_point<double, Eigen::Dynamic> start{Eigen::VectorXd::Constant(1, 1.0),
@@ -73,32 +82,18 @@ BOOST_AUTO_TEST_CASE(symplectic_means_bounded_and_without_a_trend) {
 
 // On the oscillator Verlet conserves p^2 + w^2 (1 - z^2/4) q^2, so that |H - H_0| is z^2/8 w^2 q^2 at most.
 BOOST_AUTO_TEST_CASE(the_largest_error_is_known_on_the_oscillator) {
-  const harmonic_oscillator system(2.0);
-  const auto result = energy_drift(system, verlet(), 0.1, at(1.0, 0.0), 100'000);
-  BOOST_TEST(result.largest <= 0.04 / 4.0 * (1.0 + 1e-9));
-  BOOST_TEST(result.largest == 0.04 / 4.0,
-             boost::test_tools::tolerance(1e-4));  // some step is near the extremum
-}
-
-BOOST_AUTO_TEST_CASE(a_divergence_is_told) {
-  const harmonic_oscillator system(2.0);
-  BOOST_TEST(energy_drift(system, verlet(), 1.01, at(1.0, 0.0), 10'000).diverged_at.has_value());
-  BOOST_TEST(!energy_drift(system, verlet(), 0.99, at(1.0, 0.0), 10'000).diverged_at.has_value());
-}
-
-BOOST_AUTO_TEST_CASE(looking_seldom_sees_less) {
-  const auto often = energy_drift(galaxy, verlet(), 0.1, star, 1000);
+  const double largest = drift_of_oscillator(0.1, 1.0, 100'000).largest;
+  BOOST_TEST(largest <= 0.04 / 4.0 * (1.0 + 1e-9));
+  BOOST_TEST(largest == 0.04 / 4.0, boost::test_tools::tolerance(1e-4));  // some step is near the extremum
+  BOOST_TEST(drift_of_oscillator(1.01, 1.0, 10'000).diverged_at.has_value());
+  BOOST_TEST(!drift_of_oscillator(0.99, 1.0, 10'000).diverged_at.has_value());
+  // At the bottom of the well H_0 is 0, and errors are absolute.
+  BOOST_TEST(drift_of_oscillator(0.1, 0.0, 100).largest == 0.0);
+  BOOST_TEST(drift_of_oscillator(0.1, 0.0, 100).drift == 0.0);
+  // Looking seldom sees less.
   const auto seldom = energy_drift(galaxy, verlet(), 0.1, star, 1000, 50);
-  BOOST_TEST(seldom.largest <= often.largest);
+  BOOST_TEST(seldom.largest <= energy_drift(galaxy, verlet(), 0.1, star, 1000).largest);
   BOOST_TEST(seldom.largest > 0.0);
-}
-
-// At the bottom of the well H_0 is 0, and errors are absolute.
-BOOST_AUTO_TEST_CASE(without_energy_errors_are_absolute) {
-  const harmonic_oscillator system(2.0);
-  const auto result = energy_drift(system, verlet(), 0.1, at(0.0, 0.0), 100);
-  BOOST_TEST(result.largest == 0.0);
-  BOOST_TEST(result.drift == 0.0);
 }
 
 BOOST_AUTO_TEST_CASE(the_drift_is_the_slope_of_least_squares) {
@@ -138,11 +133,20 @@ BOOST_AUTO_TEST_CASE(long_runs_need_no_more_memory) {
 // The steps are so small that the next even power of them adds less than a tenth to the error of the first:
 // log2(1.1) < .15.
 BOOST_AUTO_TEST_CASE(orders_are_those_of_the_methods) {
-  BOOST_TEST(std::abs(measure(by_verlet, fine(1e-2), 16, 5).order - 2.0) < 0.15);
-  BOOST_TEST(std::abs(measure(tabulated(pefrl()), fine(1e-2), 16, 4).order - 4.0) < 0.15);
-  BOOST_TEST(std::abs(measure(tabulated(blanes_moan_s6()), fine(1e-2), 8, 4).order - 4.0) < 0.15);
-  BOOST_TEST(std::abs(measure(tabulated(srkn11b()), fine(2.5e-3), 8, 3).order - 6.0) < 0.15);
-  BOOST_TEST(measure(weak_kick, fine(1e-2), 16, 5).order < 1.0);
+  const auto order = [](const tabulated& method, std::int64_t fewest, int halvings, double fine_step = 1e-2) {
+    return measure(method, fine(fine_step), fewest, halvings).order;
+  };
+  BOOST_TEST(std::abs(order(by_verlet, 16, 5) - 2.0) < 0.15);
+  BOOST_TEST(std::abs(order(tabulated(pefrl()), 16, 4) - 4.0) < 0.15);
+  BOOST_TEST(std::abs(order(tabulated(srkn11b()), 8, 3, 2.5e-3) - 6.0) < 0.15);
+  BOOST_TEST(order(weak_kick, 16, 5) < 1.0);
+  // Steps in the noise do not count, but those above it do; where all are, what is left is no order.
+  const auto result = measure(tabulated(srkn6b()), fine(1e-2), 32, 10);
+  BOOST_TEST(result.errors.back() < 1e-11);
+  BOOST_TEST(std::abs(result.order - 4.0) < 0.15);
+  BOOST_TEST(std::isnan(measure(by_verlet, fine(0.125, by_verlet), 32, 4).order));
+  BOOST_TEST(std::isnan(order(tabulated(srkn11b()), 4000, 3, 1e-3)));  // rounding alone
+  BOOST_TEST(std::isnan(order(by_verlet, 16, 0)));                     // a single step
 }
 
 BOOST_AUTO_TEST_CASE(steps_are_halved_and_errors_measured_at_the_horizon) {
@@ -154,20 +158,6 @@ BOOST_AUTO_TEST_CASE(steps_are_halved_and_errors_measured_at_the_horizon) {
   fine(1e-2).advance(swing, exact, 4.0);
   const auto end = integrate(swing, by_verlet, 0.0625, start, 64).finish;
   BOOST_TEST(result.errors[2] == distance(end, exact), boost::test_tools::tolerance(1e-12));
-}
-
-// Where a method is as good as the reference, what is left is no order.
-BOOST_AUTO_TEST_CASE(noise_is_no_order) {
-  BOOST_TEST(std::isnan(measure(by_verlet, fine(0.125, by_verlet), 32, 4).order));
-  BOOST_TEST(std::isnan(measure(tabulated(srkn11b()), fine(1e-3), 4000, 3).order));  // rounding alone
-  BOOST_TEST(std::isnan(measure(by_verlet, fine(1e-2), 16, 0).order));               // a single step
-}
-
-// Steps in the noise do not count, but those above it do.
-BOOST_AUTO_TEST_CASE(the_order_is_taken_above_the_noise) {
-  const auto result = measure(tabulated(srkn6b()), fine(1e-2), 32, 10);
-  BOOST_TEST(result.errors.back() < 1e-11);
-  BOOST_TEST(std::abs(result.order - 4.0) < 0.15);
 }
 
 // Large steps run away; the order is that of those which do not.
@@ -185,14 +175,261 @@ BOOST_AUTO_TEST_CASE(what_diverged_has_no_error_and_no_part_in_the_order) {
 }
 
 BOOST_AUTO_TEST_CASE(steps_and_halvings_that_cannot_be_are_refused) {
-  using wrong = std::invalid_argument;
-  BOOST_TEST(refuses<wrong>([&] { measure(by_verlet, fine(1e-2), 0, 3); }, {"convergence_order", "got 0,"}));
-  BOOST_TEST(
-      refuses<wrong>([&] { measure(by_verlet, fine(1e-2), -4, 3); }, {"convergence_order", "got -4,"}));
-  BOOST_TEST(
-      refuses<wrong>([&] { measure(by_verlet, fine(1e-2), 16, -1); }, {"convergence_order", ", -1 and"}));
-  for (const double horizon : {0.0, std::nan("")}) {
-    BOOST_TEST(refuses<wrong>([&] { convergence_order(swing, by_verlet, fine(1e-2), start, horizon, 4, 2); },
-                              {"convergence_order", "horizon"}));
+  const auto refused = [](double horizon, std::int64_t fewest, int halvings, std::string_view words) {
+    return refuses<std::invalid_argument>(
+        [&] { convergence_order(swing, by_verlet, fine(1e-2), start, horizon, fewest, halvings); },
+        {"convergence_order", words});
+  };
+  BOOST_TEST(refused(4.0, 0, 3, "got 0,"));
+  BOOST_TEST(refused(4.0, -4, 3, "got -4,"));
+  BOOST_TEST(refused(4.0, 16, -1, ", -1 and"));
+  BOOST_TEST(refused(0.0, 4, 2, "horizon"));
+  BOOST_TEST(refused(std::nan(""), 4, 2, "horizon"));
+}
+
+namespace {
+
+using galaxy_in_bath = in_bath<henon_heiles>;
+const galaxy_in_bath warm(henon_heiles(), bath::of_sigma(0.5, 0.1));
+const galaxy_in_bath damped(henon_heiles(), bath::of_sigma(0.5, 0.0));
+const galaxy_in_bath at_rest(henon_heiles(), bath::of_sigma(0.0, 0.0));
+
+std::int64_t counted_through(const auto& system, const auto& method, std::int64_t steps) {
+  const counted watched(system);
+  const auto stepper = make_stepper(watched, method, 0.1, counter_noise(0));
+  auto run = stepper.open(star);
+  stepper.advance(run, steps);
+  stepper.synchronous(run);  // costs nothing
+  return watched.evaluations;
+}
+
+void check(const auto& system, const auto& method, std::int64_t to_open, std::int64_t of_a_step) {
+  for (const std::int64_t steps : {0, 1, 2, 3, 10}) {
+    BOOST_TEST_CONTEXT(method.name() << " over " << steps << " steps of " << describe(system)) {
+      const auto told = evaluations_of_run(system, method, 0.1, steps, star);
+      BOOST_TEST(told == counted_through(system, method, steps));
+      BOOST_TEST(told == to_open + steps * of_a_step);
+      BOOST_TEST(evaluations_of_run(system, tabulated(method), 0.1, steps, star) == told);
+    }
   }
+}
+
+}  // namespace
+
+// The two kicks of A B O B A are at one q, with a letter between them: the force is asked for once.
+BOOST_AUTO_TEST_CASE(letters_of_the_bath_cost_no_force) {
+  for (const galaxy_in_bath& system : {warm, damped, at_rest}) {
+    check(system, baoab(), 1, 1);
+    check(system, baoab_2x(), 1, 2);
+    check(system, obabo(), 1, 1);
+    check(system, aboba(), 0, 1);
+    check(system, thermostat<placement::end>(mclachlan2()), 0, 2);
+    check(system, thermostat<placement::symmetric>(mclachlan2()), 0, 2);
+    check(system, thermostat<placement::middle>(mclachlan2()), 0, 2);
+    check(system, thermostat<placement::symmetric>(verlet()), 1, 1);
+  }
+  // Steps are not taken to be counted.
+  BOOST_TEST(evaluations_of_run(warm, baoab(), 0.1, 1'000'000'000'000, star) == 1'000'000'000'001);
+  const auto refused = [](const auto& method, double step, std::int64_t steps) {
+    return refuses<std::invalid_argument>([&] { evaluations_of_run(warm, method, step, steps, star); }, {});
+  };
+  BOOST_TEST(!refused(baoab(), 0.1, 5));
+  BOOST_TEST(refused(baoab(), 0.0, 5));
+  BOOST_TEST(refused(baoab(), 0.1, -5));
+  BOOST_TEST(refused(verlet(), 0.1, 5));  // no letter O
+}
+
+BOOST_AUTO_TEST_CASE(jobs_take_turns_and_run_once_more_than_they_are_timed) {
+  std::string order;
+  const auto timed = interleaved_seconds({[&] { order += 'a'; }, [&] { order += 'b'; }}, 3);
+  BOOST_TEST(order == "abababab");
+  BOOST_TEST(timed.size() == 2);
+  for (const timed_job& job : timed) {
+    BOOST_TEST(job.rounds == 3);
+    BOOST_TEST(job.least >= 0.0);
+    BOOST_TEST(job.median >= job.least);
+  }
+  BOOST_TEST(interleaved_seconds({}, 3).empty());
+  const timed_job untimed = interleaved_seconds({[] {}}, 0).front();
+  BOOST_TEST(untimed.rounds == 0);
+  BOOST_TEST(std::isinf(untimed.least));
+  BOOST_TEST(std::isnan(untimed.median));
+}
+
+// Of the first job the first round, which is not timed, is slow; of the second each; of the third two of
+// three, whose median is theirs.
+BOOST_AUTO_TEST_CASE(a_longer_job_takes_longer_and_an_interruption_does_not_count) {
+  const auto slow_in = [](std::vector<bool> rounds) {
+    return [rounds, n = std::size_t{0}]() mutable {
+      if (rounds.at(n++)) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    };
+  };
+  const auto timed =
+      interleaved_seconds({slow_in({true, false, false, false}), slow_in({true, true, true, true}),
+                           slow_in({true, true, false, true})},
+                          3);
+  BOOST_TEST(timed[0].median < 0.05);
+  BOOST_TEST(timed[1].least >= 0.05);
+  BOOST_TEST(timed[2].least < 0.05);
+  BOOST_TEST(timed[2].median >= 0.05);
+}
+
+namespace {
+
+using planar = phase_point<double, 2>;
+const harmonic_oscillator oscillator(3.0);
+const henon_heiles well;
+
+/// Near the energy 1/6 nearly all orbits are chaotic; far below it nearly none.
+planar of_energy(double energy) {
+  planar x{{0.0, 0.04}, {0.0, 0.0}};
+  const double speed = std::sqrt(2.0 * (energy - well.potential<double>(x.q)));
+  x.p = {speed * std::cos(0.8), speed * std::sin(0.8)};
+  return x;
+}
+
+constexpr double interval = 0.25;
+const fine_steps<> flow(interval);
+const model of_well(well);
+
+/// The flow over an interval.
+void advance(planar& x) {
+  static const detail::reference_value value(detail::reference_of(of_well, flow));
+  static const auto flowing = value.prepare<double>(of_well, interval);
+  phase_point<double, Eigen::Dynamic> y{x.q, x.p};
+  flowing->advance(y, 1, {}, {});
+  x = {y.q, y.p};
+}
+
+double horizon(const planar& start, double perturbation) {
+  const trajectory_options options{
+      .step = interval, .steps = 1600, .trajectories = 1, .perturbation = perturbation};
+  const auto result =
+      trajectory_errors(well, flow, listed<2>({start}), verlet(), state_measure(well), options);
+  return result.predictable_until.value();
+}
+
+double squared_distance(const planar& a, const planar& b) {
+  return (a.q - b.q).squaredNorm() + (a.p - b.p).squaredNorm();
+}
+
+}  // namespace
+
+// States turn by w t: e^2 = 2 H |1 - exp(i w t)|^2 = 4 H (1 - cos w t).
+BOOST_AUTO_TEST_CASE(an_oscillator_that_stays_has_the_error_of_its_turn) {
+  const gibbs_of_modes<1> law(oscillator, 1.0);
+  const trajectory_options options{.step = .1, .steps = 70, .trajectories = 30, .null_model = true};
+  double expected = 0.0;
+  for (std::uint64_t m = 0; m < 30; ++m) {
+    for (int n = 1; n <= 70; ++n) {
+      expected += 4.0 * energy<double>(oscillator, law(1, m)) * (1.0 - std::cos(.3 * n)) / (30.0 * 70.0);
+    }
+  }
+  const auto result = trajectory_errors(oscillator, exact_linear(oscillator), law, verlet(),
+                                        state_measure(oscillator), options);
+  // Each of 70 turns rounds some ten times.
+  BOOST_TEST(result.null_model.value().mean == std::sqrt(expected), boost::test_tools::tolerance(700 * eps));
+  BOOST_TEST(result.null_model.value().standard_error > 0.0);
+  BOOST_TEST(result.methods[0].error.mean < 0.5 * result.null_model->mean);
+  BOOST_TEST(!result.predictable_until.has_value());
+}
+
+BOOST_AUTO_TEST_CASE(an_oscillator_is_predictable_for_ever) {
+  const gibbs_of_modes<1> law(oscillator, 1.0);
+  const auto until = [&](double perturbation) {
+    const trajectory_options options{
+        .step = .1, .steps = 300, .trajectories = 20, .perturbation = perturbation};
+    const auto result = trajectory_errors(oscillator, exact_linear(oscillator), law, verlet(),
+                                          state_measure(oscillator), options);
+    BOOST_TEST(!result.null_model.has_value());
+    return result.predictable_until.value();
+  };
+  BOOST_TEST(std::isinf(until(1e-6)));
+  BOOST_TEST(std::isinf(until(1e-3)));
+  BOOST_TEST(until(10.0) == .1);  // it is another trajectory from the start
+}
+
+/// The definition once more, over one trajectory, with what measures say of single states.
+BOOST_AUTO_TEST_CASE(the_horizon_is_where_the_sums_cross) {
+  const planar start = of_energy(0.165);
+  planar x = start;
+  planar y = perturbed(start, 1e-3, 1, 0);
+  double perturbed_sum = 0.0;
+  double null_sum = 0.0;
+  double expected = 0.0;
+  for (int n = 1; n <= 1600; ++n) {
+    advance(x);
+    advance(y);
+    perturbed_sum += squared_distance(x, y);
+    null_sum += squared_distance(x, start);
+    if (perturbed_sum <= 0.25 * null_sum) expected = (n + 1) * interval;
+  }
+  BOOST_TEST(horizon(start, 1e-3) == expected);
+  BOOST_TEST(horizon(start, 1e-6) > expected);  // chaos ends predictability earlier for larger perturbations
+  BOOST_TEST(std::isfinite(horizon(start, 1e-6)));
+  BOOST_TEST(std::isinf(horizon(of_energy(0.03), 1e-3)));
+}
+
+// With noise of its own the perturbed run would be elsewhere after 1/friction = 2.
+BOOST_AUTO_TEST_CASE(in_a_bath_the_noise_is_common) {
+  const model warm = model(oscillator).in(bath::of_sigma(0.5, 1.0));
+  const initial_states law = normal_around<1>({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.3, 1.0);
+  const trajectory_options options{.step = .1, .steps = 200, .trajectories = 20, .perturbation = 1e-3};
+  const auto result =
+      trajectory_errors(warm, fine_paths(.05), law, tabulated(baoab()), state_measure(warm), options);
+  BOOST_TEST(std::isinf(result.predictable_until.value()));
+}
+
+// At rest q moves by (w h)^2/2 = 5e-9 in a step, less than the perturbation; that does not end it.
+BOOST_AUTO_TEST_CASE(a_turning_point_is_no_end) {
+  const listed<1> at_rest({{vector<double, 1>(1.0), vector<double, 1>(0.0)}});
+  const auto measure = path_measure(oscillator, over_lanes([](const auto& x) { return x.q[0] + 2.0; }));
+  const auto until = [&](std::int64_t steps) {
+    const trajectory_options options{
+        .step = 1e-4 / 3.0, .steps = steps, .trajectories = 1, .perturbation = 1e-6};
+    return trajectory_errors(oscillator, exact_linear(oscillator), at_rest, verlet(), measure, options)
+        .predictable_until.value();
+  };
+  BOOST_TEST(std::isinf(until(1000)));
+  BOOST_TEST(until(5) == 1e-4 / 3.0);  // here it would be
+}
+
+BOOST_AUTO_TEST_CASE(samples_count_from_where_the_errors_stay_above) {
+  predictable_samples<double> squares(averaging::root_of_all);
+  predictable_samples<double> moduli(averaging::mean);
+  const std::array<double, 5> sums{1.0, 2.0, 3.0, 4.0, NAN};
+  const std::array<double, 5> null_sums{0.0, 8.0, 8.0, 8.0, 8.0};
+  std::vector<double> of_squares;
+  std::vector<double> of_moduli;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    squares.add(static_cast<std::int64_t>(i) + 1, sums[i], null_sums[i]);
+    moduli.add(static_cast<std::int64_t>(i) + 1, sums[i], null_sums[i]);
+    of_squares.push_back(squares.until(0));
+    of_moduli.push_back(moduli.until(0));
+  }
+  BOOST_TEST(of_squares == (std::vector<double>{1.0, INFINITY, 3.0, 3.0, 3.0}));
+  BOOST_TEST(of_moduli == (std::vector<double>{1.0, INFINITY, INFINITY, INFINITY, 5.0}));
+}
+
+// 2000 relative changes, each normal: their mean square is known to sqrt(2/2000) = 3 %.
+BOOST_AUTO_TEST_CASE(perturbations_are_relative_and_independent) {
+  const planar x{{2.0, 0.0}, {-1e-3, 1e3}};
+  double squares = 0.0;
+  double products = 0.0;
+  for (std::uint64_t m = 0; m < 1000; ++m) {
+    const planar y = perturbed(x, 0.01, seed(1), m);
+    BOOST_TEST(y.q[1] == 0.0);
+    const double a = (y.p[0] / x.p[0] - 1.0) / 0.01;
+    const double b = (y.q[0] / x.q[0] - 1.0) / 0.01;
+    squares += a * a + b * b;
+    products += a * b;
+  }
+  const double allowed = standard_errors(false_alarms / 2);
+  BOOST_TEST(std::abs(squares / 2000.0 - 1.0) < allowed * std::sqrt(2.0 / 2000.0));
+  BOOST_TEST(std::abs(products / 1000.0) < allowed / std::sqrt(1000.0));
+  BOOST_TEST(perturbed(x, 0.01, 1, 0).q[0] != perturbed(x, 0.01, 2, 0).q[0]);
+  // Not with the numbers of a start: else what is far out would move far.
+  const normal_around<2> law({{1.0, 1.0}, {1.0, 1.0}}, 0.01, 0.01);
+  const planar ones{{1.0, 1.0}, {1.0, 1.0}};
+  BOOST_TEST(perturbed(ones, 0.01, 1, 5).q[0] != law(1, 5).q[0]);
 }

@@ -8,10 +8,8 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
-#include "../support/allocations.hpp"
 #include "../support/autoregression.hpp"
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
@@ -70,40 +68,11 @@ constexpr int samples = 300;
 constexpr int lags = 20;
 constexpr double n = 8.0 * groups * samples;
 
-const autocovariance& measured() {
-  static const autocovariance result = autocovariance_of(0.7, seed(11), groups, samples, lags);
-  return result;
-}
-
-/// The largest |rho - phi^k| in standard errors.
-double off(const autocovariance& of, double phi) {
-  const auto rho = of.normalised();
-  const auto error = of.standard_error();
-  double worst = 0.0;
-  for (std::size_t k = 1; k < rho.size(); ++k) {
-    worst = std::max(worst, std::abs(rho[k] - std::pow(phi, k)) / error[k]);
-  }
-  return worst;
-}
-
 /// Bartlett's formula for the variance of rho(k) from n samples, for phi^k.
 double bartlett(double phi, double k) {
   const double square = phi * phi;
   const double at_lag = std::pow(square, k);
   return ((1.0 + square) * (1.0 - at_lag) / (1.0 - square) - 2.0 * k * at_lag) / n;
-}
-
-/// sqrt(2) cos(omega t + phase) for that many phases all around: means over them are cos(omega k) and 0.
-autocovariance of_phases(double omega, int phases) {
-  std::vector<autocovariance_sums> sums;
-  for (int m = 0; m < phases; ++m) {
-    autocovariance_along<double> one(lags, 5.0);
-    for (int t = 0; t < 100; ++t) {
-      one.add(5.0 + std::numbers::sqrt2 * std::cos(omega * t + 2.0 * std::numbers::pi * m / phases));
-    }
-    sums.push_back(one.in_lane(0));
-  }
-  return autocovariance(0.1, 5.0, sums);
 }
 
 /// For acf_error: ten lags of 200 samples.
@@ -174,49 +143,16 @@ BOOST_AUTO_TEST_CASE(a_centre_keeps_the_digits) {
   BOOST_TEST(error(0.0) > 1e-6);
 }
 
-BOOST_AUTO_TEST_CASE(memory_does_not_grow_with_time) {
-  autocovariance_along<pack<double, 8>> sums(50, 0.0);
-  const auto before = allocations;
-  for (int t = 0; t < 10'000; ++t) sums.add(pack<double, 8>(1.0));
-  BOOST_TEST(allocations == before);
-  BOOST_TEST(sums.in_lane(3)[50].products == 9950.0);
-}
-
-// 20 lags, the variance and the mean; .72 is off by .02 at lag 1, where the error is .001.
-BOOST_AUTO_TEST_CASE(an_autoregression_forgets_as_it_should) {
-  constexpr double each = false_alarms / (lags + 2);
-  BOOST_TEST(off(measured(), 0.7) < standard_errors(each, groups - 1));
-  BOOST_TEST(off(measured(), 0.72) > standard_errors(each, groups - 1));
-  const double allowed = standard_errors(each);
-  BOOST_TEST(measured().normalised()[0] == 1.0);
-  // Variance 1, with 1/n (1 + phi^2)/(1 - phi^2) times 2 as the variance of it; the mean as an integrated
-  // time.
-  BOOST_TEST(std::abs(measured().covariance(0) - 1.0) < allowed * std::sqrt(2.0 / n * 1.49 / 0.51));
-  BOOST_TEST(std::abs(measured().mean()) < allowed * std::sqrt(1.0 / n * 1.7 / 0.3));
-}
-
 // 256 groups tell an error to 1/sqrt(510) = 4.4 %, lags after 300 samples change Bartlett's by less than 7 %.
 BOOST_AUTO_TEST_CASE(errors_are_those_of_theory) {
   const double allowed = standard_errors(false_alarms / lags) * 0.044 + 0.07;
-  const auto error = measured().standard_error();
+  const auto error = autocovariance_of(0.7, seed(11), groups, samples, lags).standard_error();
   BOOST_TEST(error[0] == 0.0);
   for (std::size_t k = 1; k < error.size(); ++k) {
     const double ratio = error[k] / std::sqrt(bartlett(0.7, static_cast<double>(k)));
     BOOST_TEST(std::abs(ratio - 1.0) < allowed);
     BOOST_TEST(std::abs(2.0 * ratio - 1.0) > allowed);
   }
-}
-
-// To rounding: 5 + cos has roundings of 5 eps, and the sums add their square root of 100.
-BOOST_AUTO_TEST_CASE(oscillators_of_all_phases_have_a_cosine) {
-  const auto cosine = of_phases(0.3, 7);
-  const auto rho = cosine.normalised();
-  for (std::size_t k = 0; k < rho.size(); ++k) {
-    BOOST_TEST(std::abs(rho[k] - std::cos(0.3 * static_cast<double>(k))) < 100.0 * eps);
-  }
-  BOOST_TEST(std::abs(cosine.covariance(0) - 1.0) < 100.0 * eps);
-  BOOST_TEST(std::abs(cosine.mean() - 5.0) < 100.0 * eps);
-  BOOST_TEST(std::abs(of_phases(0.3, 2).normalised()[4] - std::cos(1.2)) > 1e-6);  // two phases are not all
 }
 
 BOOST_AUTO_TEST_CASE(groups_without_a_trajectory_do_not_count) {
@@ -287,15 +223,12 @@ BOOST_AUTO_TEST_CASE(powers_have_a_known_time) {
   BOOST_TEST(alternating.enough);
   BOOST_TEST(std::abs(alternating.tau - 0.2 / 1.8) < 1e-4);
   BOOST_TEST(effective_sample_size(1e7, alternating) > 8.9e7);
-  BOOST_TEST(effective_sample_size(100.0, alternating) < 100.0);  // too few to tell
-}
-
-BOOST_AUTO_TEST_CASE(too_few_lags_are_said) {
+  BOOST_TEST(effective_sample_size(100.0, alternating) < 100.0);        // too few to tell
   BOOST_TEST(integrated_autocorrelation_time(powers(0.9, 95)).enough);  // 5 x 19
-  const auto time = integrated_autocorrelation_time(powers(0.9, 90));
-  BOOST_TEST(!time.enough);
-  BOOST_TEST(time.window == 90U);
-  BOOST_TEST(std::isnan(effective_sample_size(1000.0, time)));
+  const auto of_few_lags = integrated_autocorrelation_time(powers(0.9, 90));
+  BOOST_TEST(!of_few_lags.enough);
+  BOOST_TEST(of_few_lags.window == 90U);
+  BOOST_TEST(std::isnan(effective_sample_size(1000.0, of_few_lags)));
 }
 
 // tau = Re (1 + a)/(1 - a), a = exp(-decay + i omega). Its partial sums dip at three quarters of a turn:
@@ -315,16 +248,6 @@ BOOST_AUTO_TEST_CASE(an_oscillation_does_not_close_the_window) {
   std::size_t closes = 0;
   while (static_cast<double>(closes) < 5.0 * partial) partial += 2.0 * rho[++closes];
   BOOST_TEST(std::abs(partial - expected) > 10.0 * rest);
-}
-
-// Measured, with the error by the jackknife.
-BOOST_AUTO_TEST_CASE(the_time_of_a_measured_autocovariance) {
-  const auto of_many = autocovariance_of(0.8, seed(21), 64, 1000, 60);
-  const auto tau = [](const series& rho) { return integrated_autocorrelation_time(rho).tau; };
-  const double error = std::sqrt(of_many.jackknife([&](const series& rho) { return series{tau(rho)}; })[0]);
-  const double allowed = standard_errors(false_alarms, 63) * error;
-  BOOST_TEST(std::abs(tau(of_many.normalised()) - 9.0) < allowed);
-  BOOST_TEST(allowed < 1.1);  // .82 would have 10.1
 }
 
 BOOST_AUTO_TEST_CASE(what_has_no_autocovariance_is_refused) {

@@ -54,13 +54,16 @@ inline double deviation_off(const std::vector<double>& x, double sd) {
   return std::abs(std::sqrt(covariance(x, x)) / sd - 1.0) * std::sqrt(2.0 * static_cast<double>(x.size()));
 }
 
+/// The standard normal distribution.
+inline double normal_law(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
+
 /// Kolmogorov and Smirnov's sqrt(n) sup |F_n - F| for the standard normal distribution.
 inline double kolmogorov_smirnov(std::vector<double> x) {
   std::sort(x.begin(), x.end());
   const auto n = static_cast<double>(x.size());
   double worst = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const double law = 0.5 * std::erfc(-x[i] / std::sqrt(2.0));
+    const double law = normal_law(x[i]);
     worst = std::max(
         {worst, std::abs(law - static_cast<double>(i) / n), std::abs(law - static_cast<double>(i + 1) / n)});
   }
