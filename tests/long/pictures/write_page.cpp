@@ -37,6 +37,13 @@ std::string replaced(std::string text, const std::string& old, const std::string
   return text.replace(text.find(old), old.size(), by);
 }
 
+/// A mistake in the script of a page, without the policy: that allows the script without the mistake alone.
+std::string planted(std::string page, const std::string& old, const std::string& by) {
+  const std::size_t policy = page.find("<meta http-equiv=\"Content-Security-Policy\"");
+  page.erase(policy, page.find('>', policy) + 1 - policy);
+  return replaced(page, old, by);
+}
+
 }  // namespace
 
 int main(int, char** arguments) {
@@ -66,9 +73,9 @@ int main(int, char** arguments) {
   write_file(folder / "broken.html", well.substr(0, last) + broken + well.substr(end));
   write_file(folder / "asking.html", replaced(well, "</h1>", "</h1><img src=\"http://127.0.0.1:9/x.png\">"));
   write_file(folder / "no_script.html", well.substr(0, well.find("<script>")));
-  write_file(folder / "unsorted.html", replaced(well, "way * compared(a, b)", "compared(a, b)"));
-  write_file(folder / "wrong_filter.html", replaced(well, "!words.every(", "words.every("));
-  write_file(folder / "no_values.html", replaced(well, "value.hidden = false", "value.hidden = true"));
+  write_file(folder / "unsorted.html", planted(well, "way * compared(a, b)", "compared(a, b)"));
+  write_file(folder / "wrong_filter.html", planted(well, "!words.every(", "words.every("));
+  write_file(folder / "no_values.html", planted(well, "value.hidden = false", "value.hidden = true"));
   write_file(folder / "heavy.html", well + std::string(2'000'000, ' '));
   std::filesystem::remove(folder / "lines.svg");
   write_file(folder / "missing.html", report.html(folder));
