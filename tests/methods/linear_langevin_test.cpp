@@ -407,31 +407,6 @@ BOOST_AUTO_TEST_CASE(the_strong_order_is_one) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_leading_terms_are_as_derived) {
-  const auto leading = [](const tabulated& method) {
-    // e^{A s} sends an error of q to later times; integrated over the horizon by the same linear equations.
-    square<2> A;
-    A << 0.0, 1.0, -oscillator.omega * oscillator.omega, -oscillator.gamma;
-    const square<2> of_q = Eigen::Vector2d(1.0, 0.0).asDiagonal();
-    const square<2> integral = solve_linear<2>(A, of_q, horizon).covariance;
-    const std::int64_t n = 4096;
-    const double h = horizon / static_cast<double>(n);
-    const auto step = step_with_error(oscillator, spell(method), h);
-    const square<2> noise = error_after(step, square<2>::Zero(), n) / (h * h * oscillator.sigma);
-    return Eigen::Array2d(noise.diagonal().array() / integral.diagonal().array());
-  };
-  // Of relative order h = 1/2048, times some frequencies.
-  for (const auto& method : {tabulated(baoab()), tabulated(obabo()), tabulated(two_stages<symmetric>()),
-                             tabulated(two_stages<middle>())}) {
-    BOOST_TEST((leading(method) * 12.0 - 1.0).abs().maxCoeff() <= 0.005, method.name());
-  }
-  // At the end 4 times that is missing in a step, and what the map makes of it is not added up by chance
-  // alone.
-  const Eigen::Array2d of_end = leading(tabulated(two_stages<end>())) * 12.0;
-  BOOST_TEST(of_end.minCoeff() > 3.0);
-  BOOST_TEST(of_end.maxCoeff() < 5.0);
-}
-
 BOOST_AUTO_TEST_CASE(on_another_path_nothing_converges) {
   std::vector<Eigen::Array2d> on_another;
   for (const std::int64_t n : levels) {
@@ -440,25 +415,4 @@ BOOST_AUTO_TEST_CASE(on_another_path_nothing_converges) {
   }
   BOOST_TEST(order(on_another).abs().maxCoeff() <=
              standard_errors(false_alarms / 2) * 0.023 / std::sqrt(10.0));
-}
-
-// The sum over fine intervals as the paper prints it, with time reversed. The strong order is still 1, but
-// the errors are not those of the method.
-BOOST_AUTO_TEST_CASE(noise_gathered_the_wrong_way_is_noticed) {
-  constexpr std::int64_t steps = 16;
-  constexpr std::int64_t gap = fine_intervals / steps;
-  std::vector<recorded_path<T, 1>> kept;  // a noise refers to its path
-  kept.reserve(solutions().size());
-  const auto reversed = errors(tabulated(baoab()), steps, [&](const auto& path) {
-    kept.emplace_back(fine, oscillator.gamma, path.trajectory());
-    for (std::int64_t j = 0; j < fine_intervals; ++j) {
-      const std::int64_t mirrored = j / gap * gap + (gap - 1 - j % gap);
-      vector<T, 1> xi;
-      path.over(mirrored, mirrored + 1, xi);
-      kept.back().add(xi);
-    }
-    return along_path<T, 1>(kept.back(), intervals_of_noise(baoab::word{}, baoab::coefficients()),
-                            gap * fine);
-  });
-  BOOST_TEST(off(reversed, expected_errors(tabulated(baoab()), steps)) > standard_errors(false_alarms));
 }
