@@ -4,21 +4,12 @@
 // derivatives came from.
 #include <boost/test/unit_test.hpp>
 
-#include <Eigen/Core>
-
 #include "../support/black_box_in_units.hpp"
 #include "../support/dense.hpp"
-#include "../support/losses.hpp"
+#include "../support/learned.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/families/fg4.hpp"
-#include "nysalt/families/fg_chin.hpp"
-#include "nysalt/families/nystrom.hpp"
-#include "nysalt/families/r_aba.hpp"
-#include "nysalt/learn.hpp"
 #include "nysalt/learning/sound_force.hpp"
-#include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -59,10 +50,11 @@ const by_force exact;
 const run_time_family two_stages{nystrom()};
 const fit_options quick{.random_starts = 2, .planned_steps = 300};
 
-flow_map_data data_of(std::uint64_t seed) {
-  const normal_around<1> starts({vector<double, 1>(0.5), vector<double, 1>(0.0)}, 0.5, 0.5);
-  return make_flow_map_data(exact, starts, fine_steps<>(0.02),
-                            {.step = 0.6, .horizon = 3.0, .trajectories = 20, .seed = seed});
+const data_sets& pendulums() {
+  static const data_sets sets(exact,
+                              normal_around<1>({vector<double, 1>(0.5), vector<double, 1>(0.0)}, 0.5, 0.5),
+                              fine_steps<>(0.02), {.step = 0.6, .horizon = 3.0, .trajectories = 20});
+  return sets;
 }
 
 /// How far theta moves where every derivative of a residual is off by `relative` of the largest: the gradient
@@ -80,22 +72,18 @@ double distance_of(const fit& a, const fit& b) { return (a.theta - b.theta).cwis
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_same_is_learned_however_the_force_is_written) {
-  const auto data = data_of(1);
-  const auto held_out = data_of(2);
-  const auto fitted = [&](const model& system) { return learn(two_stages, system, data, held_out, quick); };
+  const auto& sets = pendulums();
+  const auto fitted = [&](const model& system) { return sets.learned(two_stages, system, quick); };
   const auto expected = fitted(exact);
   const auto potential = fitted(by_potential());
   const auto boxed = fitted(by_black_box());
   const auto derived = fitted(by_black_box_with_derivative());
   const auto theta = array_of<2>(expected.theta);
-  const double rounding = allowed(data, theta, 100.0 * eps);  // operations of a step
+  const double rounding = allowed(sets.data, theta, 100.0 * eps);  // operations of a step
   // A central difference along a displacement below 1, of a sine, is off by s^2/6, and eps/s by rounding.
   constexpr double s = detail::part_of_displacement;
-  const double differences = allowed(data, theta, s * s / 6.0 + 4.0 * eps / s + 100.0 * eps);
+  const double differences = allowed(sets.data, theta, s * s / 6.0 + 4.0 * eps / s + 100.0 * eps);
   BOOST_TEST_CONTEXT(expected.summary.full()) {
-    BOOST_TEST_MESSAGE(distance_of(potential, expected)
-                       << ", " << distance_of(derived, expected) << " of " << rounding << "; "
-                       << distance_of(boxed, expected) << " of " << differences);
     BOOST_TEST(expected.summary.usable);
     BOOST_TEST(distance_of(potential, expected) <= rounding);
     BOOST_TEST(distance_of(derived, expected) <= rounding);
@@ -113,11 +101,10 @@ BOOST_AUTO_TEST_CASE(the_same_is_learned_however_the_force_is_written) {
 
 // It learns something all the same, and nothing else would tell.
 BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused_unless_asked_otherwise) {
-  const auto data = data_of(1);
   by_black_box_with_derivative wrong;
   wrong.strength = 0.99;
   const auto fitted = [&](const fit_options& options) {
-    return learn(two_stages, wrong, data, data_of(2), options);
+    return pendulums().learned(two_stages, wrong, options);
   };
   BOOST_TEST(refuses<std::invalid_argument>(
       [&] { fitted({}); },
@@ -141,7 +128,7 @@ BOOST_AUTO_TEST_CASE(what_may_be_wrong_is_checked_at_states_of_the_data) {
   static_assert(!force_may_be_wrong<by_potential>);
   static_assert(force_may_be_wrong<by_force> && force_may_be_wrong<by_black_box>);
   static_assert(force_may_be_wrong<with_wrong_force>);
-  auto data = data_of(1);
+  auto data = pendulums().data;
   BOOST_CHECK_NO_THROW(require_sound_force(by_force(), data));
   BOOST_CHECK_NO_THROW(require_sound_force(by_black_box(), data));
   const auto refused = [&](std::initializer_list<std::string_view> words) {
@@ -154,15 +141,14 @@ BOOST_AUTO_TEST_CASE(what_may_be_wrong_is_checked_at_states_of_the_data) {
 }
 
 BOOST_AUTO_TEST_CASE(a_family_whose_letters_the_system_does_not_serve_is_refused) {
-  const auto data = data_of(1);
-  const auto refused = [&](const auto& family, const auto& system) {
-    return refuses<std::invalid_argument>([&] { learn(run_time_family(family), system, data, data); },
+  const auto refused = [](const auto& system) {
+    return refuses<std::invalid_argument>([&] { pendulums().learned(run_time_family(r_fg4()), system); },
                                           {"RSRHRSR", describe(system), "quadratic part"});
   };
-  BOOST_TEST(refused(r_fg4(), exact));
-  BOOST_TEST(refused(r_fg4(), by_black_box()));
+  BOOST_TEST(refused(exact));
+  BOOST_TEST(refused(by_black_box()));
   // Gradient kicks ask for f'(q) v alone, which a black box has by differences.
-  BOOST_TEST(learn(run_time_family(fg4()), by_black_box(), data, data_of(2), quick).summary.usable);
+  BOOST_TEST(pendulums().learned(run_time_family(fg4()), by_black_box(), quick).summary.usable);
 }
 
 namespace {
@@ -175,14 +161,10 @@ Eigen::VectorXd learned_for(const run_time_family& family, const units& scales, 
   S wrong = system;
   wrong.first_factor = factor;
   const double h = 0.6 * scales.time;
-  const starts_in_units<2> starts(system);
-  const auto data = [&](std::uint64_t seed) {
-    const data_options options{.step = h, .horizon = 4.0 * h, .trajectories = 10, .seed = seed};
-    return make_flow_map_data(system, starts, fine_steps<>(h / 32.0), options);
-  };
-  return learn(family, wrong, data(1), data(2),  // the optimum itself
-               {.random_starts = 2, .guarded = false, .planned_steps = 300})
-      .theta;
+  const data_sets sets(system, starts_in_units<2>(system), fine_steps<>(h / 32.0),
+                       {.step = h, .horizon = 4.0 * h, .trajectories = 10});
+  // The optimum itself.
+  return sets.learned(family, wrong, {.random_starts = 2, .guarded = false, .planned_steps = 300}).theta;
 }
 
 }  // namespace

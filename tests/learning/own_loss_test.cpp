@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
-// A loss of one's own is learned as the library's are: found, judged, and given its errors.
+// A loss of one's own function: the library's losses come out of it to the bit, over double and in lanes, and
+// it is learned as they are: found, judged, and given its errors.
 #include "nysalt/losses/own_loss.hpp"
 
 #include <boost/test/unit_test.hpp>
 
+#include "../support/learned.hpp"
 #include "../support/refusal.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/families/nystrom.hpp"
-#include "nysalt/learn.hpp"
-#include "nysalt/losses/after_steps.hpp"
-#include "nysalt/losses/metric.hpp"
-#include "nysalt/losses/squares.hpp"
-#include "nysalt/losses/state_error.hpp"
-#include "nysalt/references/fine_steps.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/detail/tree_sum.hpp"
+#include "nysalt/losses/energy_error.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -24,11 +19,31 @@ using wrong = std::invalid_argument;
 
 const henon_heiles galaxy;
 const run_time_family family{nystrom()};
+const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
 
-flow_map_data data_of(std::uint64_t seed) {
-  const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
-  return make_flow_map_data(galaxy, starts, fine_steps<>(0.025),
-                            {.step = 0.5, .horizon = 2.0, .trajectories = 30, .seed = seed});
+const data_sets& two_sets() {
+  static const data_sets sets(galaxy, around_rest<2>(0.1, 0.2), fine_steps<>(0.025),
+                              {.step = 0.5, .horizon = 2.0, .trajectories = 30});
+  return sets;
+}
+
+template <class S>
+flow_map_data uneven_data(const S& system) {
+  const auto starts = around_rest<S::dimension>(0.1, 0.2, size(system));
+  // Of the second trajectory five steps are one more, and lanes are left over: there are 54 windows of
+  // five.
+  auto data = make_flow_map_data(system, starts, fine_steps<>(0.05),
+                                 {.step = 0.4, .horizon = 13.2, .trajectories = 2});
+  data.first_of = {0, 33, 61, 66};
+  return data;
+}
+
+/// Of five steps.
+template <Scalar R>
+squares squares_of(const model& system, const flow_map_data& data, const window_error<R>& error,
+                   int threads = 1) {
+  const after_steps<R> loss(family, system, data, error, {.steps = {5}, .threads = threads});
+  return squares_at(loss, theta);
 }
 
 /// The state's error after three steps, with weights that a metric has estimated, or others.
@@ -44,6 +59,98 @@ auto state_after_three(const metric& measure, double of_positions = 1.0) {
   };
   return own_loss{"my state", 3, error};
 }
+
+/// That of the energy, formula by formula.
+auto own_energy_error(const flow_map_data& data) {
+  std::vector<double> squares(3, 0.0);
+  for (std::size_t m = 0; m < 3; ++m) {
+    for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
+      const auto& p = data.start[n].p;
+      const double kinetic = (p[0] * p[0] + p[1] * p[1]) * 0.5;
+      squares[m] += kinetic * kinetic;
+    }
+  }
+  const double scale = 1.0 / std::sqrt(tree_sum(squares) / 66.0);
+  return [scale]<class T>(const phase_point<T, 2>& start, const phase_point<T, 2>& finish,
+                          const phase_point<T, 2>&) -> T {
+    return (energy<T>(galaxy, finish) - energy<T>(galaxy, start)) * scale;
+  };
+}
+
+template <Scalar R>
+void check_the_librarys() {
+  const auto data = uneven_data(galaxy);
+  const metric measure(galaxy, data, coordinates::qp);
+  const auto state = squares_of<R>(galaxy, data, state_error<R>(measure));
+  const auto of_own = [&](const auto& error) {
+    return squares_of<R>(galaxy, data, own_error<R>(galaxy, error));
+  };
+  BOOST_TEST_CONTEXT(lanes_in<R> << " lanes") {
+    BOOST_TEST(same(of_own(state_after_three(measure).error), state));
+    BOOST_TEST(!same(of_own(state_after_three(measure, 1.0 + 1e-15).error), state));
+    const auto energy = squares_of<R>(galaxy, data, energy_error<R>(galaxy, data));
+    BOOST_TEST(same(of_own(own_energy_error(data)), energy));
+    BOOST_TEST(energy.value > 1e-12);
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_librarys_losses_come_out_to_the_bit) {
+  check_the_librarys<double>();
+  check_the_librarys<detail::lanes>();
+}
+
+BOOST_AUTO_TEST_CASE(any_number_of_residuals_is_told_by_what_is_returned) {
+  // As many as there are masses, which no type knows.
+  const auto chain = linear_chain::between_walls(3, 1.0, 2.0);
+  const auto data = uneven_data(chain);
+  const metric measure(chain, data, coordinates::qp);
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(3);
+  const phase_point<double, Eigen::Dynamic> zero{0.0 * ones, 0.0 * ones};
+  std::array<double, 6> weights;
+  measure.residual(ones, ones, zero, weights.data());
+  const auto error = [weights]<class T>(const phase_point<T, Eigen::Dynamic>&,
+                                        const phase_point<T, Eigen::Dynamic>& finish,
+                                        const phase_point<T, Eigen::Dynamic>& wanted) {
+    vector<T, Eigen::Dynamic> r(6);
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      r[i] = (finish.q[i] - wanted.q[i]) * weights[std::size_t(i)];
+      r[3 + i] = (finish.p[i] - wanted.p[i]) * weights[std::size_t(3 + i)];
+    }
+    return r;
+  };
+  using R = detail::lanes;
+  const auto own = own_error<R>(chain, error);
+  BOOST_TEST(own.residuals == 6U);
+  BOOST_TEST(own.weight_deviations == nullptr);
+  BOOST_TEST(same(squares_of<R>(chain, data, own), squares_of<R>(chain, data, state_error<R>(measure))));
+  BOOST_TEST(own_error(galaxy, own_energy_error(uneven_data(galaxy))).residuals == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(residuals_that_change_in_number_are_refused) {
+  const auto data = uneven_data(galaxy);
+  const auto of_so_many = [&](Eigen::Index at_zero, Eigen::Index elsewhere, int threads) {
+    return [=, &data] {
+      const auto error = [=]<class T>(const phase_point<T, 2>& start, const phase_point<T, 2>&,
+                                      const phase_point<T, 2>&) {
+        const bool is_zero = !any(start.q[0].value != 0.0);
+        vector<T, Eigen::Dynamic> r(is_zero ? at_zero : elsewhere);
+        r.fill(T(1.0));
+        return r;
+      };
+      squares_of(galaxy, data, own_error(galaxy, error), threads);
+    };
+  };
+  for (const int threads : {1, 2}) {
+    BOOST_TEST(
+        refuses<wrong>(of_so_many(2, 3, threads), {"the same for every pair of states", "got 2 and 3"}));
+    BOOST_TEST(!refuses<wrong>(of_so_many(3, 3, threads), {}));
+    BOOST_TEST(refuses<wrong>(of_so_many(0, 0, threads), {"residuals must be one or more"}));
+  }
+}
+
+namespace {
 
 /// A loss that asks no windows, (theta_0 - .45)^2 (theta_0 - .55)^2 + (theta_1 - .4)^2: it has two minima,
 /// both 0. Each trajectory has an equal part of it.
@@ -75,15 +182,14 @@ class two_minima {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_librarys_loss_written_as_ones_own_is_learned_to_the_bit) {
-  const auto data = data_of(1);
-  const auto held_out = data_of(2);
-  const metric measure(galaxy, data, coordinates::qp);
+  const auto& sets = two_sets();
+  const metric measure(galaxy, sets.data, coordinates::qp);
   const fit_options from_one_start{.start = family.starts.front().theta};
   fit_options by_state = from_one_start;
   by_state.loss = loss_named("state:3");
-  const auto usual = learn(family, galaxy, data, held_out, by_state);
+  const auto usual = sets.learned(family, galaxy, by_state);
   const auto learned_with = [&](const auto& loss) {
-    return learn(family, galaxy, data, held_out, from_one_start, loss);
+    return sets.learned(family, galaxy, from_one_start, loss);
   };
   const auto own = learned_with(state_after_three(measure));
   const auto other = learned_with(state_after_three(measure, 2.0));
@@ -102,12 +208,10 @@ BOOST_AUTO_TEST_CASE(the_librarys_loss_written_as_ones_own_is_learned_to_the_bit
 }
 
 BOOST_AUTO_TEST_CASE(weights_of_ones_own_have_no_error) {
-  const auto data = data_of(1);
+  const auto& [data, held_out] = two_sets();
   const metric measure(galaxy, data, coordinates::qp);
-  const auto problem =
-      make_learning_problem(family, galaxy, data, data_of(2), {}, state_after_three(measure));
-  const auto usual = make_learning_problem(family, galaxy, data, data_of(2), {.loss = loss_named("state:3")});
-  const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
+  const auto problem = make_learning_problem(family, galaxy, data, held_out, {}, state_after_three(measure));
+  const auto usual = make_learning_problem(family, galaxy, data, held_out, {.loss = loss_named("state:3")});
   const after_steps<> loss(family, galaxy, data, state_error(measure), {.steps = {3}});
   const auto by_residual = residual_gradients(loss, theta);
   const auto ours = problem.scores(theta);
@@ -125,10 +229,8 @@ BOOST_AUTO_TEST_CASE(weights_of_ones_own_have_no_error) {
 }
 
 BOOST_AUTO_TEST_CASE(between_several_minima_the_own_loss_judges) {
-  const auto data = data_of(1);
-  const auto held_out = data_of(2);
+  const auto& [data, held_out] = two_sets();
   const metric measure(galaxy, data, coordinates::qp);
-  const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
   const auto own = make_learning_problem(family, galaxy, data, held_out, {}, state_after_three(measure, 2.0));
   BOOST_TEST(own.judge(theta) == own.held_out.sum(own.held_out_losses(theta)));
   BOOST_TEST(own.judge(theta) != own.loss_at_end(theta));
@@ -138,12 +240,12 @@ BOOST_AUTO_TEST_CASE(between_several_minima_the_own_loss_judges) {
 }
 
 BOOST_AUTO_TEST_CASE(a_problem_takes_a_loss_of_another_form_and_its_judge_decides) {
-  const auto data = data_of(1);
+  const auto& [data, held_out] = two_sets();
   const two_minima loss(data.share());
   const fit_options options{.start = Eigen::Vector2d(0.46, 0.41),
                             .further_starts = {{"the other", Eigen::Vector2d(0.54, 0.39)}},
                             .random_starts = 0};
-  auto problem = make_learning_problem(family, galaxy, data, data_of(2), options);
+  auto problem = make_learning_problem(family, galaxy, data, held_out, options);
   problem.loss = objective_of(loss);
   problem.stages.clear();
   problem.shorter.reset();
@@ -165,9 +267,8 @@ BOOST_AUTO_TEST_CASE(a_problem_takes_a_loss_of_another_form_and_its_judge_decide
 }
 
 BOOST_AUTO_TEST_CASE(where_an_own_loss_is_not_a_number_no_search_ends) {
-  const auto data = data_of(1);
-  const auto held_out = data_of(2);
-  const metric measure(galaxy, data, coordinates::qp);
+  const auto& sets = two_sets();
+  const metric measure(galaxy, sets.data, coordinates::qp);
   const auto cut_off_at = [&](double bound) {
     const auto all = state_after_three(measure).error;
     const auto error = [=](const auto& start, const auto& finish, const auto& wanted) {
@@ -176,7 +277,7 @@ BOOST_AUTO_TEST_CASE(where_an_own_loss_is_not_a_number_no_search_ends) {
       r[3] = r[3] + 0.0 * sqrt(bound - (finish.p[0] - wanted.p[0]) * (finish.p[0] - wanted.p[0]));
       return r;
     };
-    return learn(family, galaxy, data, held_out, {}, own_loss{"cut off", 3, error}).summary;
+    return sets.learned(family, galaxy, {}, own_loss{"cut off", 3, error}).summary;
   };
   BOOST_TEST(cut_off_at(1.0).usable);
   const auto nowhere = cut_off_at(-1.0);
@@ -185,7 +286,7 @@ BOOST_AUTO_TEST_CASE(where_an_own_loss_is_not_a_number_no_search_ends) {
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
-  const auto data = data_of(1);
+  const auto& data = two_sets().data;
   const metric measure(galaxy, data, coordinates::qp);
   auto loss = state_after_three(measure);
   const auto refused = [&](const fit_options& options, std::initializer_list<std::string_view> words) {

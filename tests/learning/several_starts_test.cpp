@@ -10,11 +10,7 @@
 #include <ceres/solver.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <cstdio>
-#include <functional>
-#include <limits>
-#include <string>
 
 #include "../support/scratch.hpp"
 #include "../support/seeds.hpp"
@@ -24,6 +20,7 @@
 #include "nysalt/learning/minimise.hpp"
 
 using namespace nysalt;
+using namespace nysalt::test;
 
 namespace {
 
@@ -53,42 +50,74 @@ using guard = std::function<bool(const Eigen::VectorXd&)>;
 bool all(const Eigen::VectorXd&) { return true; }
 double likes_left(const Eigen::VectorXd& theta) { return std::abs(theta[0] + 1.0); }
 double likes_right(const Eigen::VectorXd& theta) { return std::abs(theta[0] - 1.0); }
+double of_loss(const Eigen::VectorXd& theta) { return two_wells(theta).value; }
 
+std::vector<named_parameters> named(const std::vector<double>& starts) {
+  std::vector<named_parameters> result;
+  for (const double x : starts) result.push_back({x < 0.0 ? "left" : "right", number(x)});
+  return result;
+}
+
+search_task task_of(const judge& judges, const guard& admits = all) {
+  return {.family = &family,
+          .loss = two_wells,
+          .judge = judges,
+          .admits = admits,
+          .free = {0},
+          .max_iterations = 100};
+}
 search_result searched(const judge& judges, const guard& admits, const std::vector<double>& starts,
                        int max_iterations = 100) {
-  std::vector<named_parameters> named;
-  for (const double x : starts) named.push_back({x < 0.0 ? "left" : "right", number(x)});
-  return search({.family = &family,
-                 .loss = two_wells,
-                 .judge = judges,
-                 .admits = admits,
-                 .free = {0},
-                 .max_iterations = max_iterations},
-                named);
+  search_task task = task_of(judges, admits);
+  task.max_iterations = max_iterations;
+  return search(task, named(starts));
 }
+
+/// A loss with its minimum at x0, and what it is there.
+objective least_at(double x0, double least = 0.0) {
+  return [=](const Eigen::VectorXd& theta) -> squares {
+    const double r = theta[0] - x0;
+    return {least + r * r, number(r), Eigen::MatrixXd::Ones(1, 1)};
+  };
+}
+const std::vector<named_parameters> mostly_left = named({-1.3, -1.2, -1.1, 1.2});
 
 constexpr double near_rounding = 1e-12;  // Newton's method ends at rounding, in a well of curvature 8
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(the_judge_decides_and_not_the_loss) {
-  const auto left = searched(likes_left, all, {1.2, -1.2});
-  BOOST_TEST(left.best.from == "left");
-  BOOST_TEST(std::abs(left.best.theta[0] - left_minimum()) <= near_rounding);
-  BOOST_TEST(left.best.loss > 0.03);
-  BOOST_TEST(left.best.converged);
-  BOOST_TEST(left.tried == 2);
-  BOOST_TEST(!left.unguarded);
-  const auto right = searched(likes_right, all, {1.2, -1.2});
-  BOOST_TEST(right.best.from == "right");
-  BOOST_TEST(std::abs(right.best.theta[0] - 1.0) <= near_rounding);
-  BOOST_TEST(right.best.loss <= 1e-24);
-}
-
-BOOST_AUTO_TEST_CASE(of_equals_the_first_is_taken) {
-  const auto equal = [](const Eigen::VectorXd&) { return 1.0; };
-  BOOST_TEST(searched(equal, all, {1.2, -1.2}).best.from == "right");
-  BOOST_TEST(searched(equal, all, {-1.2, 1.2}).best.from == "left");
+BOOST_AUTO_TEST_CASE(the_judge_decides_and_not_the_loss_and_the_guard_has_the_last_word) {
+  const judge equal = [](const Eigen::VectorXd&) { return 1.0; };
+  const judge nan_on_the_right = [](const auto& theta) { return theta[0] > 0.0 ? std::nan("") : 1e9; };
+  const guard positive = [](const Eigen::VectorXd& theta) { return theta[0] > 0.0; };
+  const guard none = [](const Eigen::VectorXd&) { return false; };
+  struct row {
+    judge judges;
+    guard admits;
+    std::vector<double> starts;
+    std::string best, unguarded;
+  };
+  for (const auto& [judges, admits, starts, best, unguarded] :
+       std::vector<row>{{likes_left, all, {1.2, -1.2}, "left", ""},
+                        {likes_right, all, {1.2, -1.2}, "right", ""},
+                        {equal, all, {1.2, -1.2}, "right", ""},  // of equals the first
+                        {equal, all, {-1.2, 1.2}, "left", ""},
+                        {nan_on_the_right, all, {1.2, -1.2}, "left", ""},
+                        {likes_left, positive, {-1.2, 1.2}, "right", "left"},
+                        {likes_right, positive, {-1.2, 1.2}, "right", ""},  // nothing was lost
+                        {likes_right, none, {1.2, -1.2}, "right", "right"}}) {
+    const auto found = searched(judges, admits, starts);
+    const bool is_left = best == "left";
+    BOOST_TEST(found.best.from == best);
+    BOOST_TEST(std::abs(found.best.theta[0] - (is_left ? left_minimum() : 1.0)) <= near_rounding);
+    BOOST_TEST((is_left ? found.best.loss > 0.03 : found.best.loss <= 1e-24));
+    BOOST_TEST(found.best.converged);
+    BOOST_TEST(found.best.admitted == admits(found.best.theta));
+    BOOST_TEST(!found.best.is_held);
+    BOOST_TEST(found.tried == (unguarded == "left" ? 3 : 2));  // the search goes on at the edge
+    BOOST_TEST((found.unguarded ? found.unguarded->from : "") == unguarded);
+    BOOST_TEST((!found.unguarded || !found.unguarded->admitted));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(what_did_not_converge_is_not_judged) {
@@ -100,33 +129,20 @@ BOOST_AUTO_TEST_CASE(what_did_not_converge_is_not_judged) {
   BOOST_TEST(!searched(likes_left, all, {-3.0}, 0).best.converged);  // a single start is what it was
 }
 
-BOOST_AUTO_TEST_CASE(what_the_guard_does_not_admit_is_not_taken) {
-  const auto positive = [](const Eigen::VectorXd& theta) { return theta[0] > 0.0; };
-  const auto found = searched(likes_left, positive, {-1.2, 1.2});
-  BOOST_TEST(found.best.from == "right");
-  BOOST_TEST(found.best.admitted);
-  BOOST_TEST(!found.best.is_held);
-  BOOST_REQUIRE(found.unguarded.has_value());
-  BOOST_TEST(found.unguarded->from == "left");
-  BOOST_TEST(!found.unguarded->admitted);
-  BOOST_TEST(!searched(likes_right, positive, {-1.2, 1.2}).unguarded.has_value());  // nothing was lost
-}
-
 BOOST_AUTO_TEST_CASE(where_no_minimum_is_admitted_the_guard_holds_what_it_admits) {
   const auto beyond = [](const Eigen::VectorXd& theta) { return std::abs(theta[0]) > 1.5; };
   const auto found = searched(likes_right, beyond, {0.5, 2.0});
   BOOST_TEST(found.best.is_held);
   BOOST_TEST(found.best.admitted);
   BOOST_TEST(beyond(found.best.theta));
-  BOOST_TEST(two_wells(found.best.theta).value <= two_wells(number(2.0)).value);  // no worse than its start
-  BOOST_TEST(found.tried == 3);  // the start .5 is not admitted
+  BOOST_TEST(of_loss(found.best.theta) <= of_loss(number(2.0)));  // no worse than its start
+  BOOST_TEST(found.tried == 3);                                   // the start .5 is not admitted
   BOOST_REQUIRE(found.unguarded.has_value());
   BOOST_TEST(std::abs(found.unguarded->theta[0] - 1.0) <= near_rounding);
 }
 
 // The right well has no loss and is not admitted; at 1.05 the loss is .011, in the left well .04.
 BOOST_AUTO_TEST_CASE(an_admitted_minimum_far_above_another_is_left_for_the_edge_where_that_is_better) {
-  const auto of_loss = [](const Eigen::VectorXd& theta) { return two_wells(theta).value; };
   const auto left_and_beyond = [](double edge) {
     return [edge](const Eigen::VectorXd& theta) { return theta[0] < -0.5 || theta[0] > edge; };
   };
@@ -142,22 +158,6 @@ BOOST_AUTO_TEST_CASE(an_admitted_minimum_far_above_another_is_left_for_the_edge_
   const auto less_different = [&](const Eigen::VectorXd& theta) { return 0.03 + two_wells(theta).value; };
   BOOST_TEST(searched(less_different, left_and_beyond(1.05), {-1.2, 1.5}).tried == 2);
   BOOST_TEST(found.tried > 2);
-}
-
-BOOST_AUTO_TEST_CASE(where_nothing_is_admitted_that_is_said) {
-  const auto none = [](const Eigen::VectorXd&) { return false; };
-  const auto found = searched(likes_right, none, {1.2, -1.2});
-  BOOST_TEST(!found.best.admitted);
-  BOOST_TEST(!found.best.is_held);
-  BOOST_TEST(found.tried == 2);
-  BOOST_TEST(found.unguarded.has_value());
-}
-
-BOOST_AUTO_TEST_CASE(a_judge_that_knows_no_number_takes_nothing) {
-  const auto nan_on_the_right = [](const Eigen::VectorXd& theta) {
-    return theta[0] > 0.0 ? std::nan("") : 1e9;
-  };
-  BOOST_TEST(searched(nan_on_the_right, all, {1.2, -1.2}).best.from == "left");
 }
 
 BOOST_AUTO_TEST_CASE(random_starts_are_those_of_their_seed_and_stay_in_range) {
@@ -176,16 +176,16 @@ BOOST_AUTO_TEST_CASE(random_starts_are_those_of_their_seed_and_stay_in_range) {
   double squares = 0.0;
   constexpr int many = 400;
   for (std::uint64_t n = 0; n < many; ++n) {
-    const auto theta = drawn(test::seed(1), n, {0, 1});
+    const auto theta = drawn(seed(1), n, {0, 1});
     BOOST_CHECK_NO_THROW(require_in_range(two, theta));
     at_the_bound += n % 4 == 1 && theta[1] == 0.5;
     const double deviation = 0.6 * std::exp2(-static_cast<double>(n % 4));
-    const double x = (random_start(family, number(0.25), {0}, test::seed(1), n)[0] - 0.25) / deviation;
+    const double x = (random_start(family, number(0.25), {0}, seed(1), n)[0] - 0.25) / deviation;
     sum += x;
     squares += x * x;
   }
   // Of the deviation .3 a third of it above the middle: in 37 % of 100, give or take 4.8.
-  const double allowed = test::standard_errors(test::false_alarms / 3);
+  const double allowed = standard_errors(false_alarms / 3);
   BOOST_TEST(std::abs(at_the_bound / 100.0 - 0.369) <= allowed * 0.048);
   BOOST_TEST(std::abs(sum / many) <= allowed / 20.0);
   BOOST_TEST(std::abs(std::sqrt(squares / many) - 1.0) <= allowed / std::sqrt(2.0 * many));
@@ -194,62 +194,34 @@ BOOST_AUTO_TEST_CASE(random_starts_are_those_of_their_seed_and_stay_in_range) {
 
 // The stage leads all starts into the left well, and the one-step loss has its minimum in the right one.
 BOOST_AUTO_TEST_CASE(a_search_in_stages_begins_at_the_minimum_of_the_one_step_loss_too) {
-  const auto least_at = [](double x0) {
-    return [x0](const Eigen::VectorXd& theta) -> squares {
-      const double r = theta[0] - x0;
-      return {r * r, number(r), Eigen::MatrixXd::Ones(1, 1)};
-    };
-  };
-  std::vector<named_parameters> starts;
-  for (const double x : {-1.3, -1.2, -1.1, 1.2}) starts.push_back({"start", number(x)});
-  const auto begun_at = [&](const objective& one_step) {
-    const auto of_loss = [](const Eigen::VectorXd& theta) { return two_wells(theta).value; };
-    return search({.family = &family,
-                   .loss = two_wells,
-                   .stages = {{.loss = least_at(-1.0)}},
-                   .one_step_loss = one_step,
-                   .judge = of_loss,
-                   .admits = all,
-                   .free = {0},
-                   .max_iterations = 100},
-                  starts);
-  };
-  const auto found = begun_at(least_at(1.1));
+  search_task task = task_of(of_loss);
+  task.stages = {{.loss = least_at(-1.0)}};
+  BOOST_TEST(std::abs(search(task, mostly_left).best.theta[0] - left_minimum()) <= near_rounding);
+  task.one_step_loss = least_at(1.1);
+  const auto found = search(task, mostly_left);
   BOOST_TEST(found.best.from == "one step");
   BOOST_TEST(std::abs(found.best.theta[0] - 1.0) <= near_rounding);
-  BOOST_TEST(std::abs(begun_at({}).best.theta[0] - left_minimum()) <= near_rounding);
 }
 
 // No start comes below 1 in the stage.
 BOOST_AUTO_TEST_CASE(a_search_ends_at_a_stage_whose_minima_are_all_above_what_it_bears) {
   int passes = 0;
-  const auto stage = [&](const Eigen::VectorXd& theta) -> squares {
-    const double r = theta[0] + 1.0;
-    return {1.0 + r * r, number(r), Eigen::MatrixXd::Ones(1, 1)};
-  };
-  const auto counted = [&](const Eigen::VectorXd& theta) {
+  search_task task = task_of(of_loss);
+  task.loss = [&](const Eigen::VectorXd& theta) {
     ++passes;
     return two_wells(theta);
   };
-  std::vector<named_parameters> starts;
-  for (const double x : {-1.3, -1.2, -1.1, 1.2}) starts.push_back({"start", number(x)});
-  const auto found_with = [&](double lost_above, const std::vector<named_parameters>& kept = {}) {
-    return search({.family = &family,
-                   .loss = counted,
-                   .stages = {{.loss = stage, .steps = 16, .lost_above = lost_above}},
-                   .kept = kept,
-                   .judge = [](const Eigen::VectorXd& theta) { return two_wells(theta).value; },
-                   .admits = all,
-                   .free = {0},
-                   .max_iterations = 100},
-                  starts);
+  const auto found_with = [&](double lost_above) {
+    task.stages = {{.loss = least_at(-1.0, 1.0), .steps = 16, .lost_above = lost_above}};
+    return search(task, mostly_left);
   };
   BOOST_TEST(found_with(0.9).lost_after == 16);
   BOOST_TEST(passes == 0);
   const auto found = found_with(1.1);
   BOOST_TEST(found.lost_after == 0);
   BOOST_TEST(passes > 0);
-  BOOST_TEST(found_with(0.9, {starts.back()}).lost_after == 0);  // what is kept may follow the data
+  task.kept = {mostly_left.back()};  // what is kept may follow the data
+  BOOST_TEST(found_with(0.9).lost_after == 0);
   BOOST_TEST(std::abs(found.best.theta[0] - left_minimum()) <= near_rounding);
 }
 
@@ -257,7 +229,7 @@ namespace {
 
 /// What is written to the standard error stream meanwhile, by whatever library.
 std::string written_by(const std::function<void()>& act) {
-  const test::scratch folder("quiet_search");
+  const scratch folder("quiet_search");
   const std::string name = folder / "err";
   std::fflush(stderr);
   const int kept = dup(STDERR_FILENO);
@@ -269,7 +241,7 @@ std::string written_by(const std::function<void()>& act) {
   dup2(kept, STDERR_FILENO);
   close(kept);
   std::fclose(file);
-  return test::contents(name);
+  return contents(name);
 }
 
 /// r = (theta_1 - 2, theta_2^2 - 3), and beyond theta_1 = `wall` the loss overflows or the point is
@@ -300,20 +272,14 @@ class rejecting_cost final : public ceres::CostFunction {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_start_where_the_loss_is_not_finite_is_given_up_in_silence) {
+BOOST_AUTO_TEST_CASE(a_start_or_a_step_where_the_loss_is_not_finite_is_given_up_in_silence) {
   for (const bool by_definition : {false, true}) {
     minimum found{};
     BOOST_TEST(written_by([&] { found = search_from(5.0, 4.0, by_definition); }) == "");
     BOOST_TEST(!std::isfinite(found.loss));
     BOOST_TEST(!found.converged);
     BOOST_TEST(found.theta[0] == 5.0);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(steps_beyond_a_wall_are_rejected_in_silence) {
-  for (const bool by_definition : {false, true}) {
-    for (const double wall : {2.5, 1.5}) {
-      minimum found{};
+    for (const double wall : {2.5, 1.5}) {  // steps beyond it are rejected
       BOOST_TEST(written_by([&] { found = search_from(-3.0, wall, by_definition); }) == "");
       BOOST_TEST(found.theta[0] < wall);
       BOOST_TEST(std::isfinite(found.loss));
@@ -321,7 +287,7 @@ BOOST_AUTO_TEST_CASE(steps_beyond_a_wall_are_rejected_in_silence) {
   }
 }
 
-// So that the tests above can tell.
+// So that the test above can tell.
 BOOST_AUTO_TEST_CASE(ceres_is_not_silent_by_itself) {
   const std::string written = written_by([] {
     double theta = 1.0;

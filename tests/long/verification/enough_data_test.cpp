@@ -3,7 +3,7 @@
 // What a fit says of its own uncertainty holds: its intervals cover what many data tell, and the loss that it
 // expects to lose by them is lost [li_lu_tao_ye_2023, theorem 3.1].
 // Tier 1 has that learning goes on until the data are enough, and finds what as many tell at once, in
-// learning/until_enough_test and programs/cases/curves.txt.
+// learning/reach_of_data_test and programs/cases/curves.txt.
 #include <boost/test/unit_test.hpp>
 
 #include <boost/math/distributions/chi_squared.hpp>
