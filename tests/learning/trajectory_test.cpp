@@ -37,8 +37,10 @@ struct two_speeds {
 BOOST_AUTO_TEST_CASE(whole_trajectories_tell_which_errors_add_up) {
   const auto sets = sets_at(0.09);
   const auto fitted = [&](const char* loss) {
-    const fit_options options{
-        .coordinates = coordinates::energy, .loss = loss_named(loss), .planned_steps = 2000};
+    const fit_options options{.coordinates = coordinates::energy,
+                              .loss = loss_named(loss),
+                              .random_starts = 4,
+                              .planned_steps = 2000};
     return sets.learned(run_time_family(fg4{}), chain, options).summary;
   };
   const auto by_trajectory = fitted("trajectory");

@@ -1,36 +1,138 @@
 // SPDX-License-Identifier: BSL-1.0
-// A loss by its name, and the stages through which it is minimised.
+// A loss by its name, and the stages through which it is minimised; and the loss gaussian_acceptance: its
+// value, its gradient, and what is learned by it without data.
 #include "nysalt/losses/loss_choice.hpp"
 
+#include <boost/math/special_functions/erf.hpp>
 #include <boost/test/unit_test.hpp>
 
-#include <vector>
+#include <numbers>
 
+#include "../support/learned.hpp"
 #include "../support/refusal.hpp"
 
 using namespace nysalt;
-using nysalt::test::refuses;
+using namespace nysalt::test;
+
+namespace {
+
+using wrong = std::invalid_argument;
+
+template <class F>
+objective loss_of(const F& family, const model& system, double step) {
+  return loss_named("gaussian_acceptance").kind->without_data(system, run_time_family(family), step);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_loss_is_the_expected_energy_error) {
+  const linear_chain chain = linear_chain::between_walls(5, 3.0);
+  const Eigen::VectorXd modes = chain.modes().frequencies;
+  const std::vector<double> frequencies(modes.begin(), modes.end());
+  const auto loss = loss_of(bab<3>{}, chain, 0.4);
+  const auto theta_of = [](const auto& method) {
+    const auto c = method.coefficients();
+    return Eigen::VectorXd(Eigen::Vector2d(c[0], c[1]));
+  };
+  const double expected = gaussian_energy_error(tabulated(bcss3{}), frequencies, 0.4);
+  // Sums of five terms, each right to some hundred roundings over z^2, the least 1.2.
+  BOOST_TEST(loss(theta_of(bcss3{})).value == expected, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(std::abs(loss(theta_of(predescu3{})).value / expected - 1.0) > 1e-2);
+}
+
+BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope) {
+  const auto loss = loss_of(bab<4>{}, linear_chain::between_walls(5, 3.0), 0.5);
+  const Eigen::VectorXd theta = Eigen::Vector3d(0.08, 0.2, 0.26);
+  const Eigen::VectorXd gradient = loss(theta).gradient();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const central_difference difference([&](const auto& at) { return loss(at).value; }, theta, k);
+    const double slope = difference(1e-5);  // the square of that, and rounding over it, are below 1e-9
+    BOOST_TEST(std::abs(slope - gradient[k]) <= 1e-6 * std::abs(gradient[k]) + 1e-9);
+    BOOST_TEST(std::abs(slope - 2.0 * gradient[k]) > 1e-3 * std::abs(slope));
+  }
+}
+
+// Below z = h omega = 4 the word of four equal steps is stable, beyond 8 none.
+BOOST_AUTO_TEST_CASE(where_a_word_is_not_stable_the_loss_is_infinite) {
+  const Eigen::VectorXd equal = Eigen::Vector3d(0.125, 0.25, 0.25);
+  BOOST_TEST(std::isfinite(loss_of(bab<4>{}, harmonic_oscillator(1.0), 3.9)(equal).value));
+  BOOST_TEST(std::isinf(loss_of(bab<4>{}, harmonic_oscillator(1.0), 8.1)(equal).value));
+}
+
+// Bands without modes: the mean over frequencies of the band. The points of a band are 16.
+BOOST_AUTO_TEST_CASE(bands_count_where_there_are_no_modes) {
+  const auto bands = pendulum().frequency_bands();
+  std::vector<double> frequencies;
+  for (const auto& [low, high] : bands) {
+    for (int k = 0; k < 16; ++k) frequencies.push_back(low + (high - low) * (k + 0.5) / 16.0);
+  }
+  const double mean =
+      gaussian_energy_error(tabulated(bcss3{}), frequencies, 0.5) / static_cast<double>(frequencies.size());
+  const auto c = bcss3::coefficients();
+  const auto loss = loss_of(bab<3>{}, pendulum(), 0.5);
+  BOOST_TEST(loss(Eigen::Vector2d(c[0], c[1])).value == mean, boost::test_tools::tolerance(1e-10));
+}
+
+BOOST_AUTO_TEST_CASE(what_has_no_spectrum_or_no_plain_word_is_refused) {
+  const linear_chain chain = linear_chain::between_walls(3, 3.0);
+  BOOST_TEST(refuses<wrong>([] { loss_of(bab<3>{}, kepler(), 0.1); }, {"must declare frequencies"}));
+  BOOST_TEST(refuses<wrong>([&] { loss_of(aba3_free{}, chain, 0.1); }, {"must be symmetric"}));
+  BOOST_TEST(refuses<wrong>([&] { loss_of(r_aba<2>{}, chain, 0.1); }, {"must be symmetric"}));
+  BOOST_TEST(std::isfinite(loss_of(fd_chin{}, chain, 0.1)(Eigen::Vector2d(1.0 / 6.0, 1.0 / 24.0)).value));
+}
+
+// A spread spectrum: 40 of its frequencies stand for all of 10,000 dimensions, so that at the acceptance 0.9
+// of these the 40 have a 250th of the energy error.
+BOOST_AUTO_TEST_CASE(what_is_learned_takes_larger_steps_than_all_formulas) {
+  constexpr double dimensions = 1e4;
+  std::vector<double> frequencies;  // quantiles of a logarithmic normal law
+  for (int k = 0; k < 40; ++k) {
+    frequencies.push_back(
+        std::exp(0.02 * std::numbers::sqrt2 * boost::math::erf_inv((k + 0.5) / 20.0 - 1.0)));
+  }
+  const double acceptance = acceptance_at(energy_error_at(0.9) * 40.0 / dimensions);
+  const auto step_of = [&](const tabulated& method, double from = 0.0) {
+    return nysalt::gaussian_step(method, frequencies, acceptance, from) /
+           method.letters().evaluations_per_step;
+  };
+  double best = 0.0;
+  for (const auto& rival : {tabulated(verlet{}), tabulated(mclachlan2v{}), tabulated(bcss3{}),
+                            tabulated(predescu3{}), tabulated(bcss4{}), tabulated(omelyan5v{})}) {
+    best = std::max(best, step_of(rival));
+  }
+  const Eigen::VectorXd squares = Eigen::Map<const Eigen::VectorXd>(frequencies.data(), 40).cwiseAbs2();
+  const linear_chain target{Eigen::MatrixXd(squares.asDiagonal())};
+  const double step = 4.0 * 1.25 * best;
+  const data_sets sets(target, gibbs_of_modes<Eigen::Dynamic>(target, 1.0), exact_linear(target),
+                       {.step = step, .horizon = 2.0 * step, .trajectories = 8});
+  const run_time_family family{bab<4>{}};
+  const auto [theta, fit] = sets.learned(family, target, {.loss = loss_named("gaussian_acceptance")});
+  BOOST_TEST(fit.usable, fit.reason);
+  BOOST_TEST(fit.loss_name == "gaussian_acceptance");
+  BOOST_TEST(!fit.is_of_data);
+  const double learned =
+      step_of(tabulated("learned", family.letters, family.coefficients(theta), {2, true, false}), step);
+  BOOST_TEST(learned > 1.15 * best, learned << " and " << best);
+  BOOST_TEST(learned < 1.5 * best);
+}
 
 BOOST_AUTO_TEST_CASE(names_are_understood_and_told_again) {
-  const auto is = [](const char* text, std::string_view name, int steps) {
-    const loss_choice loss = loss_named(text);
-    return loss.kind->name == name && loss.steps == steps;
-  };
-  BOOST_TEST(is("state", "state", 1));
+  for (const auto& [text, name, steps] :
+       std::vector<std::tuple<const char*, std::string_view, int>>{{"state", "state", 1},
+                                                                   {"trajectory", "trajectory", 1},
+                                                                   {"state:5", "state", 5},
+                                                                   {"energy", "energy", 1},
+                                                                   {"energy:10", "energy", 10},
+                                                                   {"covariance", "covariance", 1}}) {
+    BOOST_TEST((loss_named(text).kind->name == name && loss_named(text).steps == steps), text);
+  }
   BOOST_TEST((loss_named("trajectory") == loss_choice{}));
-  BOOST_TEST(is("trajectory", "trajectory", 1));
-  BOOST_TEST(is("state:5", "state", 5));
-  BOOST_TEST(is("energy", "energy", 1));
-  BOOST_TEST(is("energy:10", "energy", 10));
-  BOOST_TEST(is("covariance", "covariance", 1));
   BOOST_TEST((loss_named("state:5") != loss_named("state:6")));
   for (const char* name :
        {"trajectory", "state:1", "state:5", "energy:10", "acceptance", "gaussian_acceptance", "covariance"}) {
     BOOST_TEST(loss_named(name).description() == name);
   }
-}
-
-BOOST_AUTO_TEST_CASE(each_loss_has_a_name_of_its_own_and_says_what_it_needs) {
+  // Each says what it needs.
   for (const loss_kind* kind : losses()) {
     BOOST_TEST(loss_named(kind->name).kind == kind);
     BOOST_TEST(kind->over_data != nullptr);
@@ -45,8 +147,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_name_is_refused) {
                            "state: 5", "state:5 ", "state:5.0", "state:five", "state:5:6",
                            "energy:99999999999", "covariance:3", "covariance:", ":5"}) {
     BOOST_TEST_CONTEXT(name) {
-      BOOST_TEST(refuses<std::invalid_argument>([&] { loss_named(name); },
-                                                {name, "state:K", "energy:K", "covariance"}));
+      BOOST_TEST(refuses<wrong>([&] { loss_named(name); }, {name, "state:K", "energy:K", "covariance"}));
     }
   }
 }
@@ -72,33 +173,27 @@ BOOST_AUTO_TEST_CASE(stages_lead_from_a_few_steps_to_whole_trajectories) {
   BOOST_TEST_REQUIRE(stages[2].size() == 16U);
   BOOST_TEST(stages[2].front() == 20);
   BOOST_TEST(stages[2].back() == 320);
-}
-
-BOOST_AUTO_TEST_CASE(early_stages_use_a_few_windows_and_the_last_at_all) {
+  // Early stages use a few windows, and the last all.
   const auto& kind = *loss_named("trajectory").kind;
   for (const int shortest : {17, 100, 320}) {
-    const auto stages = kind.stages(1, shortest);
-    for (std::size_t n = 0; n + 1 < stages.size(); ++n) {
-      BOOST_TEST(stages[n].apart >= stages[n].steps.back());
-      BOOST_TEST(shortest / stages[n].apart <= 2);
+    const auto some = kind.stages(1, shortest);
+    for (std::size_t n = 0; n + 1 < some.size(); ++n) {
+      BOOST_TEST(some[n].apart >= some[n].steps.back());
+      BOOST_TEST(shortest / some[n].apart <= 2);
     }
-    BOOST_TEST(stages.back().apart == shortest);
+    BOOST_TEST(some.back().apart == shortest);
   }
-}
-
-BOOST_AUTO_TEST_CASE(short_trajectories_have_fewer_stages) {
+  // Short trajectories have fewer stages.
   BOOST_TEST((times("trajectory", 1) == several{{1}}));
   BOOST_TEST((times("trajectory", 3) == several{{1, 2, 3}}));
   BOOST_TEST((times("trajectory", 4) == several{{1, 2, 3, 4}}));
   BOOST_TEST(times("trajectory", 5).size() == 2U);
   BOOST_TEST(times("trajectory", 16).size() == 2U);
   BOOST_TEST(times("trajectory", 17).size() == 3U);
-}
-
-BOOST_AUTO_TEST_CASE(losses_after_k_steps_use_a_few_windows_first) {
+  // Losses after K steps use a few windows first.
   BOOST_TEST((times("state:1", 320) == several{{1}, {1}}));
   BOOST_TEST((times("energy:7", 320) == several{{7}, {7}}));
-  const auto stages = loss_named("state:5").kind->stages(5, 320);
-  BOOST_TEST(stages[0].apart == 80);
-  BOOST_TEST(stages[1].apart == 1);
+  const auto of_five = loss_named("state:5").kind->stages(5, 320);
+  BOOST_TEST(of_five[0].apart == 80);
+  BOOST_TEST(of_five[1].apart == 1);
 }
