@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "../support/stopping.hpp"
@@ -78,33 +80,25 @@ array read_hdf5(const std::filesystem::path& file, const std::string& name) {
   return result;
 }
 
-/// A text among the attributes.
-std::string text_in_hdf5(const std::filesystem::path& file, const std::string& name) {
+/// The value of an attribute of that type; a text is its address.
+template <class T>
+T attribute_in_hdf5(const std::filesystem::path& file, const std::string& name) {
   const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   const hid_t attribute = H5Aopen(opened, name.c_str(), H5P_DEFAULT);
   if (attribute < 0) throw std::runtime_error("no attribute " + name);
   const hid_t type = H5Aget_type(attribute);
-  char* text = nullptr;
-  H5Aread(attribute, type, static_cast<void*>(&text));
-  std::string result = text;
-  H5free_memory(text);
+  T value{};
+  H5Aread(attribute, std::is_pointer_v<T> ? type : H5T_NATIVE_DOUBLE, &value);
   H5Tclose(type);
   H5Aclose(attribute);
   H5Fclose(opened);
-  return result;
+  return value;
 }
-
-/// Numbers among the attributes.
-std::vector<double> numbers_in_hdf5(const std::filesystem::path& file, const std::string& name) {
-  const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  const hid_t attribute = H5Aopen(opened, name.c_str(), H5P_DEFAULT);
-  if (attribute < 0) throw std::runtime_error("no attribute " + name);
-  const hid_t space = H5Aget_space(attribute);
-  std::vector<double> result(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-  H5Aread(attribute, H5T_NATIVE_DOUBLE, result.data());
-  H5Sclose(space);
-  H5Aclose(attribute);
-  H5Fclose(opened);
+/// A text, which HDF5 allocates.
+std::string text_in_hdf5(const std::filesystem::path& file, const std::string& name) {
+  char* text = attribute_in_hdf5<char*>(file, name);
+  std::string result = text;
+  H5free_memory(text);
   return result;
 }
 #endif
@@ -194,20 +188,6 @@ BOOST_AUTO_TEST_CASE(arrays_hold_the_numbers_of_the_table_to_the_bit) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_manifest_says_what_numpys_file_has_no_place_for) {
-  const scratch folder("arrays_npy");
-  const auto told = run(folder, with_losses + "--output a.npy --json");
-  BOOST_TEST_REQUIRE(told.code == 0, told.err);
-  const auto document = json_of(told);
-  BOOST_TEST(document["output"] == "a.npy");
-  const array stored = read_npy(folder / "a.npy");
-  BOOST_TEST(stored.shape == (std::vector<std::uint64_t>{40, 286, 2}), boost::test_tools::per_element());
-  const auto manifest = recorded(folder / "a.npy");
-  BOOST_TEST(manifest["observables"] == (nlohmann::ordered_json{"energy", "q2"}));
-  BOOST_TEST(manifest["diverged"] == document["diverged"]);
-  BOOST_TEST(manifest["sample_every"] == 7);
-}
-
 #if defined NYSALT_HAS_HDF5
 BOOST_AUTO_TEST_CASE(a_file_of_hdf5_tells_what_it_is) {
   const scratch folder("arrays_hdf5");
@@ -230,10 +210,10 @@ BOOST_AUTO_TEST_CASE(a_file_of_hdf5_tells_what_it_is) {
   BOOST_TEST(text_in_hdf5(file, "method") == "verlet");
   BOOST_TEST(text_in_hdf5(file, "observables") == "energy, q2");
   BOOST_TEST(nlohmann::ordered_json::parse(text_in_hdf5(file, "system"))["spread"] == 2.5);
-  BOOST_TEST(numbers_in_hdf5(file, "step") == std::vector<double>{0.3}, boost::test_tools::per_element());
-  BOOST_TEST(numbers_in_hdf5(file, "seed") == std::vector<double>{1}, boost::test_tools::per_element());
-  const std::vector<double> verlet{0.5, 1.0, 0.5};
-  BOOST_TEST(numbers_in_hdf5(file, "coefficients") == verlet, boost::test_tools::per_element());
+  BOOST_TEST(attribute_in_hdf5<double>(file, "step") == 0.3);
+  BOOST_TEST(attribute_in_hdf5<double>(file, "seed") == 1.0);
+  const auto verlet = attribute_in_hdf5<std::array<double, 3>>(file, "coefficients");
+  BOOST_TEST((verlet == std::array<double, 3>{0.5, 1.0, 0.5}));
 }
 #endif
 
@@ -253,46 +233,4 @@ BOOST_AUTO_TEST_CASE(killed_it_can_be_read) {
     BOOST_TEST(missing > 0U);
     BOOST_TEST(missing < of_whole.size());
   }
-}
-
-// The data of a picture: of a table, of one that was killed, and of arrays.
-BOOST_AUTO_TEST_CASE(the_picture_is_that_of_the_table) {
-  const scratch folder("arrays_plot");
-  const auto drawn = [&](const std::string& arguments) {
-    const auto result = quietly(folder, in_bath + "--plot --output " + arguments);
-    BOOST_TEST_REQUIRE(result.code == 0, result.err);
-  };
-  drawn("a.csv");
-  const std::string data = contents(folder / "a.dat");
-  BOOST_TEST(data.size() > 1000U);
-  const std::string killed = "k.csv --checkpoint c --every 500 ";
-  BOOST_TEST(is_killed_at(folder, "rename:4", in_bath + "--plot --output " + killed));
-  drawn(killed + "--resume");
-  BOOST_TEST((contents(folder / "k.dat") == data));
-  for (const auto& kind : kinds) {
-    drawn("b" + kind);
-    BOOST_TEST((contents(folder / "b.dat") == data));
-  }
-}
-
-// A file of that size the disk does not have, or NumPy's format.
-BOOST_AUTO_TEST_CASE(what_is_too_large_is_refused_and_leaves_nothing) {
-  const scratch folder("arrays_large");
-  const auto refused = [&](const std::string& arguments, const std::string& why) {
-    const auto result =
-        run(folder,
-            "run --method verlet --step 0.01 --trajectories 37 --sample-every 1 --checkpoint c "
-            "--every 1000 --horizon " +
-                arguments);
-    BOOST_TEST(result.code == 2, arguments);
-    BOOST_TEST(result.err.find(why) != std::string::npos, arguments << " said " << result.err);
-    BOOST_TEST(std::count(result.err.begin(), result.err.end(), '\n') == 1, result.err);
-    BOOST_TEST(folder.files().empty());
-  };
-  refused("1e5 --output a.npy", "let --output end in .h5");
-#if defined NYSALT_HAS_HDF5
-  refused("1e11 --output a.h5", "its disk has");
-#else
-  refused("1 --output a.h5", "built without HDF5");
-#endif
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // What no output may replace or remove: files that were read, and what is no regular file. Each name that a
-// command writes is tried, and each kind of input, before any work; plug-ins as inputs are in tests/long.
+// command writes is tried, and each kind of input, before any work; plug-ins as inputs are in
+// cases/own_systems.txt.
 #include <boost/test/unit_test.hpp>
 
 #include <map>
@@ -8,9 +9,6 @@
 #include <vector>
 
 #include "../support/table.hpp"
-
-using nysalt::test::run_table;
-using nysalt::test::wrong_rows;
 
 namespace {
 
@@ -69,13 +67,7 @@ const std::map<std::string, std::string> inputs{{"method", table},
                                                 {"start", "q1\\n0.1\\n0.2\\n"},
                                                 {"data", "x,y\\n0.1,0\\n0.4,1\\n-0.3,0\\n0.2,1\\n"}};
 
-void all_right(const std::string& rows) {
-  for (const auto& wrong : wrong_rows(rows, "protected")) BOOST_TEST(false, wrong);
-}
-
 }  // namespace
-
-BOOST_AUTO_TEST_CASE(protected_files) { run_table("protected_files"); }
 
 // The kinds in turn, as names and kinds are not looked at together.
 BOOST_AUTO_TEST_CASE(no_output_takes_a_name_of_an_input) {
@@ -100,7 +92,7 @@ BOOST_AUTO_TEST_CASE(no_output_takes_a_name_of_an_input) {
       rows += "2 " + command + arguments_for(kind, names[k], command) + " | was read as input\n";
     }
   }
-  all_right(rows);
+  for (const auto& wrong : nysalt::test::wrong_rows(rows, "protected")) BOOST_TEST(false, wrong);
 }
 
 // Ways in turn, and all of them at one name; a device only the superuser can make.
@@ -123,5 +115,5 @@ BOOST_AUTO_TEST_CASE(nothing_but_a_regular_file_is_replaced) {
     for (const auto& name : outputs) add(command, name, ways[turn++ % ways.size()]);
   }
   for (const auto& way : ways) add(writers[0].command, "o.csv", way);
-  all_right(rows);
+  for (const auto& wrong : nysalt::test::wrong_rows(rows, "protected")) BOOST_TEST(false, wrong);
 }

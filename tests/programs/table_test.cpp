@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
-// That rows of a table which are not as they must be are found (support/table.hpp): each row here is wrong.
+// That rows of a table which are not as they must be are found (support/table.hpp), and commands of a page;
+// the first four of the README run. All that the program and the pages show is run in tests/long.
 #include <boost/test/unit_test.hpp>
 
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "../support/program.hpp"
+#include "../support/shown_commands.hpp"
 #include "../support/table.hpp"
 
-using nysalt::test::wrong_rows;
+using namespace nysalt::test;
 
 BOOST_AUTO_TEST_CASE(rows_that_are_wrong_are_found) {
   const std::string run = "run --method verlet --step 0.01 --horizon 0.02 --observables energy,q1";
@@ -65,4 +69,23 @@ BOOST_AUTO_TEST_CASE(rows_that_are_right_are_not) {
       "== second\n0 $ ls | files: | label: none\n0 $ true | out: \n",
       "self");
   for (const auto& one : wrong) BOOST_TEST(false, one);
+}
+
+BOOST_AUTO_TEST_CASE(commands_are_found_in_a_text) {
+  const std::string markdown =
+      "nysalt not this\n```cpp\nnysalt nor this\n```\n```sh\n./dev test\nnysalt list  # all\n"
+      "build/release/nysalt learn \\\n  --step 1\n```\nnysalt outside\n";
+  BOOST_TEST(commands_of(markdown) == (std::vector<std::string>{"list  # all", "learn   --step 1"}),
+             boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(the_first_four_commands_of_the_readme_run) {
+  auto commands = commands_of(contents(NYSALT_SOURCE_DIR "/README.md"));
+  BOOST_TEST_REQUIRE(commands.size() >= 4U);
+  commands.resize(4);
+  std::string rows;
+  for (const auto& command : commands)
+    rows += "0 " + command + (command.starts_with("learn") ? " --effort quick --trajectories 8" : "") +
+            " | any err\n";
+  for (const auto& one : wrong_rows(rows, "readme")) BOOST_TEST(false, one);
 }

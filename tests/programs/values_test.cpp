@@ -21,6 +21,7 @@
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/ensembles/kepler_law.hpp"
 #include "nysalt/ensembles/lennard_jones_law.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
@@ -235,10 +236,11 @@ BOOST_AUTO_TEST_CASE(acceptances_are_those_of_the_library) {
 BOOST_AUTO_TEST_CASE(run_gives_the_samples_of_the_library_in_a_bath) {
   const in_bath system(chain, bath::of_sigma(0.01, 0.05));
   const std::uint64_t of_test = seed_for(role::test, seed);
+  const gibbs<6> starts(system, law);
   const auto all = document(
       "run --seed 5 --method srkn6b@symmetric --step 0.03 --horizon 0.6 --sample-every 4 "
       "--trajectories 3 --observables stiff_energy,kinetic_temperature,q1,p6 "
-      "--start law --friction 0.01 --sigma 0.05");
+      "--start gibbs --friction 0.01 --sigma 0.05");
   const auto stepper =
       make_stepper(system, thermostat<placement::symmetric>(srkn6b()), .03, counter_noise(of_test));
   std::size_t at = 0;
@@ -250,7 +252,7 @@ BOOST_AUTO_TEST_CASE(run_gives_the_samples_of_the_library_in_a_bath) {
       BOOST_TEST(all["rows"][at++] == expected);
     };
     const auto number = static_cast<std::uint64_t>(m);
-    integrate(stepper, law(of_test, number), 20, watch, 4, number);
+    integrate(stepper, starts(of_test, number), 20, watch, 4, number);
   }
   BOOST_TEST(at == all["rows"].size());
 }

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
-// 0 done, 2 bad input, 3 no result, 4 not written; and threads that the system does not start.
+// Threads that the system does not start.
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <string>
-#include <tuple>
 
 #include "../support/program.hpp"
-#include "../support/sanitizers.hpp"
-#include "../support/table.hpp"
 
 using namespace nysalt::test;
-
-BOOST_AUTO_TEST_CASE(exit_codes) { run_table("exit_codes"); }
 
 namespace {
 
@@ -60,40 +54,4 @@ BOOST_AUTO_TEST_CASE(threads_that_the_system_does_not_start_are_one_line) {
       }
     }
   }
-}
-
-// What took the time is printed: the values that were learned with all digits, for each of several steps too.
-BOOST_AUTO_TEST_CASE(a_file_that_cannot_be_written_is_4_and_loses_no_result) {
-  if (under_thread_sanitizer) return;  // which writes a file of its own before main() begins
-  const scratch folder("full");
-  const std::string learn =
-      "learn --system henon_heiles --family bab2 --trajectories 8 --horizon 2 --effort quick ";
-  const std::string sample = "sample --system linear_chain --length 1 --draws 100 ";
-  // No file may have a byte, so that streams are pipes; counts of lines go elsewhere.
-  const auto full = [&](const std::string& arguments, const std::string& reader = "cat") {
-    return shell(folder, "export LLVM_PROFILE_FILE=/dev/null; { { ulimit -f 0; \"$nysalt\" " + arguments +
-                             " --output o; echo \"code $?\" >&2; } 2>&1 >&3 | cat >&2; } 3>&1 | " + reader);
-  };
-  for (const auto& [arguments, values, member] :
-       {std::tuple{learn + "--step 0.3", "held-out loss", "/parameters"},
-        {learn + "--steps 0.2,0.3", "held-out loss", "/fits/1/parameters"},
-        {sample, "potential", "/scalars"}}) {
-    const auto whole = run(folder, arguments + " --json");
-    BOOST_TEST_REQUIRE(whole.code == 0, whole.err);
-    const auto done = full(arguments);
-    BOOST_TEST(done.out.find(values) != std::string::npos, done.out);
-    BOOST_TEST(done.out.find("Written") == std::string::npos);
-    BOOST_TEST(done.err.find("cannot write o") != std::string::npos, done.err);
-    BOOST_TEST(done.err.find("code 4") != std::string::npos, done.err);
-    const auto document = json_of(full(arguments + " --json"));
-    BOOST_REQUIRE(document.is_object());
-    const nlohmann::ordered_json::json_pointer found(member);
-    BOOST_TEST_REQUIRE(document.contains(found));
-    BOOST_TEST(document[found] == json_of(whole)[found]);
-    BOOST_TEST((!document.contains("output") || document["output"].is_null()));
-    BOOST_TEST(!std::filesystem::exists(folder / "o"));
-  }
-  // A reader who leaves does not hide that.
-  const auto left = full(sample, "true");
-  BOOST_TEST(left.err.find("code 4") != std::string::npos, left.err);
 }
