@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
-// The gradient of the loss is the one that the paper derives by hand. What follows from a Hessian: flat
-// directions, conditions and standard errors. A few residuals instead of very many are to Ceres the same
-// function.
+// What follows from a Hessian: flat directions, conditions and standard errors. A few residuals instead of
+// very many are to Ceres the same function.
 #include "nysalt/learning/curvature.hpp"
 
 #include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 
-#include "../laws/models.hpp"
-#include "../support/learned.hpp"
+#include "../support/draws.hpp"
 #include "../support/losses.hpp"
 #include "../support/rounding.hpp"
-#include "../support/tableau.hpp"
 #include "nysalt/learning/compressed_cost.hpp"
 
 using namespace nysalt;
@@ -253,100 +250,4 @@ BOOST_AUTO_TEST_CASE(what_is_not_finite_or_not_defined_is_rejected) {
   BOOST_TEST(cost.Evaluate(&at, r.data(), nullptr));
   BOOST_TEST(cost.Evaluate(&at, r.data(), &slopes));  // the same place costs no second pass
   BOOST_TEST(calls == 1);
-}
-
-namespace {
-
-constexpr double h = 0.4;
-
-/// The appendix [li_lu_tao_ye_2023, appendix A]: derivatives of one step by b1 and by beta1, in (q, p), with
-/// a Jacobian of the force that is theirs too. x becomes the state after the step.
-Eigen::Matrix<double, 4, 2> appendix(const henon_heiles& system, double b1, double beta1,
-                                     phase_point<double, 2>& x) {
-  const auto t = tableau::symplectic(b1, beta1);
-  const vector<double, 2> q = x.q;
-  const vector<double, 2> p = x.p;
-  const double a21 = (t.beta1 * t.b2 - t.b1 * t.beta2) / t.b2;
-  vector<double, 2> l1;
-  vector<double, 2> l2;
-  force<double>(system, q + h * t.c1 * p, l1);
-  const vector<double, 2> second = q + h * t.c2 * p + h * h * a21 * l1;
-  force<double>(system, second, l2);
-  const Eigen::Matrix2d grad_1 = -test::hessian<henon_heiles>(system, q + h * t.c1 * p);
-  const Eigen::Matrix2d grad_2 = -test::hessian<henon_heiles>(system, second);
-  const vector<double, 2> l1_b = grad_1 * (t.beta1 * h * p / (t.b1 * t.b1));
-  const vector<double, 2> l1_beta = -grad_1 * (h * p / t.b1);
-  const double beta2_b2 = t.beta2 / (t.b2 * t.b2);
-  const vector<double, 2> l2_b = grad_2 * (-h * beta2_b2 * p + h * h * a21 * l1_b - h * h * beta2_b2 * l1);
-  const vector<double, 2> l2_beta = grad_2 * (h / t.b2 * p + h * h * a21 * l1_beta + h * h / t.b2 * l1);
-  Eigen::Matrix<double, 4, 2> j;
-  j.topLeftCorner<2, 1>() = h * h * (t.beta1 * l1_b + t.beta2 * l2_b);
-  j.topRightCorner<2, 1>() = h * h * (l1 - l2 + t.beta1 * l1_beta + t.beta2 * l2_beta);
-  j.bottomLeftCorner<2, 1>() = h * (l1 - l2 + t.b1 * l1_b + t.b2 * l2_b);
-  j.bottomRightCorner<2, 1>() = h * (t.b1 * l1_beta + t.b2 * l2_beta);
-  t.step(system, x, h);
-  return j;
-}
-
-/// The gradient of each trajectory's part of the loss, with the factor 2 that the appendix writes in its
-/// second line only, and what rounding may do to it.
-struct by_hand {
-  Eigen::MatrixXd gradient;
-  Eigen::MatrixXd rounding;
-};
-by_hand gradient_by_hand(const flow_map_data& data, double b1, double beta1) {
-  const auto coordinates = [](const phase_point<double, 2>& x) {
-    return Eigen::Vector4d(x.q[0], x.q[1], x.p[0], x.p[1]);
-  };
-  const auto count = static_cast<double>(data.pairs());
-  Eigen::Vector4d sigma = Eigen::Vector4d::Zero();
-  for (std::size_t n = 0; n < data.pairs(); ++n) {
-    sigma += (coordinates(data.finish[n]) - coordinates(data.start[n])).cwiseAbs2() / count;
-  }
-  const auto blocks = static_cast<Eigen::Index>(data.trajectories());
-  by_hand result{Eigen::MatrixXd::Zero(2, blocks), Eigen::MatrixXd::Zero(2, blocks)};
-  for (std::size_t m = 0; m < data.trajectories(); ++m) {
-    const auto column = static_cast<Eigen::Index>(m);
-    for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
-      phase_point<double, 2> x = data.start[n];
-      const auto j = appendix(henon_heiles(), b1, beta1, x);
-      const Eigen::Vector4d r = coordinates(x) - coordinates(data.finish[n]);
-      result.gradient.col(column) += 2.0 * j.transpose() * r.cwiseQuotient(sigma) / count;
-      // r is a difference of numbers below 1, and some hundred operations went into r and j.
-      const Eigen::Vector4d size = (r.cwiseAbs() + Eigen::Vector4d::Ones()).cwiseQuotient(sigma);
-      result.rounding.col(column) += 100.0 * eps * j.cwiseAbs().transpose() * size / count;
-    }
-  }
-  return result;
-}
-
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(the_gradient_is_the_papers_trajectory_by_trajectory) {
-  const henon_heiles system;
-  const auto data = make_flow_map_data(system, around_rest<2>(0.1, 0.2), fine_steps<>(0.02),
-                                       {.step = h, .horizon = 2.0, .trajectories = 7});
-  const metric measure(system, data, coordinates::qp);
-  const one_step<nystrom> loss(system, data, measure);
-  draws random;
-  for (int n = 0; n < 10; ++n) {
-    const auto theta = random_theta<nystrom>(random);
-    const auto ours = trajectory_gradients(loss, theta);
-    const auto theirs = gradient_by_hand(data, theta[0], theta[1]);
-    BOOST_TEST_CONTEXT("b1 = " << theta[0] << ", beta1 = " << theta[1]) {
-      BOOST_TEST(ours.size() == 7U);
-      double off = 0.0;
-      double off_without_two = 0.0;  // the appendix's first line
-      for (std::size_t m = 0; m < ours.size(); ++m) {
-        const auto column = static_cast<Eigen::Index>(m);
-        const Eigen::Vector2d expected = theirs.gradient.col(column);
-        const Eigen::Vector2d rounding = theirs.rounding.col(column);
-        off = std::max(off, (ours[m] - expected).cwiseQuotient(rounding).cwiseAbs().maxCoeff());
-        off_without_two = std::max(off_without_two,
-                                   (ours[m] - 0.5 * expected).cwiseQuotient(rounding).cwiseAbs().maxCoeff());
-      }
-      BOOST_TEST(off <= 1.0);
-      BOOST_TEST(off_without_two > 1e3);
-    }
-  }
 }

@@ -425,4 +425,8 @@ BOOST_AUTO_TEST_CASE(the_summary_tells_gaps_between_the_bands) {
   BOOST_TEST(told.gaps[0].high < 0.08 * 49.0);
   BOOST_TEST(says(told.full(), "which the motion meets rarely or never"));
   BOOST_TEST(fitted_at(0.01, true).summary.gaps.empty());
+  // Where the optimum is stable, what is handed out is not worse.
+  const auto unguarded = fitted_at(0.08, false).summary;
+  BOOST_TEST(unguarded.usable, unguarded.reason);
+  BOOST_TEST(told.held_out_loss <= unguarded.held_out_loss);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Compiled with -O1: 5 s at -O0, 3 s at -O1.
+// Compiled with -O1: 4.3 s at -O0, 2.7 s at -O1.
 // What a fit to whole trajectories has over a fit to one step, and how it is found.
 #include <boost/test/unit_test.hpp>
 

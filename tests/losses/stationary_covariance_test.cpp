@@ -319,26 +319,6 @@ plane_map<double> sheared_turn(double factor, double angle, double shear) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(what_a_step_keeps_solves_the_linear_equations) {
-  draws random;
-  for (int n = 0; n < 200; ++n) {
-    const plane_map<double> M{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
-                              random.uniform(-1, 1)};
-    const plane_covariance<double> R{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-    if (spectral_radius(as_matrix(M)) > 0.99) continue;
-    const square<2> expected = stationary<2>({as_matrix(M), as_matrix(R)});
-    const square<2> ours = as_matrix(discrete_lyapunov(M, R));
-    // Some hundred operations on numbers below 16, over the denominator; of the oracle as many.
-    const double d = M.determinant();
-    const double t = M.trace();
-    const double tolerance = 3200.0 * eps / ((1.0 - d) * (1.0 + d - t) * (1.0 + d + t));
-    BOOST_TEST((ours - expected).cwiseAbs().maxCoeff() <= tolerance);
-    // The equation of the transposed map is another one.
-    const square<2> transposed = as_matrix(discrete_lyapunov({M.xx, M.yx, M.xy, M.yy}, R));
-    BOOST_TEST((transposed - expected).cwiseAbs().maxCoeff() > tolerance);
-  }
-}
-
 BOOST_AUTO_TEST_CASE(what_a_map_of_determinant_one_adds) {
   draws random;
   for (int n = 0; n < 20; ++n) {

@@ -6,13 +6,7 @@
 
 #include <boost/math/distributions/chi_squared.hpp>
 
-#include "../../support/draws.hpp"
-#include "../../support/losses.hpp"
-#include "nysalt/analysis/statistics.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/families/nystrom.hpp"
-#include "nysalt/learn.hpp"
-#include "nysalt/references/fine_steps.hpp"
+#include "../../support/learned.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
