@@ -19,17 +19,6 @@
 
 // expect: nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a
 //   template or over double, const all of them; see nysalt/system.hpp
-namespace system_without_force {
-struct incomplete {
-  static constexpr int dimension = 1;
-};
-inline void use(const either<well, incomplete>& system) {
-  nysalt::make_stepper(system, nysalt::verlet(), 0.1);
-}
-}  // namespace system_without_force
-
-// expect: nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a
-//   template or over double, const all of them; see nysalt/system.hpp
 namespace potential_over_double_alone {
 struct not_differentiable {
   static constexpr int dimension = 1;

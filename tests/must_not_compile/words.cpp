@@ -57,12 +57,7 @@ inline void use(const relativistic& system) {
 // expect: nysalt: the letters R, S, H need a system that declares a quadratic part: modes() and soft_force(q,
 //   f), see nysalt/system.hpp
 namespace rotation_without_quadratic_part {
-struct spring {
-  static constexpr int dimension = 1;
-  template <class T>
-  void force(const nysalt::vector<T, 1>& q, nysalt::vector<T, 1>& f) const {
-    f[0] = -q[0];
-  }
+struct spring : well {
   nysalt::normal_modes modes() const { return {Eigen::MatrixXd::Ones(1, 1), Eigen::VectorXd::Ones(1)}; }
 #ifdef NYSALT_CONTROL
   template <class T>
