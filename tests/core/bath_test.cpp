@@ -77,21 +77,6 @@ BOOST_AUTO_TEST_CASE(a_long_time_forgets) {
   BOOST_TEST(relative(warm.deviation(1e4), std::sqrt(2.0)) <= 4.0 * eps);
 }
 
-// Two times in a row are their sum: rounding of exp at arguments up to 4, and of a few products.
-BOOST_AUTO_TEST_CASE(times_add_up) {
-  draws random;
-  for (int n = 0; n < 100; ++n) {
-    const auto noisy = bath::of_sigma(random.uniform(0.01, 2.0), random.uniform(0.1, 2.0));
-    const double s = random.uniform(0.01, 1.0);
-    const double t = random.uniform(0.01, 1.0);
-    BOOST_TEST(relative(noisy.decay(s) * noisy.decay(t), noisy.decay(s + t)) <= 16.0 * eps);
-    const double of_both = std::hypot(noisy.decay(t) * noisy.deviation(s), noisy.deviation(t));
-    BOOST_TEST(relative(of_both, noisy.deviation(s + t)) <= 16.0 * eps);
-    const double forgetful = std::hypot(noisy.deviation(s), noisy.deviation(t));
-    BOOST_TEST(relative(forgetful, noisy.deviation(s + t)) > 1e-6);
-  }
-}
-
 BOOST_AUTO_TEST_CASE(sigma_and_temperature_give_each_other) {
   draws random;
   for (int n = 0; n < 100; ++n) {

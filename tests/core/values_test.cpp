@@ -151,21 +151,9 @@ BOOST_AUTO_TEST_CASE(numbers_are_written_as_by_fmt) {
   require_same_at_ends<unsigned>();
   require_same_at_ends<std::int64_t>();
   require_same_at_ends<std::uint64_t>();
-  std::vector<double> special{0.0,
-                              1.0,
-                              0.1,
-                              1.0 / 3.0,
-                              1e15,
-                              5e-324,
-                              0x1p53,
-                              1e22,
-                              1e23,
-                              100.0,
-                              limits::max(),
-                              limits::epsilon(),
-                              limits::infinity(),
-                              limits::quiet_NaN(),
-                              123456789012345678.0};
+  std::vector<double> special{0.0, 1.0, 0.1, 1e15, 100.0, 1.0 / 3.0};
+  special.insert(special.end(), {5e-324, 0x1p53, 1e22, 1e23, 123456789012345678.0});
+  special.insert(special.end(), {limits::max(), limits::epsilon(), limits::infinity(), limits::quiet_NaN()});
   for (const double edge : {1e-4, 1e-5, 1e16, 1e17, limits::min()}) {  // where the form may change
     special.insert(special.end(), {edge, std::nextafter(edge, 0.0), std::nextafter(edge, 1e300)});
   }

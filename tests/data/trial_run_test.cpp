@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // A trial run finds what linear criteria do not: trajectories that diverge, and energies that drift.
 #include "nysalt/trial_run.hpp"
+
 #include "../support/refusal.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/ensembles/normal_around.hpp"

@@ -54,7 +54,7 @@ taylor_orders order_in_other_coordinates(double c) {
 BOOST_AUTO_TEST_CASE(methods_have_the_order_that_they_declare) {
   draws random;
   for (const auto& method : methods_as_data(random)) {
-    // At a fixed z these have the order 2; their own is that of h -> 0 at a fixed frequency (order_test.cpp).
+    // At a fixed z these have the order 2; their own is that of h -> 0 at a fixed frequency (adaptive_test.cpp).
     if (method.name().starts_with("phase_fitted")) continue;
     const auto found = taylor_order(method);
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name()) {
@@ -74,20 +74,6 @@ BOOST_AUTO_TEST_CASE(what_a_quadratic_kinetic_energy_gains) {
   BOOST_TEST(orders(mclachlan_atela4()) == "4 and 3");
   BOOST_TEST(orders(srkn6b()) == "4 and 4");
   BOOST_TEST(orders(tabulated(srkn11b())) == "6 and 4");  // as data
-}
-
-// Consistency for every theta, and beta1 + beta2 = 1/2 is the condition of order 2. For order 3 the c_i must
-// have the variance b1 b2 (c2 - c1)^2 = 1/12 and, the method being symplectic, b1 b2 (c2 - c1) = 1/6: hence
-// b1 b2 = 1/3, which no b1 gives.
-BOOST_AUTO_TEST_CASE(two_stages_have_order_two_at_every_theta) {
-  draws random;
-  for (int n = 0; n < 20; ++n) {
-    const std::array theta{random.uniform(0.2, 0.8), random.uniform(0.1, 0.4)};
-    BOOST_TEST_CONTEXT("seed " << draws::seed << ", b1 = " << theta[0] << ", beta1 = " << theta[1]) {
-      BOOST_TEST(orders(member<nystrom>(theta)) == "2 and 2");
-      BOOST_TEST(orders(member<nystrom>({0.5, theta[1]})) == "2 and 2");
-    }
-  }
 }
 
 // A change of coordinates makes a method of order 4 of Takahashi and Imada's, not of Verlet's, or with
@@ -165,7 +151,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_number_is_not_consistent) {
   }
 }
 
-// On the oscillator this one has order 6 (see methods/order_test.cpp).
+// On the oscillator this one has order 6 (see methods/step_laws_test.cpp).
 BOOST_AUTO_TEST_CASE(an_accident_on_the_oscillator_does_not_count) {
   const auto c = palindrome<11>({0.18685656311551122, 0.5642486163110636,  //
                                  0.5520581660514783, -0.23936270217732913});

@@ -86,32 +86,21 @@ shared_end on_ranks(const model& system, Eigen::Index components, const tabulate
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(tiles_have_the_bits_of_a_loop) {
+  const auto check = [](Eigen::Index sites, std::int64_t steps, std::int64_t every, int threads) {
+    for_each_local_system(
+        [&](const auto& system) {
+          for (const auto& method : sites == 40 || sites == 1025 ? words_in_turn() : words) {
+            BOOST_TEST(moves_as_in_a_loop(system, method, steps, every, threads),
+                       describe(system) << ", " << method.name() << ", every " << every << ", " << threads);
+          }
+        },
+        sites);
+  };
   // Around the sizes of tiles, which are 1024 or 2048 sites here, and of one tile alone; the last is large
   // enough for three threads, and is watched.
-  for (const Eigen::Index sites : {16, 40, 1023, 1024, 1025, 2049, 13000}) {
-    const auto check = [&](const auto& system) {
-      for (const auto& method : sites == 40 || sites == 1025 ? words_in_turn() : words) {
-        for (const int threads : {1, 3}) {
-          if (threads == 3 && sites < 13000) continue;
-          const bool same = moves_as_in_a_loop(system, method, 37, sites < 13000 ? 37 : 8, threads);
-          BOOST_TEST(same, describe(system) << ", " << method.name() << ", " << threads << " threads");
-        }
-      }
-    };
-    for_each_local_system(check, sites);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(watched_runs_show_the_states_of_a_loop) {
-  for (const std::int64_t every : {1, 3, 64, 100}) {
-    const auto check = [&](const auto& system) {
-      for (const auto& method : words) {
-        const bool same = moves_as_in_a_loop(system, method, 130, every, 2);
-        BOOST_TEST(same, describe(system) << ", " << method.name() << ", every " << every);
-      }
-    };
-    for_each_local_system(check, 300);
-  }
+  for (const Eigen::Index sites : {16, 40, 1023, 1024, 1025, 2049}) check(sites, 37, 37, 1);
+  for (const int threads : {1, 3}) check(13000, 37, 8, threads);
+  for (const std::int64_t every : {1, 3, 64, 100}) check(300, 130, every, 2);
 }
 
 BOOST_AUTO_TEST_CASE(any_number_of_ranks_has_the_bits_of_a_loop) {
@@ -200,29 +189,6 @@ BOOST_AUTO_TEST_CASE(threads_take_systems_that_are_worth_them) {
   BOOST_TEST(threads_in_tiles(lattice(32), 2) == 0);
   BOOST_TEST(threads_in_tiles(lattice(100), 1) == 0);
   BOOST_TEST(threads_in_tiles(lattice(100), 2) == 2);
-}
-
-BOOST_AUTO_TEST_CASE(portions_are_the_letters_of_the_steps) {
-  detail::step_program<double> program;
-  program.pairs = {{1.0, 2.0}, {3.0, 4.0}};
-  program.begins_with_kick = true;
-  program.keeps_last_force = false;
-  for (const int kicks : {1, 2, 3, 5, 100}) {
-    detail::letters_in_portions letters(program, 7);
-    std::vector<double> coefficients;
-    for (auto portion = letters.next(kicks); !portion.empty(); portion = letters.next(kicks)) {
-      int taken = 0;
-      for (const auto& letter : portion) {
-        BOOST_TEST(letter.is_kick == (coefficients.size() % 2 == 0));
-        taken += letter.is_kick;
-        coefficients.push_back(letter.coefficient);
-      }
-      BOOST_TEST(taken <= kicks);
-    }
-    BOOST_TEST(coefficients.size() == 28U);
-    for (std::size_t k = 0; k < coefficients.size(); ++k)
-      BOOST_TEST(coefficients[k] == static_cast<double>(k % 4 + 1));
-  }
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_shared_is_refused) {
