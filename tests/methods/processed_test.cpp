@@ -3,7 +3,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -50,7 +49,7 @@ std::vector<tabulated> processed_methods(draws& random) {
 }
 
 /// f(system, method, step, x) for processed methods on all systems whose derivatives are exact.
-void try_processed(const std::function<void(const model&, const tabulated&, double, const any_state&)>& f) {
+void try_processed(const trial& f) {
   draws random;
   try_all(specimens_with(has_exact_derivatives), processed_methods(random), f);
 }

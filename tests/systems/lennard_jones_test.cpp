@@ -6,7 +6,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -152,22 +151,15 @@ struct all_pairs {
         force_error(force),
         derivative_error(force) {
     const double side = system.side();
-    const double* const from = q.data();
     const smooth_pair pair(system.options());
     long double energies = 0.0;
     long double virials = 0.0;
     for (Eigen::Index i = 0; i < q.size(); i += 3) {
       for (Eigen::Index j = i + 3; j < q.size(); j += 3) {
-        std::array<double, 3> way{};
-        double x = 0.0;
-        for (Eigen::Index axis = 0; axis < 3; ++axis) {
-          double along = from[i + axis] - from[j + axis];
-          along -= side * std::nearbyint(along / side);
-          way[static_cast<std::size_t>(axis)] = along;
-          x += along * along;
-        }
+        Eigen::Vector3d d = q.segment<3>(i) - q.segment<3>(j);
+        for (double& along : d) along -= side * std::nearbyint(along / side);
+        const double x = d.squaredNorm();
         if (x >= pair.centre()) continue;
-        const Eigen::Vector3d d(way[0], way[1], way[2]);
         const double push = -2.0 * pair.derivative(x, 1);
         const double slope = -4.0 * pair.derivative(x, 2);
         const double steeper = 8.0 * std::abs(pair.derivative(x, 3));
