@@ -192,7 +192,7 @@ tabulated row(std::string_view name) {
 }
 
 /// The order of those that are fitted to a frequency is that of steps for each of which they are fitted: see
-/// phase_fitted_test.cpp.
+/// adaptive_test.cpp.
 bool changes_with_step(const tabulated& method) { return method.name().starts_with("phase_fitted_"); }
 
 }  // namespace
