@@ -2,13 +2,11 @@
 // Preloaded into a program, has one call of the system fail, and sees whether files are on the disk before
 // they get their names:
 //   NYSALT_FAULT=OPERATION:NUMBER:HOW   OPERATION write, pwrite, fflush, fsync, rename or ftruncate; its call
-//   NUMBER,
-//                                       from 1, on ordinary files; HOW nospace, nospace_for_good, io, skip
-//                                       (nothing is done, and success is returned), kill, or signal_N (that
-//                                       comes before the call)
+//       NUMBER, from 1, on ordinary files; HOW nospace, nospace_for_good, io, skip (nothing is done, and
+//       success is returned), kill, or signal_N (that comes before the call)
 //   NYSALT_FAULT_COUNTS=FILE            at the end the calls of each are written there, and for each file
-//   that was
-//                                       renamed without fsync after the last write a line "unsynced NAME"
+//   that
+//       was renamed without fsync after the last write a line "unsynced NAME"
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -107,62 +105,57 @@ F* real(F*, const char* name) {
 
 #define REAL(name) real(static_cast<decltype(&name)>(nullptr), #name)
 
+namespace {
+/// What a call returns: what `call` does, -1 for a failure, or `skipped` where nothing is done.
+template <class Call, class Result>
+Result tried(operation which, Result skipped, const Call& call) {
+  const auto how = outcome_of(which);
+  return how == outcome::real ? call() : how == outcome::skipped ? skipped : Result(-1);
+}
+/// The same of what is written to a file, if that is an ordinary one.
+template <class Call, class Result>
+Result written_to(int file, operation which, Result skipped, const Call& call) {
+  if (!is_ordinary(file)) return call();
+  note(file, false);
+  return tried(which, skipped, call);
+}
+}  // namespace
+
 #pragma GCC visibility push(default)
 extern "C" {
 
 ssize_t write(int file, const void* from, std::size_t length) {
-  if (is_ordinary(file)) {
-    note(file, false);
-    if (const auto how = outcome_of(of_write); how != outcome::real)
-      return how == outcome::skipped ? static_cast<ssize_t>(length) : -1;
-  }
-  return REAL(write)(file, from, length);
+  return written_to(file, of_write, static_cast<ssize_t>(length),
+                    [&] { return REAL(write)(file, from, length); });
 }
 ssize_t pwrite(int file, const void* from, std::size_t length, off_t at) {
-  if (is_ordinary(file)) {
-    note(file, false);
-    if (const auto how = outcome_of(of_pwrite); how != outcome::real)
-      return how == outcome::skipped ? static_cast<ssize_t>(length) : -1;
-  }
-  return REAL(pwrite)(file, from, length, at);
+  return written_to(file, of_pwrite, static_cast<ssize_t>(length),
+                    [&] { return REAL(pwrite)(file, from, length, at); });
 }
 ssize_t pwrite64(int file, const void* from, std::size_t length, off64_t at) {
-  if (is_ordinary(file)) {
-    note(file, false);
-    if (const auto how = outcome_of(of_pwrite); how != outcome::real)
-      return how == outcome::skipped ? static_cast<ssize_t>(length) : -1;
-  }
-  return REAL(pwrite64)(file, from, length, at);
+  return written_to(file, of_pwrite, static_cast<ssize_t>(length),
+                    [&] { return REAL(pwrite64)(file, from, length, at); });
 }
 int fflush(std::FILE* stream) {
-  if (stream != nullptr && is_ordinary(fileno(stream))) {
-    note(fileno(stream), false);
-    if (const auto how = outcome_of(of_fflush); how != outcome::real)
-      return how == outcome::skipped ? 0 : EOF;
-  }
-  return REAL(fflush)(stream);
+  const auto call = [&] { return REAL(fflush)(stream); };
+  return stream == nullptr ? call() : written_to(fileno(stream), of_fflush, 0, call);
 }
 int fsync(int file) {
-  if (is_ordinary(file)) {
-    if (const auto how = outcome_of(of_fsync); how != outcome::real) return how == outcome::skipped ? 0 : -1;
-    note(file, true);
-  }
-  return REAL(fsync)(file);
+  const auto call = [&] {
+    if (is_ordinary(file)) note(file, true);
+    return REAL(fsync)(file);
+  };
+  return is_ordinary(file) ? tried(of_fsync, 0, call) : call();
 }
 int rename(const char* from, const char* to) {
   note_rename(from);
-  if (const auto how = outcome_of(of_rename); how != outcome::real) return how == outcome::skipped ? 0 : -1;
-  return REAL(rename)(from, to);
+  return tried(of_rename, 0, [&] { return REAL(rename)(from, to); });
 }
 int ftruncate(int file, off_t length) {
-  if (const auto how = outcome_of(of_ftruncate); how != outcome::real)
-    return how == outcome::skipped ? 0 : -1;
-  return REAL(ftruncate)(file, length);
+  return tried(of_ftruncate, 0, [&] { return REAL(ftruncate)(file, length); });
 }
 int ftruncate64(int file, off64_t length) {
-  if (const auto how = outcome_of(of_ftruncate); how != outcome::real)
-    return how == outcome::skipped ? 0 : -1;
-  return REAL(ftruncate64)(file, length);
+  return tried(of_ftruncate, 0, [&] { return REAL(ftruncate64)(file, length); });
 }
 
 }  // extern "C"

@@ -152,31 +152,48 @@ BOOST_AUTO_TEST_CASE(systems_start_where_the_library_says) {
   must_step("henon_heiles --spread 2", henon_heiles(), normal_around<2>({at_rest, at_rest}, .2, .2));
 }
 
+/// The rows of three trajectories of a run are what the library's steps show: `sample` says it of a state.
+template <class Sample>
+void must_be_samples(const json& all, const auto& stepper, const auto& starts, int steps, int every,
+                     const Sample& sample) {
+  std::size_t at = 0;
+  for (std::uint64_t m = 0; m < 3; ++m) {
+    const auto watch = [&](std::int64_t n, double t, const state& x) {
+      json expected{m, n, t};
+      for (const double value : sample(x)) expected.push_back(value);
+      BOOST_REQUIRE(at < all["rows"].size());
+      BOOST_TEST(all["rows"][at++] == expected);
+    };
+    integrate(stepper, starts(seed_for(role::test, seed), m), steps, watch, every, m);
+  }
+  BOOST_TEST(at == all["rows"].size());
+}
+
 BOOST_AUTO_TEST_CASE(run_gives_the_samples_of_the_library) {
   const auto all = document(
       "run --seed 5 --method srkn6b --step 0.03 --horizon 6 --sample-every 7 --trajectories 3 "
       "--observables stiff_energy,energy,kinetic_energy,potential_energy,q1,p6,stiff_energy_2");
-  std::size_t at = 0;
-  const auto compare = [&](int m) {
-    return [&, m](std::int64_t n, double t, const state& x) {
-      const std::vector<double> values{chain.stiff_energy(x),
-                                       energy<double>(chain, x),
-                                       kinetic_energy<double>(chain, x.p),
-                                       chain.potential(x.q),
-                                       x.q[0],
-                                       x.p[5],
-                                       chain.stiff_energy(x, 1)};
-      json expected{m, n, t};
-      for (const double value : values) expected.push_back(value);
-      BOOST_REQUIRE(at < all["rows"].size());
-      BOOST_TEST(all["rows"][at++] == expected);
-    };
-  };
-  for (int m = 0; m < 3; ++m) {
-    const auto start = law(seed_for(role::test, seed), static_cast<std::uint64_t>(m));
-    integrate(chain, srkn6b(), .03, start, 200, compare(m), 7);
-  }
-  BOOST_TEST(at == all["rows"].size());
+  must_be_samples(all, make_stepper(chain, srkn6b(), .03), law, 200, 7, [](const state& x) {
+    return std::vector<double>{chain.stiff_energy(x),
+                               energy<double>(chain, x),
+                               kinetic_energy<double>(chain, x.p),
+                               chain.potential(x.q),
+                               x.q[0],
+                               x.p[5],
+                               chain.stiff_energy(x, 1)};
+  });
+}
+
+BOOST_AUTO_TEST_CASE(run_gives_the_samples_of_the_library_in_a_bath) {
+  const in_bath system(chain, bath::of_sigma(0.01, 0.05));
+  const auto all = document(
+      "run --seed 5 --method srkn6b@symmetric --step 0.03 --horizon 0.6 --sample-every 4 --trajectories 3 "
+      "--observables stiff_energy,kinetic_temperature,q1,p6 --start gibbs --friction 0.01 --sigma 0.05");
+  const auto stepper = make_stepper(system, thermostat<placement::symmetric>(srkn6b()), .03,
+                                    counter_noise(seed_for(role::test, seed)));
+  must_be_samples(all, stepper, gibbs<6>(system, law), 20, 4, [](const state& x) {
+    return std::vector<double>{chain.stiff_energy(x), kinetic_temperature<double>(chain, x), x.q[0], x.p[5]};
+  });
 }
 
 BOOST_AUTO_TEST_CASE(run_tells_where_the_library_sees_divergence) {
@@ -231,30 +248,6 @@ BOOST_AUTO_TEST_CASE(acceptances_are_those_of_the_library) {
     is_of(all["rows"][0], verlet());
     is_of(all["rows"][1], member<fg_chin>({theta["b"], theta["c"]}));
   }
-}
-
-BOOST_AUTO_TEST_CASE(run_gives_the_samples_of_the_library_in_a_bath) {
-  const in_bath system(chain, bath::of_sigma(0.01, 0.05));
-  const std::uint64_t of_test = seed_for(role::test, seed);
-  const gibbs<6> starts(system, law);
-  const auto all = document(
-      "run --seed 5 --method srkn6b@symmetric --step 0.03 --horizon 0.6 --sample-every 4 "
-      "--trajectories 3 --observables stiff_energy,kinetic_temperature,q1,p6 "
-      "--start gibbs --friction 0.01 --sigma 0.05");
-  const auto stepper =
-      make_stepper(system, thermostat<placement::symmetric>(srkn6b()), .03, counter_noise(of_test));
-  std::size_t at = 0;
-  for (int m = 0; m < 3; ++m) {
-    const auto watch = [&](std::int64_t n, double t, const state& x) {
-      const json expected{m,      n,     t, chain.stiff_energy(x), kinetic_temperature<double>(chain, x),
-                          x.q[0], x.p[5]};
-      BOOST_REQUIRE(at < all["rows"].size());
-      BOOST_TEST(all["rows"][at++] == expected);
-    };
-    const auto number = static_cast<std::uint64_t>(m);
-    integrate(stepper, starts(of_test, number), 20, watch, 4, number);
-  }
-  BOOST_TEST(at == all["rows"].size());
 }
 
 BOOST_AUTO_TEST_CASE(learn_gives_the_fit_of_the_library) {

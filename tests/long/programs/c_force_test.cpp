@@ -3,8 +3,6 @@
 // In tier 1: tests/smoke/own_systems_test.cpp.
 #include <boost/test/unit_test.hpp>
 
-#include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -49,25 +47,6 @@ std::string replaced(std::string text, const std::string& old, const std::string
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_CASE(a_force_in_c_steps_as_the_bundled_system) {
-  const scratch folder("c_force");
-  BOOST_REQUIRE_EQUAL(built(folder, "mine", henon_heiles), "");
-  // The same starts by a file of positions, and momenta of temperature 0.
-  std::ofstream(folder / "at.csv") << "q1,q2\n0.1,0.2\n-0.3,0.1\n0.2,-0.25\n";
-  std::string ends[2];
-  const std::string systems[] = {"./mine.so", "henon_heiles"};
-  for (int i = 0; i < 2; ++i) {
-    const auto done =
-        run(folder, "run --system " + systems[i] +
-                        " --start at.csv --temperature 0.001 --method srkn6b --step 0.1 --horizon 20 "
-                        "--trajectories 3 --sample-every 50 --observables q1,q2,p1,p2 --output o.csv");
-    BOOST_TEST(done.code == 0, done.err);
-    ends[i] = shell(folder, "cat o.csv").out;
-  }
-  BOOST_TEST(ends[0] == ends[1]);
-  BOOST_TEST(ends[0].size() > 500);
-}
 
 BOOST_AUTO_TEST_CASE(it_is_learned_for_and_its_schemes_are_of_its_file) {
   const scratch folder("c_force_learn");
@@ -126,12 +105,8 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told) {
   const scratch folder("c_force_wrong");
   const auto must_be_told = [&](const std::string& text, const std::string& words) {
     BOOST_REQUIRE_EQUAL(built(folder, "bad", text), "");
-    const auto done =
-        run(folder, "run --system ./bad.so --method verlet --step 0.1 --horizon 1 --output o.csv");
-    BOOST_TEST(done.code == 2, words);
-    BOOST_TEST(done.err.find(words) != std::string::npos, done.err);
-    BOOST_TEST(done.err.find("bad") != std::string::npos, done.err);
-    BOOST_TEST(std::ranges::count(done.err, '\n') == 1, done.err);
+    all_refused(folder, {{"run --system ./bad.so --method verlet --step 0.1 --horizon 1 --output o.csv",
+                          {words, "bad"}}});
   };
   const std::string whole = henon_heiles;
   must_be_told(replaced(whole, "nysalt_potential", "my_potential"), "must define nysalt_potential");
@@ -168,4 +143,28 @@ BOOST_AUTO_TEST_CASE(an_end_by_the_library_leaves_no_unfinished_file) {
     BOOST_TEST(!folder.files().contains("o.csv.new.part"), end);
     BOOST_TEST(!folder.files().contains("o.csv"), end);
   }
+}
+
+// Schemes at another size, of a library that says what both are.
+BOOST_AUTO_TEST_CASE(a_library_may_tell_its_kind) {
+  const scratch folder("c_force_kind");
+  const std::string at =
+      " --step 0.3 --loss state:1 --family nystrom --trajectories 8 --horizon 6 --effort quick";
+  const std::string wells = replaced(
+      replaced(henon_heiles, "f[0] = -q[0] - 2.0 * q[0] * q[1];\n  f[1] = -q[1] - q[0] * q[0] + q[1] * q[1];",
+               "for (int64_t i = 0; i < n; ++i) f[i] = -q[i] - q[i] * q[i] * q[i];"),
+      "return 0.5 * (q[0] * q[0] + q[1] * q[1]) + q[0] * q[0] * q[1] - q[1] * q[1] * q[1] / 3.0;",
+      "double v = 0.0;\n  for (int64_t i = 0; i < n; ++i) v += q[i] * q[i] * (0.5 + 0.25 * q[i] * q[i]);\n  "
+      "return v;");
+  const std::string kind = "const char* nysalt_kind(void) { return \"duffing()\"; }\n";
+  for (const std::string size : {"1", "5"}) {
+    const std::string text = replaced(wells, "return 2;", "return " + size + ";");
+    BOOST_REQUIRE_EQUAL(built(folder, "silent" + size, text) + built(folder, "told" + size, text + kind), "");
+  }
+  for (const std::string name : {"told", "silent"})
+    BOOST_REQUIRE(run(folder, "learn --system ./" + name + "1.so --output " + name + ".json" + at).code == 0);
+  const auto many = document("run --method told.json --step 0.3 --horizon 3 --system ./told5.so", folder);
+  BOOST_TEST(many["warnings"].dump().find("passed the trial run") != std::string::npos);
+  all_refused(folder, {{"run --method silent.json --step 0.3 --horizon 3 --system ./silent5.so",
+                        {"must run on silent1, for which it was learned, got silent5"}}});
 }

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
-// Systems of users: sources that are compiled and loaded, and what a user may get wrong. In tier 1:
-// tests/smoke/own_systems_test.cpp.
+// Systems of users: sources that are compiled and loaded, at another size too, and what a user may get wrong;
+// more in cases/own_systems.txt. In tier 1: tests/smoke/own_systems_test.cpp.
 #include <fmt/format.h>
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "../../support/program.hpp"
 #include "../../support/sanitizers.hpp"
@@ -49,85 +47,48 @@ std::string oscillator_source(const std::string& members, const std::string& pie
          pieces +
          ",\n  starts([](const tried&) { return normal_around<1>({one(1.0), one(0.0)}, 0.1, 0.1); }));\n";
 }
+/// Quartic wells whose stiffness grows with their number to a power, from their bottoms.
+constexpr const char* wells_source = R"(#include <nysalt/plugin.hpp>
+#include <cmath>
+struct wells {
+  static constexpr int dimension = Eigen::Dynamic;
+  int number = 1;
+  double power = 0.0;
+  Eigen::Index size() const { return number; }
+  template <class T> T potential(const nysalt::vector<T, dimension>& q) const {
+    const double k = std::pow(number, power);
+    T sum(0.0);
+    for (Eigen::Index i = 0; i < q.size(); ++i) sum += q[i] * q[i] * q[i] * q[i] * (0.25 * k);
+    return sum;
+  }
+};
+NYSALT_SYSTEM(wells, "quartic wells", parameter("number", &wells::number, "of wells").at_least(1).size(),
+              parameter("power", &wells::power, "by which wells stiffen with their number"),
+              starts([](const wells& s) {
+                const Eigen::VectorXd rest = Eigen::VectorXd::Zero(s.number);
+                return normal_around<Eigen::Dynamic>({rest, rest}, 0.0, 1.0);
+              }),
+              frequency([](const wells&) { return 3.0; }));
+)";
+
 std::string potential_that(const std::string& does) {
   return "template <class T> T potential(const nysalt::vector<T, 1>& q) const { " + does +
          " return 0.5 * k * q[0] * q[0]; }";
 }
 
-/// Without what is measured in seconds, and what depends on them.
-std::string comparable(const std::string& text) { return without_times(text); }
+/// Where the last segment of a library ends: what follows, as names for debuggers, is not loaded.
+std::uintmax_t end_of_segments(const scratch& folder, const std::string& library) {
+  const auto listed =
+      shell(folder, "readelf -lW " + library + " | awk '$2 ~ /^0x/ && $5 ~ /^0x/ { print $2, $5 }'");
+  std::istringstream places(listed.out);
+  std::uintmax_t end = 0;
+  std::uintmax_t offset = 0;
+  std::uintmax_t size = 0;
+  while (places >> std::hex >> offset >> size) end = std::max(end, offset + size);
+  return end;
+}
 
 }  // namespace
-
-BOOST_AUTO_TEST_CASE(a_new_system_builds_and_runs) {
-  const scratch folder("plugin_new");
-  BOOST_TEST(run(folder, "new morse_chain").code == 0);
-  BOOST_TEST(run(folder, "new morse_chain").code == 2);  // it is there
-  // Words and macros of C++, functions of C, names that the source has.
-  for (const std::string name :
-       {"class", "errno", "assert", "j1", "lgamma", "select", "random", "main", "model"})
-    BOOST_TEST(run(folder, "new " + name).code == 2, name);
-  const auto built = run(folder, "build morse_chain.hpp");
-  BOOST_TEST(built.code == 0, built.err);
-  BOOST_TEST(built.out.find("--masses 4 --depth 1 --width 1 --spread 1") != std::string::npos, built.out);
-  const auto learned =
-      document("learn --system ./morse_chain.so --step 0.4 --trajectories 16 --depth 1.5", folder);
-  BOOST_TEST(learned["system"] == "morse_chain(masses=4, depth=1.5, width=1)");
-  BOOST_TEST(learned["usable"] == true);
-  const auto seen = run(folder,
-                        "run --system ./morse_chain.so --method verlet --step 0.1 --horizon 0.2 "
-                        "--observables first_bond,energy");
-  BOOST_TEST(seen.out.starts_with("trajectory,step,t,first_bond,energy\n"), seen.out);
-  for (const char* command : {"run --help", "learn --help", "stability --help"}) {
-    BOOST_TEST(run(folder, fmt::format("{} --system ./morse_chain.so", command)).out.find("--depth") !=
-               std::string::npos);
-    BOOST_TEST(run(folder, command).out.find("--depth") == std::string::npos);
-  }
-  const auto listed = document("list --system ./morse_chain.so", folder)["systems"].back();
-  BOOST_TEST(listed["name"] == "morse_chain");
-  BOOST_TEST(listed["observables"].back() == "first_bond");
-  // By its source, from a file of options, and in a bath.
-  write(folder, "options.toml",
-        "system = \"morse_chain.hpp\"\nmasses = 3\nmethod = \"baoab\"\nfriction = 1\n"
-        "temperature = 0.1\nstep = 0.1\nhorizon = 0.2\nstart = \"law\"\n");
-  const auto warm = run(folder, "run --config options.toml --observables q3");
-  BOOST_TEST(warm.code == 0, warm.err);
-  // What it has not.
-  for (const auto& [options, said] : std::vector<std::pair<std::string, std::string>>{
-           {"--depth 0", "--depth must be positive, got 0"},
-           {"--masses 2.5", "must be a whole number, got '2.5'"},
-           {"--masses 1001", "at most 1000, got 1001"},
-           {"--omega 3",
-            "unknown parameter '--omega' of the system ./morse_chain.so: it takes --masses, --depth, "
-            "--width, "
-            "--spread"},
-           {"--bond 3", "unknown option '--bond'"},
-           {"--observables last_bond", "did you mean first_bond?"}}) {
-    const auto refused =
-        run(folder, "run --system ./morse_chain.so --method verlet --step 0.1 --horizon 1 " + options);
-    BOOST_TEST(refused.code == 2);
-    BOOST_TEST(refused.err.find(said) != std::string::npos, options << ": " << refused.err);
-    BOOST_TEST(std::ranges::count(refused.err, '\n') == 1);
-  }
-}
-
-// The one that the how-to shows.
-BOOST_AUTO_TEST_CASE(the_documented_system_runs) {
-  const scratch folder("plugin_toda");
-  const std::string system = " --system " NYSALT_SOURCE_DIR "/examples/plugins/toda.hpp";
-  const auto built = run(folder, "build " NYSALT_SOURCE_DIR "/examples/plugins/toda.hpp");
-  BOOST_TEST(built.code == 0, built.err);
-  BOOST_TEST(folder.files() == std::set<std::string>{"toda.so"});
-  const auto compared = document(
-      "compare --steps 0.1 --methods verlet,srkn6b --metric state --trajectories 16 "
-      "--particles 8" +
-          system,
-      folder);
-  BOOST_TEST(compared["system"] == "toda(particles=8)");
-  const double verlet = compared["rows"][0]["error"];
-  const double fine = compared["rows"][1]["error"];
-  BOOST_TEST(fine < 0.1 * verlet);  // of order 4 and five evaluations more
-}
 
 // The bundled chain and the same one as a plug-in, by every command.
 BOOST_AUTO_TEST_CASE(a_plugin_has_the_numbers_of_the_bundled_system) {
@@ -143,7 +104,7 @@ BOOST_AUTO_TEST_CASE(a_plugin_has_the_numbers_of_the_bundled_system) {
         "stability --method bcss3 --step 0.04"}) {
     const auto bundled = document(command + " --system fpu", folder);
     const auto own = document(command + " --system ./own.hpp", folder);
-    BOOST_TEST(comparable(own.dump(1)) == comparable(bundled.dump(1)), command);
+    BOOST_TEST(without_times(own.dump(1)) == without_times(bundled.dump(1)), command);
   }
   const std::string sampled =
       "run --method srkn6b --step 0.02 --horizon 20 --trajectories 33 "
@@ -160,36 +121,46 @@ BOOST_AUTO_TEST_CASE(another_source_is_another_system) {
   write(folder, "tried.hpp",
         oscillator_source("#include \"factor.hpp\"\n" + potential_that("return FACTOR * k * q[0] * q[0];")));
   write(folder, "factor.hpp", "#define FACTOR 0.5\n");
-  const std::string learn =
-      "learn --system ./tried.hpp --step 0.5 --family nystrom --trajectories 4 --force ";
-  run(folder, learn + "--output scheme.json");
-  const std::string use = "run --system ./tried.hpp --step 0.5 --horizon 2 --method scheme.json --k 1";
-  const auto same = run(folder, use);
-  BOOST_TEST(same.err.find("must run on the source and the parameters") == std::string::npos, same.err);
-  const auto other_k =
-      run(folder, "run --system ./tried.hpp --step 0.5 --horizon 2 --method scheme.json --k 2");
-  BOOST_TEST(other_k.code == 2);
+  run(folder,
+      "learn --system ./tried.hpp --step 0.5 --family nystrom --trajectories 4 --force --output scheme.json");
+  const std::string use = "run --system ./tried.hpp --step 0.5 --horizon 2 --method scheme.json --k ";
+  const char* said = "must run on the source and the parameters";
+  const auto same = run(folder, use + "1");
+  BOOST_TEST(same.err.find(said) == std::string::npos, same.err);
+  all_refused(folder, {{use + "2", {}}});
   write(folder, "factor.hpp", "#define FACTOR 5.0\n");
-  const auto other = run(folder, use);
-  BOOST_TEST(other.code == 2);
-  BOOST_TEST(other.err.find("must run on the source and the parameters") != std::string::npos, other.err);
+  all_refused(folder, {{use + "1", {said}}});
 }
 
-namespace {
-
-/// Where the last segment of a library ends: what follows, as names for debuggers, is not loaded.
-std::uintmax_t end_of_segments(const scratch& folder, const std::string& library) {
-  const auto listed =
-      shell(folder, "readelf -lW " + library + " | awk '$2 ~ /^0x/ && $5 ~ /^0x/ { print $2, $5 }'");
-  std::istringstream places(listed.out);
-  std::uintmax_t end = 0;
-  std::uintmax_t offset = 0;
-  std::uintmax_t size = 0;
-  while (places >> std::hex >> offset >> size) end = std::max(end, offset + size);
-  return end;
+BOOST_AUTO_TEST_CASE(a_plugin_marks_its_size_and_the_trial_refuses_what_diverges) {
+  const scratch folder("other_size_plugin");
+  std::ofstream(folder / "wells.hpp") << wells_source;
+  BOOST_REQUIRE(run(folder, "build wells.hpp").code == 0);
+  const std::string system = "--system ./wells.so ";
+  const std::string learn =
+      "learn --family nystrom --step 0.3 --trajectories 8 --horizon 6 --loss state:1 --effort quick " +
+      system;
+  BOOST_REQUIRE(run(folder, learn + "--output alike.json").code == 0);
+  BOOST_REQUIRE(run(folder, learn + "--power 4 --output stiffening.json").code == 0);
+  const std::string horizon = "--step 0.3 --horizon 3 " + system;
+  const auto many = document("run --method alike.json --number 12 " + horizon, folder);
+  BOOST_TEST(many["warnings"].dump().find("wells(number=12, power=0)") != std::string::npos);
+  // k = 12^4, where wells of the energy 1/2 have frequencies up to sqrt(3 sqrt(2 k)) = 25, and z = 7.4; at
+  // their bottoms, where the guard looks, there is none.
+  all_refused(
+      folder,
+      {{"run --method stiffening.json --number 12 --power 4 " + horizon,
+        {"stiffening.json must pass the trial for wells(number=12, power=4), as it was learned at another "
+         "size, for wells(number=1, power=4): in a trial run of",
+         "diverge", "--force"}},
+       {"run --method alike.json --number 12 --power 1 " + horizon,
+        {"must run on wells(number=1, power=0), for which it was learned, got wells(number=12, power=1)"}}});
+  // The kind of another source is another.
+  std::string text(wells_source);
+  std::ofstream(folder / "wells.hpp") << text.replace(text.find("0.25 * k"), 8, "0.26 * k");
+  BOOST_REQUIRE(run(folder, "build wells.hpp").code == 0);
+  all_refused(folder, {{"run --method alike.json --number 12 " + horizon, {"for which it was learned"}}});
 }
-
-}  // namespace
 
 // As a full disk leaves a library behind: the source is compiled again. A damaged file that was named itself
 // is not. Of a library that is cut off the loader maps also what is missing, and the first use of that is a
@@ -322,18 +293,4 @@ BOOST_AUTO_TEST_CASE(mistakes_of_a_source_are_told_in_a_sentence) {
   const auto no_library = run(folder, "run --system ./text.so --method verlet --step 0.1 --horizon 1");
   BOOST_TEST(no_library.code == 2);
   BOOST_TEST(no_library.err.find("cannot load ./text.so as a library") != std::string::npos, no_library.err);
-}
-
-// What else a formula may have: tests/smoke/own_systems_test.cpp.
-BOOST_AUTO_TEST_CASE(sums_go_over_lists_of_coordinates) {
-  const unoptimised_plugins plugins;
-  const auto done = run(
-      "run --potential 'sum(i, 1, 9, k*(q[i+1] - q[i])^2) + sum(i, 1, 3, sum(j, i, 3, i*q[j]))' --variables "
-      "'q[10]' "
-      "--parameter k=0.5 --around 'q[2]=1,q[3]=3' --parameter deviation_q=0,deviation_p=0 --method verlet "
-      "--step 1e-3 --horizon 1e-3 --observables potential_energy");
-  BOOST_TEST_REQUIRE(done.code == 0, done.err);
-  const double value = std::strtod(done.out.c_str() + done.out.find("\n0,0,0,") + 7, nullptr);
-  const double expected = 0.5 * (1.0 + 4.0 + 9.0) + (1.0 * (1.0 + 3.0) + 2.0 * (1.0 + 3.0) + 3.0 * 3.0);
-  BOOST_TEST(std::abs(value - expected) <= 1e-14 * expected);  // printed with all its digits
 }

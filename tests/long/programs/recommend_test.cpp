@@ -35,14 +35,8 @@ BOOST_AUTO_TEST_CASE(seconds_decide_too) {
   // Which other wins depends on the machine too; of a tie the classical one is taken.
   const std::string winner = by_seconds[by_seconds["winner"].is_null() ? "best_classical" : "winner"];
   BOOST_TEST(winner != "learned:r_fg4");
-  const auto row = [&](const json& rows, const std::string& name) {
-    for (const auto& one : rows) {
-      if (one["method"] == name) return one;
-    }
-    return json();
-  };
-  const json first = row(all["rows"], "learned:r_fg4");
-  const json fast = row(by_seconds["rows"], winner);
+  const json first = *row_of(all, "learned:r_fg4");
+  const json fast = *row_of(by_seconds, winner);
   BOOST_TEST(fast["error"].get<double>() < 0.2 * first["error"].get<double>());
   // Equal seconds; timings of one method differ by a few percent, of two in a busy machine by more.
   const double ratio = fast["seconds_per_time"].get<double>() / first["seconds_per_time"].get<double>();

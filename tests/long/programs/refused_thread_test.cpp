@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Threads that are refused in the midst of others. Tier 1 has limits of processes in
-// tests/programs/exit_codes_test.cpp.
+// tests/programs/few_threads_test.cpp.
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
