@@ -20,8 +20,12 @@
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/communicators/one_rank.hpp"
 #include "nysalt/detail/divergence.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_points.hpp"
+#include "nysalt/systems/fpu_chain.hpp"
+#include "nysalt/systems/in_bath.hpp"
 
 namespace nysalt::test {
 
@@ -33,11 +37,21 @@ struct division {
   const communicator* ranks = &one_rank;
 };
 
-/// The model of a system whose trajectories go in lanes, or one at a time.
+/// The model of a system whose trajectories go in lanes, or one at a time; and in a bath.
 template <System S>
 model divided(const S& system, const division& how) {
   return how.in_lanes ? model(system) : model(in_lanes<S, 1>(system));
 }
+template <System S>
+model divided(const S& system, const bath& heat, const division& how) {
+  return how.in_lanes ? model(in_bath(system, heat)) : model(in_bath(in_lanes<S, 1>(system), heat));
+}
+
+inline const fpu_chain<3> chain(50.0);
+inline const initial_states law = fpu_law<3>(chain);
+/// They fill no number of lanes; three leaves, of which three ranks have one.
+constexpr std::int64_t trajectories = 37;
+inline model in_noise(const division& how) { return divided(chain, bath::of_sigma(0.5, 0.3), how); }
 
 /// Numbers to the bit.
 class numbers {

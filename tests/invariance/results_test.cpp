@@ -15,7 +15,6 @@
 #include "nysalt/analysis/error_measures/path.hpp"
 #include "nysalt/analysis/error_measures/state.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/hmc.hpp"
@@ -29,24 +28,15 @@
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/references/fine_paths.hpp"
 #include "nysalt/references/fine_steps.hpp"
-#include "nysalt/systems/in_bath.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
 
 namespace {
 
-const fpu_chain<3> chain(50.0);
-const initial_states law = fpu_law<3>(chain);
 const initial_states around_0 =
     normal_around<6>({vector<double, 6>::Zero(), vector<double, 6>::Zero()}, 0.05, 1.0);
-constexpr std::int64_t trajectories = 37;  // fill no number of lanes; three leaves
-constexpr double unstable = 0.04;          // z = 2: in 20 steps some trajectories diverge
-
-model in_noise(const division& how) {
-  const auto heat = bath::of_sigma(0.5, 0.3);
-  return how.in_lanes ? model(in_bath(chain, heat)) : model(in_bath(in_lanes<fpu_chain<3>, 1>(chain), heat));
-}
+constexpr double unstable = 0.04;  // z = 2: in 20 steps some trajectories diverge
 
 void require_some_of_both(std::size_t diverged, std::size_t all) {
   if (diverged == 0 || diverged == all) throw std::logic_error("some must diverge, and not all");
@@ -245,28 +235,24 @@ BOOST_AUTO_TEST_CASE(no_result_depends_on_how_it_was_divided) {
   constexpr unsigned by_all_but_cuts = by_threads + by_lanes + by_ranks;
   require_invariance({
       {"statistics", by_all_but_cuts,
-       [](const division& how, std::uint64_t seed) { return statistics(how, seed, trajectories); }},
+       [](const auto& how, auto seed) { return statistics(how, seed, trajectories); }},
       {"statistics of groups", by_all_but_cuts,
-       [](const division& how, std::uint64_t seed) { return statistics(how, seed, 1100); }},
+       [](const auto& how, auto seed) { return statistics(how, seed, 1100); }},
       {"acceptance", by_all_but_cuts, accepted},
       {"errors", by_all_but_cuts,
-       [&](const division& how, std::uint64_t seed) {
+       [&](const auto& how, auto seed) {
          return errors(how, seed, divided(chain, how), steps, {tabulated(verlet()), tabulated(bcss2())});
        }},
       {"errors in a bath", by_all_but_cuts,
-       [&](const division& how, std::uint64_t seed) {
+       [&](const auto& how, auto seed) {
          return errors(how, seed, in_noise(how), paths, {tabulated(baoab()), tabulated(obabo())});
        }},
       {"acceptance of proposals", by_all_but_cuts, proposals},
       {"draws of chains", by_all_but_cuts + by_cuts, draws_of_chains},
       {"a fit", by_all_but_cuts,
-       [&](const division& how, std::uint64_t seed) {
-         return fitted(how, seed, divided(chain, how), steps, family);
-       }},
+       [&](const auto& how, auto seed) { return fitted(how, seed, divided(chain, how), steps, family); }},
       {"a fit in a bath", by_all_but_cuts,
-       [&](const division& how, std::uint64_t seed) {
-         return fitted(how, seed, in_noise(how), paths, with_o);
-       }},
+       [&](const auto& how, auto seed) { return fitted(how, seed, in_noise(how), paths, with_o); }},
       {"a fit by an own loss", by_all_but_cuts, learned_by_own_loss},
   });
   for (const bool noisy : {false, true}) {
@@ -280,10 +266,9 @@ BOOST_AUTO_TEST_CASE(no_result_depends_on_how_it_was_divided) {
       return result;
     };
     const std::array of_seed{uneven(1), uneven(2)};
-    require_invariance(
-        {{"sums over windows", by_threads + by_lanes, [&](const division& how, std::uint64_t seed) {
-            const model system = noisy ? in_noise(how) : divided(chain, how);
-            return sums_over_windows(how, system, of_seed[seed - 1], noisy ? with_o : family);
-          }}});
+    require_invariance({{"sums over windows", by_threads + by_lanes, [&](const auto& how, auto seed) {
+                           const model system = noisy ? in_noise(how) : divided(chain, how);
+                           return sums_over_windows(how, system, of_seed[seed - 1], noisy ? with_o : family);
+                         }}});
   }
 }

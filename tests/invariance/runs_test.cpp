@@ -14,7 +14,6 @@
 #include "law.hpp"
 #include "nysalt/distributed_run.hpp"
 #include "nysalt/ensemble_run.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/ensembles/lennard_jones_liquid_law.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
@@ -30,7 +29,6 @@
 #include "nysalt/references/fine_paths.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/lennard_jones_liquid.hpp"
 #include "nysalt/systems/phi4_chain.hpp"
 #include "nysalt/trial_run.hpp"
@@ -42,25 +40,15 @@ namespace {
 
 using state = phase_point<double, Eigen::Dynamic>;
 
-const fpu_chain<3> chain(50.0);
-const initial_states law = fpu_law<3>(chain);
 const normal_around<1> around_0({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 1.0, 1.0);
-constexpr std::int64_t trajectories =
-    37;  // fill no number of lanes; three leaves, of which three ranks have one
 constexpr std::int64_t steps = 200;
 constexpr std::int64_t every = 7;
 
-model in_noise(const division& how) {
-  const auto heat = bath::of_sigma(0.5, 0.3);
-  return how.in_lanes ? model(in_bath(chain, heat)) : model(in_bath(in_lanes<fpu_chain<3>, 1>(chain), heat));
-}
 /// Of these some leave the well, at steps of their own.
 const initial_states wide =
     normal_around<2>({vector<double, 2>::Zero(), vector<double, 2>::Zero()}, 0.45, 0.45);
 model galaxy_in_noise(const division& how) {
-  const auto heat = bath::of_sigma(0.05, 0.05);
-  return how.in_lanes ? model(in_bath(henon_heiles(), heat))
-                      : model(in_bath(in_lanes<henon_heiles, 1>{henon_heiles()}, heat));
+  return divided(henon_heiles(), bath::of_sigma(0.05, 0.05), how);
 }
 auto obabo_of(const model& system, double step, std::uint64_t seed) {
   return make_stepper(system, tabulated(obabo()), step, counter_noise(seed));
@@ -321,31 +309,21 @@ BOOST_AUTO_TEST_CASE(no_trajectory_depends_on_how_it_was_divided) {
       {"a run that ranks share", by_threads + by_ranks + by_cuts, run_that_ranks_share},
       {"an ensemble that is resumed", by_threads + by_lanes + by_cuts, resumed_ensemble},
       {"an ensemble", by_threads + by_lanes + by_ranks + by_cuts,
-       [](const division& how, std::uint64_t seed) {
-         return followed_ensemble(how, seed, galaxy_in_noise(how), wide);
-       }},
+       [](const auto& how, auto seed) { return followed_ensemble(how, seed, galaxy_in_noise(how), wide); }},
       {"an ensemble of a black box", by_threads + by_ranks + by_cuts,
-       [](const division& how, std::uint64_t seed) {
+       [](const auto& how, auto seed) {
          return followed_ensemble(how, seed, in_bath(black_box(), bath::of_sigma(0.5, 0.3)), around_0);
        }},
       {"pairs", by_threads + by_lanes + by_ranks + by_cuts,
-       [&](const division& how, std::uint64_t seed) {
-         return pairs(how, seed, quiet(how), fine_steps<>(1e-3), 0);
-       }},
+       [&](const auto& how, auto seed) { return pairs(how, seed, quiet(how), fine_steps<>(1e-3), 0); }},
       {"pairs in a bath", by_threads + by_lanes + by_ranks + by_cuts,
-       [](const division& how, std::uint64_t seed) {
-         return pairs(how, seed, in_noise(how), fine_paths(1e-3), 2);
-       }},
+       [](const auto& how, auto seed) { return pairs(how, seed, in_noise(how), fine_paths(1e-3), 2); }},
       {"checks of pairs", by_threads + by_lanes + by_ranks, checks_of_pairs},
       {"starts after a burn-in", by_threads + by_lanes, starts_after_a_burn_in},
       {"a trial run", by_threads + by_lanes,
-       [&](const division& how, std::uint64_t seed) {
-         return trial(how, seed, quiet(how), tabulated(verlet()));
-       }},
+       [&](const auto& how, auto seed) { return trial(how, seed, quiet(how), tabulated(verlet())); }},
       {"a trial run in a bath", by_threads + by_lanes,
-       [](const division& how, std::uint64_t seed) {
-         return trial(how, seed, in_noise(how), tabulated(obabo()));
-       }},
+       [](const auto& how, auto seed) { return trial(how, seed, in_noise(how), tabulated(obabo())); }},
       {"noise", by_lanes, noise_of_sources},
       {"a liquid", by_threads + by_cuts, run_of_a_liquid},
   });
@@ -369,22 +347,20 @@ BOOST_AUTO_TEST_CASE(a_computation_that_depends_on_its_division_is_found) {
     all.of_all << whole;
     return all;
   };
-  shows("threads", by_threads, [&](const division& how, std::uint64_t) { return sum_in_parts(how.threads); });
-  shows("lanes", by_lanes,
-        [&](const division& how, std::uint64_t) { return sum_in_parts(how.in_lanes ? 8 : 1); });
-  shows("ranks", by_ranks,
-        [&](const division& how, std::uint64_t) { return sum_in_parts(how.ranks->size()); });
-  shows("a rank's own", by_ranks, [](const division& how, std::uint64_t) {
+  shows("threads", by_threads, [&](const auto& how, auto) { return sum_in_parts(how.threads); });
+  shows("lanes", by_lanes, [&](const auto& how, auto) { return sum_in_parts(how.in_lanes ? 8 : 1); });
+  shows("ranks", by_ranks, [&](const auto& how, auto) { return sum_in_parts(how.ranks->size()); });
+  shows("a rank's own", by_ranks, [](const auto& how, auto) {
     result all;
     all.of_all << how.ranks->rank();
     return all;
   });
-  shows("two ranks with one trajectory", by_ranks, [](const division&, std::uint64_t) {
+  shows("two ranks with one trajectory", by_ranks, [](const auto&, auto) {
     result all;
     all.of_each[3] << 1.0;
     return all;
   });
-  shows("a cut", by_cuts, [](const division& how, std::uint64_t seed) {
+  shows("a cut", by_cuts, [](const auto& how, auto seed) {
     const model system = divided(chain, how);
     const auto fixed = make_stepper(system, tabulated(verlet()), 0.01);
     auto run = fixed.open(law(seed, 0));

@@ -45,6 +45,24 @@ Eigen::MatrixXd derivative_of(const auto& map, const Eigen::VectorXd& x) {
   return all;
 }
 
+Eigen::MatrixXd hessian_of(const model& system, const Eigen::VectorXd& q) {
+  return -derivative_of([&](const auto& x, auto& f) { system.kernels<slopes>().force(field::whole, x, f); },
+                        q);
+}
+
+/// Jacobian of a map of phase space over slopes, in the order (q, p).
+Eigen::MatrixXd jacobian_of(const auto& map, const any_state& x) {
+  const Eigen::Index n = x.size();
+  Eigen::VectorXd both(2 * n);
+  both << x.q, x.p;
+  return derivative_of(
+      [&](const columns& from, columns& to) {
+        phase_point<slopes, Eigen::Dynamic> y{from.head(n), from.tail(n)};
+        map(y);
+        to << y.q, y.p;
+      },
+      both);
+}
 
 /// f(stepper), of double or of slopes.
 template <Scalar C, class Noise>
@@ -96,11 +114,6 @@ Eigen::VectorXd force_at(const model& system, const Eigen::VectorXd& q) {
 
 }  // namespace
 
-Eigen::MatrixXd hessian_of(const model& system, const Eigen::VectorXd& q) {
-  return -derivative_of([&](const auto& x, auto& f) { system.kernels<slopes>().force(field::whole, x, f); },
-                        q);
-}
-
 shears shears_at(const model& system, const any_state& x) {
   const auto& over = system.kernels<slopes>();
   const Eigen::MatrixXd whole = hessian_of(system, x.q);
@@ -125,19 +138,6 @@ shears shears_at(const model& system, const any_state& x) {
   return result;
 }
 
-Eigen::MatrixXd jacobian_of(const std::function<void(lifted_state&)>& map, const any_state& x) {
-  const Eigen::Index n = x.size();
-  Eigen::VectorXd both(2 * n);
-  both << x.q, x.p;
-  return derivative_of(
-      [&](const columns& from, columns& to) {
-        lifted_state y{from.head(n), from.tail(n)};
-        map(y);
-        to << y.q, y.p;
-      },
-      both);
-}
-
 // Trials.
 
 bool has_exact_derivatives(const model& system) {
@@ -158,34 +158,26 @@ bool suits(const model& system, const tabulated& method, bool over_slopes) {
   return true;
 }
 
-void try_all(const std::vector<specimen>& on, const std::vector<tabulated>& methods,
-             const std::function<void(const model&, const tabulated&, double, const any_state&)>& f) {
-  draws random;
-  for (const auto& one : on) {
-    for (const auto& method : methods) {
-      if (!suits(one.system, method)) continue;
-      const auto x = one.at_random(random);
-      BOOST_TEST_CONTEXT(method.name() << " on " << describe(one.system)) {
-        f(one.system, method, 0.25 / shears_at(one.system, x).frequency(), x);
-      }
-    }
-  }
-}
-
-void try_all_methods(const std::vector<specimen>& on, int times,
-                     const std::function<void(const model&, const tabulated&, double, const any_state&)>& f) {
+static void try_each(const std::vector<specimen>& on, int times, const auto& methods, const trial& f) {
   draws random;
   for (const auto& one : on) {
     for (int n = 0; n < times; ++n) {
-      for (const auto& method : methods_as_data(random)) {
-        const auto x = one.at_random(random);
+      for (const auto& method : methods(random)) {
         if (!suits(one.system, method)) continue;
+        const auto x = one.at_random(random);
         BOOST_TEST_CONTEXT(method.name() << " on " << describe(one.system) << ", draw " << n) {
           f(one.system, method, 0.25 / shears_at(one.system, x).frequency(), x);
         }
       }
     }
   }
+}
+void try_all(const std::vector<specimen>& on, const std::vector<tabulated>& methods, const trial& f) {
+  try_each(
+      on, 1, [&](draws&) { return methods; }, f);
+}
+void try_all_methods(const std::vector<specimen>& on, int times, const trial& f) {
+  try_each(on, times, methods_as_data, f);
 }
 
 // Steps.
@@ -205,7 +197,7 @@ double symplecticity_broken(const model& system, const tabulated& method, double
 
 double symplecticity_broken_by_euler(const model& system, double step, const any_state& x) {
   const auto& over = system.kernels<slopes>();
-  const auto euler = [&](lifted_state& y) {
+  const auto euler = [&](auto& y) {
     columns f = y.q;
     columns v = y.q;
     over.force(field::whole, y.q, f);
@@ -246,12 +238,10 @@ double undoing_broken(const model& system, const tabulated& method, double step,
 
 // Runs.
 
-namespace {
-auto with_run(const run_of& of, const auto& f) {
+static auto with_run(const run_of& of, const auto& f) {
   return std::visit([&](const auto& noise) { return f(make_stepper(of.system, of.method, of.step, noise)); },
                     of.noise);
 }
-}  // namespace
 
 any_state run_of::finish(const any_state& x, std::int64_t steps) const { return cut(x, steps, steps); }
 

@@ -49,24 +49,19 @@ bool suits(const model& system, const tabulated& method, bool over_slopes = true
 std::vector<tabulated> methods_as_data(draws& random);
 /// All families. A new one is one name in a list of models.hpp.
 const std::vector<run_time_family>& families_as_data();
+/// A theta well inside the ranges and near the start, where coefficients are of moderate size.
+Eigen::VectorXd random_theta(const run_time_family& family, draws& random);
 /// Methods with letters O in the middle, at either end, at both, several, and next to each other.
 std::vector<tabulated> methods_for_baths(draws& random);
 
-/// Calls f(system, method, step, x) for each specimen and each method that suits it, at a random state and at
-/// a quarter of a radian of its fastest motion.
-void try_all(const std::vector<specimen>& on, const std::vector<tabulated>& methods,
-             const std::function<void(const model&, const tabulated&, double, const any_state&)>& f);
-/// The same for methods_as_data(), with other members and states each time.
-void try_all_methods(const std::vector<specimen>& on, int times,
-                     const std::function<void(const model&, const tabulated&, double, const any_state&)>& f);
+using trial = std::function<void(const model&, const tabulated&, double step, const any_state&)>;
+/// Calls f for each specimen and each method that suits it, at a random state and at a quarter of a radian of
+/// the fastest motion there.
+void try_all(const std::vector<specimen>& on, const std::vector<tabulated>& methods, const trial& f);
+/// The same for methods_as_data(), so many times, with other members and states each time.
+void try_all_methods(const std::vector<specimen>& on, int times, const trial& f);
 
-// Derivatives.
-
-using lifted_state = phase_point<detail::slopes, Eigen::Dynamic>;
 shears shears_at(const model& system, const any_state& x);
-/// Jacobian of a map of phase space, in the order (q, p).
-Eigen::MatrixXd jacobian_of(const std::function<void(lifted_state&)>& map, const any_state& x);
-Eigen::MatrixXd hessian_of(const model& system, const Eigen::VectorXd& q);
 
 // What one step of a method keeps.
 

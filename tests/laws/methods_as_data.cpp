@@ -14,17 +14,10 @@ namespace {
 
 bool has(const std::string& letters, char letter) { return letters.find(letter) != std::string::npos; }
 
-/// A member well inside the ranges and near the start, where coefficients are of moderate size.
 tabulated random_member(const run_time_family& family, draws& random) {
-  Eigen::VectorXd theta = family.starts.front().theta;
-  for (Eigen::Index k = 0; k < theta.size(); ++k) {
-    const auto [low, high, open] = family.ranges[static_cast<std::size_t>(k)];
-    theta[k] = random.uniform(std::max(low + 0.2 * (high - low), theta[k] - 0.3),
-                              std::min(high - 0.2 * (high - low), theta[k] + 0.3));
-  }
   return {family.name,
           family.letters,
-          family.coefficients(theta),
+          family.coefficients(random_theta(family, random)),
           {family.order, family.symmetric, family.requires_quadratic_kinetic}};
 }
 
@@ -46,6 +39,16 @@ const std::vector<run_time_family>& families_as_data() {
     return result;
   }();
   return all;
+}
+
+Eigen::VectorXd random_theta(const run_time_family& family, draws& random) {
+  Eigen::VectorXd theta = family.starts.front().theta;
+  for (Eigen::Index k = 0; k < theta.size(); ++k) {
+    const auto [low, high, open] = family.ranges[static_cast<std::size_t>(k)];
+    theta[k] = random.uniform(std::max(low + 0.2 * (high - low), theta[k] - 0.3),
+                              std::min(high - 0.2 * (high - low), theta[k] + 0.3));
+  }
+  return theta;
 }
 
 std::vector<tabulated> methods_as_data(draws& random) {

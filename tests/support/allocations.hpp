@@ -11,7 +11,7 @@ inline std::size_t allocations = 0;
 inline std::size_t allocated_bytes = 0;  // whether given back or not
 }  // namespace nysalt::test
 
-#if defined NYSALT_ADDRESS_SANITIZER
+#if NYSALT_TEST_HAS_FEATURE(address_sanitizer)
 // AddressSanitizer wraps malloc itself, and crashes where others do: it tells of each allocation.
 #include <sanitizer/allocator_interface.h>
 namespace nysalt::test {
@@ -22,7 +22,7 @@ inline void count_allocation(const volatile void*, std::size_t size) {
 inline void count_nothing(const volatile void*) {}
 inline const int installed = __sanitizer_install_malloc_and_free_hooks(count_allocation, count_nothing);
 }  // namespace nysalt::test
-#elif !defined NYSALT_THREAD_SANITIZER
+#elif !NYSALT_TEST_HAS_FEATURE(thread_sanitizer)
 // Eigen's storage comes from malloc, and so does that of operator new. glibc lets a program wrap it by name.
 extern "C" void* __libc_malloc(std::size_t);
 // Weak, as several objects of a program may include this.

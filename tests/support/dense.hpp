@@ -26,10 +26,7 @@ struct symmetric_eigen {
 /// The largest singular value.
 double spectral_norm(const Eigen::MatrixXd& a);
 
-double determinant(Eigen::MatrixXd a);
-
-/// x with a x = b.
-Eigen::VectorXd solution_of(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+double determinant(const Eigen::MatrixXd& a);
 
 /// The shortest x that has a x nearest to b; pivots below the threshold, relative to the largest, are zero.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double threshold);

@@ -78,7 +78,7 @@ square<N> stationary(const gaussian_step<N>& step) {
       }
     }
   }
-  const Eigen::VectorXd solution = solution_of(equations, right);
+  const Eigen::VectorXd solution = least_squares(equations, right, 0.0);
   return Eigen::Map<const square<N>>(solution.data());  // symmetric: the order of entries does not matter
 }
 

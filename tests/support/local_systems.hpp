@@ -101,12 +101,6 @@ inline std::vector<tabulated> words_in_turn() {
           tabulated(member<nystrom>({0.5, 0.4}))};
 }
 
-template <class S>
-Eigen::Index row_of(const S& system) {
-  if constexpr (requires { system.sites_of_row(); }) return system.sites_of_row();
-  return 1;
-}
-
 /// visit(system) for each kind, with about that many sites.
 void for_each_local_system(const auto& visit, Eigen::Index sites = 12) {
   visit(fpu_chain<>(1, 50.0));

@@ -19,26 +19,21 @@ class lifted_noise {
 
   template <class T, int N>
   void normals(const noise_place& at, vector<T, N>& xi) const {
-    source_.normals(at, xi);
+    draw(xi, [&](auto& numbers) { source_.normals(at, numbers); });
   }
   template <class T, int N>
   void halving(const noise_place& at, vector<T, N>& zeta) const {
-    source_.halving(at, zeta);
-  }
-  template <int K, int N>
-  void normals(const noise_place& at, vector<dual<double, K>, N>& xi) const {
-    vector<double, N> numbers(xi.size());
-    source_.normals(at, numbers);
-    for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = dual<double, K>(numbers[i]);
-  }
-  template <int K, int N>
-  void halving(const noise_place& at, vector<dual<double, K>, N>& zeta) const {
-    vector<double, N> numbers(zeta.size());
-    source_.halving(at, numbers);
-    for (Eigen::Index i = 0; i < zeta.size(); ++i) zeta[i] = dual<double, K>(numbers[i]);
+    draw(zeta, [&](auto& numbers) { source_.halving(at, numbers); });
   }
 
  private:
+  static void draw(auto& x, const auto& f) { f(x); }
+  template <int K, int N>
+  static void draw(vector<dual<double, K>, N>& x, const auto& f) {
+    vector<double, N> numbers(x.size());
+    f(numbers);
+    x = numbers.template cast<dual<double, K>>();
+  }
   counter_noise source_;
 };
 using fresh_noise = lifted_noise<true>;

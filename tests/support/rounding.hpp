@@ -41,39 +41,20 @@ double distance(const phase_point<double, N>& x, const phase_point<double, N>& y
 
 bool same_bits(const Point auto& x, const Point auto& y) { return x.q == y.q && x.p == y.p; }
 
-/// Derivative of a map of vectors that is given over any scalar: map(x, result).
-template <int N>
-Eigen::MatrixXd derivative(const auto& map, const vector<double, N>& x) {
-  using D = dual<double, 1>;
-  vector<D, N> argument(x.size());
-  vector<D, N> result(x.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) argument[i] = D(x[i]);
-  Eigen::MatrixXd columns(x.size(), x.size());
-  for (Eigen::Index k = 0; k < x.size(); ++k) {
-    argument[k] = D::variable(x[k], 0);
-    map(argument, result);
-    argument[k] = D(x[k]);
-    for (Eigen::Index i = 0; i < x.size(); ++i) columns(i, k) = result[i].derivative[0];
-  }
-  return columns;
-}
-
-/// The Hessian of V at q, from the force.
+/// The Hessian of V at q, from the force over dual numbers.
 template <SeparableSystem S>
 Eigen::MatrixXd hessian(const S& system, const vector<double, S::dimension>& q) {
-  const auto minus = [&](const auto& x, auto& f) { force<dual<double, 1>>(system, x, f); };
-  return -derivative(minus, q);
-}
-
-/// f'(q) M^-1 f.
-template <class T, NystromSystem S>
-void f_along_f(const S& system, const vector<T, S::dimension>& q, vector<T, S::dimension>& g) {
-  auto f = q;
-  auto v = q;
-  lifted_room<T, S::dimension> room(q.size());
-  force<T>(system, q, f);
-  velocity<T>(system, f, v);
-  force_along<field::whole, T>(system, q, v, g, room);
+  using D = dual<double, 1>;
+  vector<D, S::dimension> x = q.template cast<D>();
+  vector<D, S::dimension> f = x;
+  Eigen::MatrixXd columns(q.size(), q.size());
+  for (Eigen::Index k = 0; k < q.size(); ++k) {
+    x[k] = D::variable(q[k], 0);
+    force<D>(system, x, f);
+    x[k] = D(q[k]);
+    for (Eigen::Index i = 0; i < q.size(); ++i) columns(i, k) = -f[i].derivative[0];
+  }
+  return columns;
 }
 
 /// Sizes of the second derivatives of V and K around a state, the soft and the quadratic part of V among
@@ -84,22 +65,6 @@ struct shears {
   double gradient;
   double frequency() const { return std::max(1.0, std::sqrt(potential * kinetic)); }
 };
-template <SeparableSystem S>
-shears shears_at(const S& system, const phase_point<double, S::dimension>& x) {
-  using D = dual<double, 1>;
-  const auto rate = [&](const auto& p, auto& v) { velocity<D>(system, p, v); };
-  const Eigen::MatrixXd whole = hessian(system, x.q);
-  shears result{norm(whole), norm(derivative(rate, x.p)), 0.0};
-  if constexpr (HasQuadraticPart<S>) {
-    const auto minus = [&](const auto& q, auto& f) { force_of<field::soft, D>(system, q, f); };
-    const Eigen::MatrixXd soft = -derivative(minus, x.q);
-    result.potential = std::max({result.potential, norm(soft), norm(whole - soft)});
-  }
-  if constexpr (NystromSystem<S> && !BlackBoxForce<S>) {
-    result.gradient = norm(derivative([&](const auto& q, auto& g) { f_along_f<D>(system, q, g); }, x.q));
-  }
-  return result;
-}
 
 /// How much the letters of one step can magnify a perturbation: the product of 1 + |c h| |shear| over
 /// them, with shears twice as large as at the start, since the state moves. A rotation is a shear of both

@@ -3,23 +3,12 @@
 #pragma once
 
 #if defined __has_feature
-#if __has_feature(address_sanitizer)
-#define NYSALT_ADDRESS_SANITIZER
-#endif
-#if __has_feature(thread_sanitizer)
-#define NYSALT_THREAD_SANITIZER
-#endif
+#define NYSALT_TEST_HAS_FEATURE(feature) __has_feature(feature)
+#else
+#define NYSALT_TEST_HAS_FEATURE(feature) 0
 #endif
 
 namespace nysalt::test {
-#if defined NYSALT_ADDRESS_SANITIZER
-constexpr bool under_address_sanitizer = true;
-#else
-constexpr bool under_address_sanitizer = false;
-#endif
-#if defined NYSALT_THREAD_SANITIZER
-constexpr bool under_thread_sanitizer = true;
-#else
-constexpr bool under_thread_sanitizer = false;
-#endif
+constexpr bool under_address_sanitizer = NYSALT_TEST_HAS_FEATURE(address_sanitizer);
+constexpr bool under_thread_sanitizer = NYSALT_TEST_HAS_FEATURE(thread_sanitizer);
 }  // namespace nysalt::test
