@@ -10,6 +10,7 @@
 
 #include "../support/learned.hpp"
 #include "../support/refusal.hpp"
+#include "nysalt/analysis/gaussian_acceptance.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: BSL-1.0
-// Data of two seeds, and what is learned from them; all of the library that such tests need.
+// Data of two seeds, and what is learned from them; the parts of the library that such tests need.
 #pragma once
 
 #include <string>
 #include <string_view>
 
 #include "losses.hpp"
+#include "nysalt/core.hpp"
+#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/gibbs_of_modes.hpp"
+#include "nysalt/ensembles/listed.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/nysalt.hpp"
+#include "nysalt/references/exact_linear.hpp"
+#include "nysalt/references/fine_paths.hpp"
+#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+#include "nysalt/systems/with_quadratic_part.hpp"
 
 namespace nysalt::test {
 

@@ -7,6 +7,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "../../support/learned.hpp"
+#include "nysalt/analysis/statistics.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
