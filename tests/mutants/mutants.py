@@ -59,11 +59,11 @@ def mutant(number, what, file, near, *edits, equivalent=""):
 # ---- Hybrid Monte Carlo.
 
 mutant(1, "the energy of an accepted lane is not renewed where another lane rejects",
-       LIBRARY + "sampling/block_of_chains.hpp", "sampling programs",
+       LIBRARY + "sampling/block_of_chains.hpp", "sampling analysis programs",
        ("      set_lane(potential_, k, lane(potential, k));",
         "      if (!MUTANT) set_lane(potential_, k, lane(potential, k));"))
 mutant(2, "the rise of the energy is not divided by kT",
-       LIBRARY + "sampling/block_of_chains.hpp", "sampling",
+       LIBRARY + "sampling/block_of_chains.hpp", "sampling analysis",
        ("(lane(after, k) - lane(before, k)) / temperature",
         "(lane(after, k) - lane(before, k)) / (MUTANT ? 1.0 : temperature)"))
 mutant(3, "momenta are divided by the root of the mass instead of multiplied",
@@ -80,11 +80,11 @@ mutant(26, "sampling resumes without the count of the steps of its burn-in",
         "for (double* x : {&result_.step, &steps_, &steps_of_burn_in_}) *x = shared.get();\n"
         "    if (MUTANT) steps_of_burn_in_ = 0.0;"))
 mutant(29, "the mean duration of a trajectory is half of the length asked for",
-       LIBRARY + "sampling/sampler.hpp", "sampling",
+       LIBRARY + "sampling/sampler.hpp", "sampling analysis",
        ("std::llround(2.0 * uniform * length / step)",
         "std::llround((MUTANT ? 1.0 : 2.0) * uniform * length / step)"))
 mutant(30, "all trajectories have the same duration: the number of the trajectory is not in the counter",
-       LIBRARY + "sampling/sampler.hpp", "sampling",
+       LIBRARY + "sampling/sampler.hpp", "sampling analysis",
        ("{.step = trajectory, .purpose = noise_purpose::duration}",
         "{.step = MUTANT ? 0 : trajectory, .purpose = noise_purpose::duration}"))
 mutant(31, "deviations are not divided by the root of kT: a lost unit",
