@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Compiled with -O1: 4.6 s at -O0, 0.3 s at -O1.
+// Compiled at -O0, where it runs for 4.6 s: -O1 would take longer to compile than it saves.
 // However a person writes the force, and in whatever units, the same is learned; and the summary says where
 // derivatives came from.
 #include <boost/test/unit_test.hpp>
