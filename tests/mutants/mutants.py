@@ -422,3 +422,32 @@ mutant(111, "Python: fine_step is ignored", "python/arguments.cpp", "python",
        ("arguments.take(\"fine_step\", how.fine_step);", "if (!MUTANT) arguments.take(\"fine_step\", how.fine_step);"))
 mutant(112, "Python: starts() ignores the role", "python/nysalt/__init__.py", "python",
        ("seed=seed, role=role))", "seed=seed, role=\"test\" if MUTANT else role))"))
+
+# ---- What tests once found only in passing.
+
+mutant(113, "signals that end a process, but those that are usual, leave its unfinished file",
+       "src/comparison/interruption.cpp", "programs",
+       ("SIGPWR, SIGSTKFLT})\n    handle(", "SIGPWR, SIGSTKFLT})\n    if (!MUTANT) handle("))
+mutant(114, "the draws of a chain depend on how many chains there are",
+       LIBRARY + "sampling/sampler.hpp", "sampling programs",
+       ("starts, options.seed, first, count)", "starts, options.seed + (MUTANT ? options.chains : 0), first, count)"))
+mutant(115, "the limit of stability is the end of the last window", "src/program/commands/stability.cpp", "programs",
+       ("chart.windows.front().high : 0.0", "(MUTANT ? chart.windows.back() : chart.windows.front()).high : 0.0"))
+mutant(116, "the limit of stability is not divided by the evaluations",
+       "src/program/commands/stability.cpp", "programs",
+       ("json(limit / evaluations)", "json(MUTANT ? limit : limit / evaluations)"))
+mutant(117, "learn: a file is named that could not be written", "src/program/commands/learn.cpp", "programs",
+       ("keep && written ?", "keep && (MUTANT || written) ?"))
+mutant(118, "the reference is checked on the first trajectories alone", LIBRARY + "flow_map_data.cpp", "data learning",
+       ("spread_pairs(data.all_pairs(), checks)", "spread_pairs(MUTANT ? checks : data.all_pairs(), checks)"))
+mutant(119, "the error of a mean acceptance is half as large", LIBRARY + "analysis/acceptance.cpp", "analysis sampling",
+       ("  acceptance_result result{mean_and_error(of_each), of_each, {}};",
+        "  acceptance_result result{mean_and_error(of_each), of_each, {}};\n"
+        "  if (MUTANT) result.probability.standard_error *= 0.5;"))
+mutant(120, "standard errors of parameters lack the factor 2 of the gradient of a square",
+       HEADERS + "losses/squares.hpp", "learning losses",
+       ("r.slope(k, i) * 2.0;", "r.slope(k, i) * (MUTANT ? 1.0 : 2.0);"))
+mutant(121, "another seed is a shift of the numbers of trajectories", HEADERS + "ensembles/fpu_law.hpp", "ensembles",
+       ("standard_normals(seed, {.trajectory = n, .purpose = noise_purpose::initial_state}",
+        "standard_normals(MUTANT ? 0 : seed, {.trajectory = MUTANT ? seed + n : n, "
+        ".purpose = noise_purpose::initial_state}"))
