@@ -133,6 +133,7 @@ BOOST_AUTO_TEST_CASE(it_is_the_mean_over_trajectories_of_what_integrate_says) {
     BOOST_TEST((lost > 0U) == (step == 0.05));
     BOOST_TEST(lost < 37U);
     BOOST_TEST(all.probability.mean == sum / 37.0, boost::test_tools::tolerance(1e-14));  // 37 roundings
+    BOOST_TEST(all.probability.standard_error == mean_and_error(all.of_each).standard_error);
     BOOST_TEST((all.probability.mean > 0.1 || lost > 0U));
     BOOST_TEST(all.probability.mean < 0.99);
     BOOST_TEST(all.evaluations_per_time == double(options.steps + 1) / (double(options.steps) * step),
