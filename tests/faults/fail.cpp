@@ -5,8 +5,7 @@
 //       NUMBER, from 1, on ordinary files; HOW nospace, nospace_for_good, io, skip (nothing is done, and
 //       success is returned), kill, or signal_N (that comes before the call)
 //   NYSALT_FAULT_COUNTS=FILE            at the end the calls of each are written there, and for each file
-//   that
-//       was renamed without fsync after the last write a line "unsynced NAME"
+//       renamed without fsync after the last write a line "unsynced NAME"
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The law that a word keeps, against the Lyapunov equation of the tests' own matrices, which long runs sample
-// (long/verification/langevin_paths_test); and the two stages that keep it exactly, by the closed form in
+// The law that a word keeps, against the Lyapunov equation of the tests' own matrices, which are checked in
+// methods/langevin_step_test; and the two stages that keep it exactly, by the closed form in
 // docs/langevin.md.
 #include "nysalt/losses/stationary_covariance.hpp"
 

@@ -28,8 +28,6 @@
 //   energy of its own
 // expect: nysalt: the letter G needs a quadratic kinetic energy, and a force that can be differentiated
 // expect: nysalt: the letter D needs a quadratic kinetic energy
-// expect GNU: required for the satisfaction of 'NystromSystem<S>' [with S = relativistic]
-// expect Clang: because 'relativistic' does not satisfy 'NystromSystem'
 namespace other_kinetic_energy {
 inline void use(const relativistic& system) {
   nysalt::make_stepper(system, nysalt::srkn11b(), 0.1);
@@ -45,14 +43,19 @@ inline void use(const relativistic& system) {
     nysalt::stepper<relativistic, nysalt::fd_chin::word>(system, coefficients, 0.1);
     // [/displaced_kick_on_other_kinetic_energy]
   }
-  {
-    // [other_kinetic_energy_in_bath]
-    const nysalt::in_bath<relativistic> system({}, nysalt::bath::of_sigma(0.1, 0.2));
-    // [/other_kinetic_energy_in_bath]
-    system.bath();
-  }
 }
 }  // namespace other_kinetic_energy
+
+// expect GNU: required for the satisfaction of 'NystromSystem<S>' [with S = relativistic]
+// expect Clang: because 'relativistic' does not satisfy 'NystromSystem'
+namespace other_kinetic_energy_in_bath {
+inline void use() {
+  // [other_kinetic_energy_in_bath]
+  const nysalt::in_bath<relativistic> system({}, nysalt::bath::of_sigma(0.1, 0.2));
+  // [/other_kinetic_energy_in_bath]
+  system.bath();
+}
+}  // namespace other_kinetic_energy_in_bath
 
 // expect: nysalt: the letters R, S, H need a system that declares a quadratic part: modes() and soft_force(q,
 //   f), see nysalt/system.hpp
