@@ -194,10 +194,12 @@ BOOST_AUTO_TEST_CASE(journals_of_others_are_refused_and_finished_parts_are_not_c
     for (const char* resume : {"", " --resume"}) refused(other, resume, "is no journal");
   }
   BOOST_TEST(whole.kept().find("\"part\":\"paths at 0.3\"") != std::string::npos);
-  for (const std::string result : {"5", "{\"behind\":{},\"findings\":[]}"})
-    require_refused(
-        whole.resumed(head + signed_line(R"({"part":"paths at 0.3","result":)" + result + "}") + "\n"),
-        of_journal, result);
+  for (const std::string result : {"5", "{\"behind\":{},\"findings\":[]}"}) {
+    const auto edited = head + signed_line(R"({"part":"paths at 0.3","result":)" + result + "}") + "\n";
+    require_refused(whole.resumed(edited), of_journal + "the part 'paths at 0.3' is not whole, or was edited",
+                    result);
+    BOOST_TEST(contents(journal).starts_with(edited));
+  }
   // What was finished is taken from the journal: what stands there is what comes out.
   const std::string before = "\"findings\":[{\"value\":[";
   const auto part = std::ranges::find_if(lines, [&](auto& line) { return line.find(before) < line.size(); });

@@ -22,6 +22,11 @@
 #if !defined NYSALT_FAULTS  // where nothing can be preloaded, and for nysalt_paper
 #define NYSALT_FAULTS ""
 #endif
+#if defined NYSALT_HAS_HDF5
+#define NYSALT_HDF5 "1"
+#else
+#define NYSALT_HDF5 "0"
+#endif
 
 namespace nysalt::test {
 
@@ -39,7 +44,7 @@ finished shell(const scratch& folder, const std::string& line, int limit) {
   const std::string err = streams / "err";
   std::string whole = "cd '" + folder.path().string();
   whole += "' && export nysalt='" + program() + "' source='" NYSALT_SOURCE_DIR "/tests/programs";
-  whole += "' faults='" NYSALT_FAULTS "' && { ";
+  whole += "' faults='" NYSALT_FAULTS "' hdf5=" NYSALT_HDF5 " && { ";
   whole += line + "\n} </dev/null >'";
   whole += out + "' 2>'";
   whole += err + "'";

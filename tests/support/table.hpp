@@ -6,7 +6,8 @@
 //   == NAME                                       a new, empty folder for the rows that follow
 //   file t.json = {"format": "x"}\n               a file in the folder; `copy scheme.json` takes tests/programs/inputs/
 //   sh cp t.json u.json                           a line of the shell, which must end with 0; $nysalt is the program, $source tests/programs,
-//                                                 $faults what is preloaded to kill or to stop it (faults/fail.cpp)
+//                                                 $faults what is preloaded to kill or to stop it (faults/fail.cpp),
+//                                                 $hdf5 whether the program is built with HDF5, 1 or 0
 //   target m.json of scheme.json                  the file that `text:` and `with:` write
 //   @ {learn}                                     what each command below begins with, until the next @ or ==
 //   2 -0.02 | --step | positive                   exit code, arguments, and what must be so
