@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Orders by Taylor expansion are those that are declared, proved or published, and mistakes lower them. The
-// symplecticity defect of a step that is a function, and of a black box: methods/step_laws_test.cpp has all
-// methods.
+// symplecticity defect judges a step that is a function and one of a black box: methods/step_laws_test.cpp
+// has all methods.
 #include "../laws/laws.hpp"
 #include "../support/tableau.hpp"
 #include "nysalt/core.hpp"
@@ -54,7 +54,8 @@ taylor_orders order_in_other_coordinates(double c) {
 BOOST_AUTO_TEST_CASE(methods_have_the_order_that_they_declare) {
   draws random;
   for (const auto& method : methods_as_data(random)) {
-    // At a fixed z these have the order 2; their own is that of h -> 0 at a fixed frequency (adaptive_test.cpp).
+    // At a fixed z these have the order 2; their own is that of h -> 0 at a fixed frequency
+    // (adaptive_test.cpp).
     if (method.name().starts_with("phase_fitted")) continue;
     const auto found = taylor_order(method);
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", " << method.name()) {
@@ -173,7 +174,7 @@ BOOST_AUTO_TEST_CASE(a_nystrom_tableau_with_another_a21_is_not_symplectic) {
 }
 
 // A black box without a derivative is differentiated by differences: no more can be had than eps^(2/3).
-BOOST_AUTO_TEST_CASE(a_black_box_shows_it_up_to_its_differences) {
+BOOST_AUTO_TEST_CASE(a_black_box_is_symplectic_up_to_its_differences) {
   draws random;
   const black_box system;
   for (int n = 0; n < 20; ++n) {

@@ -368,7 +368,26 @@ BOOST_AUTO_TEST_CASE(letters_of_the_field_are_what_they_state) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_potential_has_this_force) {
+namespace {
+struct claims_turn : boris_turn {
+  static constexpr bool symplectic = true;
+};
+struct claims_drift : velocity_drift {
+  static constexpr bool symplectic = true;
+};
+struct claims_way_back : cyclotron_flow {
+  static constexpr bool reversible = true;
+};
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(what_letters_of_the_field_are_not_is_found) {
+  const auto report = []<class L>(L) { return check_letter<L>(trap, {ion}, 0.3).report(); };
+  BOOST_TEST(report(claims_turn()).starts_with("the letter w is not symplectic"));
+  BOOST_TEST(report(claims_drift()).starts_with("the letter v is not symplectic"));
+  BOOST_TEST(report(claims_way_back()).starts_with("the letter m is not reversible"));
+}
+
+BOOST_AUTO_TEST_CASE(the_trap_has_the_force_of_its_potential) {
   BOOST_TEST(check_force(trap.part<0>(), {ion.q, vector<double, 3>(2.0 * ion.q)}).passed());
   BOOST_CHECK_THROW(penning_trap(penning_potential(1.0), 0.0), std::invalid_argument);
   BOOST_CHECK_THROW(penning_potential(0.0), std::invalid_argument);
@@ -391,7 +410,7 @@ BOOST_AUTO_TEST_CASE(without_electric_field_a_turn_closes) {
 
 // J^T Omega J - Omega sums 6 products of entries of order ten, each off by some hundred roundings. Boris'
 // method keeps volume: det J = 1 to as many roundings.
-BOOST_AUTO_TEST_CASE(the_one_is_symplectic_and_boris_keeps_volume) {
+BOOST_AUTO_TEST_CASE(cyclotron_verlet_is_symplectic_and_boris_keeps_volume) {
   constexpr double rounding = 6.0 * 100.0 * 100.0 * eps;
   BOOST_TEST(symplecticity_defect(trap, cyclotron_verlet(), 0.2, ion) <= rounding);
   BOOST_TEST(symplecticity_defect(trap, boris(), 0.2, ion) > 1e-3);
@@ -399,7 +418,7 @@ BOOST_AUTO_TEST_CASE(the_one_is_symplectic_and_boris_keeps_volume) {
   BOOST_TEST(std::abs(volume - 1.0) <= rounding);
 }
 
-BOOST_AUTO_TEST_CASE(a_step_back_undoes_a_step) {
+BOOST_AUTO_TEST_CASE(in_a_magnetic_field_a_step_back_undoes_a_step) {
   const auto there_and_back = [](const auto& method) {
     auto x = ion;
     make_stepper(trap, method, 0.2).step(x);
@@ -415,7 +434,7 @@ BOOST_AUTO_TEST_CASE(a_step_back_undoes_a_step) {
 }
 
 // Halving the step leaves a quarter of the error, to a tenth by the terms of h^4.
-BOOST_AUTO_TEST_CASE(both_are_of_order_two) {
+BOOST_AUTO_TEST_CASE(magnetic_methods_are_of_order_two) {
   const auto exact = by_runge_kutta(0.0005, 4000);
   const auto off = [&](const auto& method, double step, int steps) {
     return distance(integrate(trap, method, step, ion, steps).finish, exact);
@@ -426,7 +445,7 @@ BOOST_AUTO_TEST_CASE(both_are_of_order_two) {
   BOOST_TEST(off(cyclotron_verlet(), 0.005, 400) < 0.5 * off(boris(), 0.005, 400));
 }
 
-BOOST_AUTO_TEST_CASE(the_energy_stays_for_long) {
+BOOST_AUTO_TEST_CASE(in_a_magnetic_field_the_energy_stays_for_long) {
   const auto largest = [](const auto& method, double step) {
     return largest_change(
         trap, method, step, ion, 40'000, [](const auto& x) { return trap.energy_of(x); }, 10);
