@@ -153,8 +153,11 @@ BOOST_AUTO_TEST_CASE(derivatives_and_lanes_flow_through_it) {
     BOOST_TEST(std::abs(a.derivative[0] + noisy.friction() * a.value) <= 4.0 * eps * noisy.friction());
     const double slope = noisy.sigma() * noisy.sigma() * a.value * a.value / (2.0 * s.value);
     BOOST_TEST(relative(s.derivative[0], slope) <= 16.0 * eps);
-    const pack<double, 2> times(time.value);
-    BOOST_TEST((noisy.decay(times)[1] == a.value && noisy.deviation(times)[1] == s.value));
+    pack<double, 2> times(time.value);
+    times.set(0, 0.5 * time.value);
+    BOOST_TEST((noisy.decay(times)[0] == noisy.decay(0.5 * time.value) && noisy.decay(times)[1] == a.value));
+    const auto deviations = noisy.deviation(times);
+    BOOST_TEST((deviations[0] == noisy.deviation(0.5 * time.value) && deviations[1] == s.value));
     const D walk = bath::of_sigma(0.0, noisy.sigma()).deviation(time);
     BOOST_TEST(relative(walk.derivative[0], 0.5 * noisy.sigma() / std::sqrt(time.value)) <= 4.0 * eps);
   }

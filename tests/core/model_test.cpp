@@ -118,7 +118,8 @@ std::vector<double> numbers_of_step(const S& system, const tabulated& method, do
   return all;
 }
 
-/// numbers(system, table, step) of the system and of its model are the same, and another table has others.
+/// numbers(system, table, step) of the system and of its model are the same; another step or table has
+/// others.
 template <class S>
 void compare(const S& system, const tabulated& method, const auto& numbers) {
   constexpr double step = 0.05;
@@ -127,6 +128,7 @@ void compare(const S& system, const tabulated& method, const auto& numbers) {
   BOOST_REQUIRE(std::ranges::all_of(expected, [](double x) { return std::isfinite(x); }));
   const model erased(system);
   BOOST_TEST((numbers(erased, method, step) == expected));
+  BOOST_TEST((numbers(erased, method, step * (1.0 + 1e-12)) != expected));
   auto changed = method.coefficients();
   for (const std::size_t i : {std::size_t{0}, changed.size() / 2}) changed[i] += 1e-9;
   const tabulated another("another", method.letters(), changed, method);

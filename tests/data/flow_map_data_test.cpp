@@ -142,7 +142,9 @@ BOOST_AUTO_TEST_CASE(more_trajectories_of_the_same_are_those_made_at_once) {
 BOOST_AUTO_TEST_CASE(checks_are_of_the_reference_at_half_the_step) {
   const auto data = made({.step = 0.02, .horizon = 0.1, .trajectories = 41, .threads = 3});
   BOOST_TEST(data.finer.size() == 16U);
+  std::set<std::size_t> sixteenths;  // of 205 pairs
   for (const auto& [pair, finish] : data.finer) {
+    BOOST_TEST(sixteenths.insert((16 * pair + 15) / 205).second);
     state x = data.start[pair];
     fine_steps<>(0.5 * fine).advance(quiet, x, 0.02);
     BOOST_TEST((x.q == finish.q));

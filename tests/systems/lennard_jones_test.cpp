@@ -73,6 +73,10 @@ BOOST_AUTO_TEST_CASE(shapes_have_the_energies_that_their_distances_give) {
   BOOST_TEST(energy_off(3, 13, icosahedron) <= 1.0);
   BOOST_TEST(std::abs(icosahedron + 44.33) < 0.005);
   BOOST_TEST(energy_off(3, 13, icosahedron * (1.0 + 1e-9)) > 1.0);
+  // Not the lowest: the octahedron, which the growth of tetrahedra on faces does not find.
+  const double octahedron = least_energy({{12.0, 1.0}, {3.0, std::sqrt(2.0)}});
+  const lennard_jones<> six(3, 6);
+  BOOST_TEST(six.potential(cluster_at_rest(six)) > octahedron + 0.1);
 }
 
 BOOST_AUTO_TEST_CASE(clusters_rest_around_the_origin) {
@@ -94,7 +98,7 @@ BOOST_AUTO_TEST_CASE(clusters_rest_around_the_origin) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(it_is_a_minimum) {
+BOOST_AUTO_TEST_CASE(a_cluster_is_a_minimum) {
   for (const auto& [space, atoms] : {std::pair{2, 7}, {3, 13}}) {
     const lennard_jones<> system(space, atoms);
     const Eigen::VectorXd q = cluster_at_rest(system);
@@ -529,6 +533,8 @@ BOOST_AUTO_TEST_CASE(a_list_holds_until_an_atom_has_moved_by_half_the_skin) {
     BOOST_TEST(list.made() == 1);
     BOOST_TEST(has_all(listed(list, atoms), near(little, reach)));
   }
+  // Two that have each moved by more than half the skin may have come within reach.
+  BOOST_TEST((list.take(moved_by(0.501 * skin)) == detail::neighbour_list::state::outdated));
   // Without a look at how far atoms went, pairs would be missed.
   const Eigen::VectorXd far = moved_by(2.0 * skin);
   BOOST_TEST((list.take(far) == detail::neighbour_list::state::outdated));
