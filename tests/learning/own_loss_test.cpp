@@ -7,6 +7,7 @@
 
 #include "../support/learned.hpp"
 #include "../support/refusal.hpp"
+#include "../support/rounding.hpp"
 #include "nysalt/detail/tree_sum.hpp"
 #include "nysalt/losses/energy_error.hpp"
 
@@ -214,6 +215,7 @@ BOOST_AUTO_TEST_CASE(weights_of_ones_own_have_no_error) {
   const auto usual = make_learning_problem(family, galaxy, data, held_out, {.loss = loss_named("state:3")});
   const after_steps<> loss(family, galaxy, data, state_error(measure), {.steps = {3}});
   const auto by_residual = residual_gradients(loss, theta);
+  const auto of_all_residuals = trajectory_gradients(loss, theta);
   const auto ours = problem.scores(theta);
   const auto with_weights = usual.scores(theta);
   BOOST_REQUIRE(ours.of_each.size() == by_residual.size());
@@ -222,6 +224,8 @@ BOOST_AUTO_TEST_CASE(weights_of_ones_own_have_no_error) {
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(2);
     for (Eigen::Index k = 0; k < 4; ++k) gradient += by_residual[m].col(k);
     BOOST_TEST((ours.of_each[m] == gradient));
+    // Eight products in another order: four residuals of two windows.
+    BOOST_TEST((of_all_residuals[m] - gradient).norm() <= 16.0 * eps * by_residual[m].cwiseAbs().sum());
     // The library's weights are estimates, of which each trajectory has its part.
     differ += (with_weights.of_each[m] - gradient).norm() > 0.01 * gradient.norm();
   }
