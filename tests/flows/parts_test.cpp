@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(the_outer_step_resonates_with_the_fast_modes) {
   };
   BOOST_TEST(growth(half_period * 0.9) < 0.1);
   double at_resonance = 0.0;
-  for (double part = 0.97; part < 1.03; part += 0.002) {
+  for (double part = 0.99; part < 0.996; part += 0.001) {  // the charges shift it by less than a hundredth
     at_resonance = std::max(at_resonance, growth(part * half_period));
   }
   BOOST_TEST(at_resonance > 1.0);
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(a_family_over_two_forces_is_learned) {
                               {.step = 0.06, .horizon = 0.6, .trajectories = 16, .seed = seed});
   };
   const auto found =
-      learn(nested_kicks<0, 1, 4>(), chain, data(1), data(2), {.random_starts = 4, .planned_steps = 1000});
+      learn(nested_kicks<0, 1, 4>(), chain, data(1), data(2), {.random_starts = 2, .planned_steps = 1000});
   BOOST_TEST(found.summary.usable, found.summary.reason);
   BOOST_TEST(found.summary.held_out_loss < 0.25 * found.summary.held_out_start_loss);  // half the error
   using family = nested_kicks<0, 1, 4>;
@@ -322,7 +322,7 @@ BOOST_AUTO_TEST_CASE(words_of_the_letters_of_wisdom_and_holman_are_learned) {
     const listed<15> starts({states.begin() + static_cast<std::ptrdiff_t>(from),
                              states.begin() + static_cast<std::ptrdiff_t>(from) + 3});
     return make_flow_map_data(system, starts, fine_steps<>(20.0),
-                              {.step = 400.0, .horizon = 4000.0, .trajectories = 3, .seed = 1});
+                              {.step = 400.0, .horizon = 2000.0, .trajectories = 3, .seed = 1});
   };
   const auto found =
       learn(planetary<2>(), system, data(0), data(3), {.random_starts = 1, .planned_steps = 1000});
