@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// `mpirun -n 3` of run, compare, learn and sample has the bytes of one process, and a refusal is one line.
-// More ranks, kills and signals: tests/long/programs/on_ranks_test.cpp.
+// `mpirun -n 3` of run, compare, learn and sample has the bytes of one process, three ranks go on with what
+// one process left, and a refusal is one line. More ranks, kills and signals:
+// tests/long/programs/on_ranks_test.cpp.
 #include <boost/test/unit_test.hpp>
 
 #include <string>
@@ -30,6 +31,22 @@ BOOST_AUTO_TEST_CASE(three_ranks_have_the_bytes_of_one_process) {
             "o.csv",
             {{3, 2}}}})
     ranks_change_no_byte(one);
+}
+
+// Each rank takes up its own of 70 trajectories, and rank 0 writes all of them in their order.
+BOOST_AUTO_TEST_CASE(three_ranks_go_on_with_what_one_process_left) {
+  const scratch folder("ranks_resume");
+  const std::string line =
+      "run --system pendulum --method verlet --step 0.01 --horizon 4 "
+      "--trajectories 70 --sample-every 20 --output a.csv";
+  BOOST_TEST(run(folder, line).code == 0);
+  const std::string whole = contents(folder / "a.csv");
+  const std::string kept = line + " --checkpoint c --every 100";
+  BOOST_TEST(shell(folder, "LD_PRELOAD=$faults NYSALT_FAULT=rename:5:kill \"$nysalt\" " + kept).code == 137);
+  BOOST_TEST(contents(folder / "c").size() > 2 * 70 * sizeof(double));  // with the states of all
+  const auto done = run_on(3, folder, kept + " --resume");
+  BOOST_TEST_REQUIRE(done.code == 0, done.err);
+  BOOST_TEST(contents(folder / "a.csv") == whole);
 }
 
 BOOST_AUTO_TEST_CASE(a_refusal_is_told_once) {
