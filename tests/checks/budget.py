@@ -12,6 +12,7 @@ libraries alone, as machines differ.
 import argparse
 import os
 import pathlib
+import re
 import sys
 import xml.etree.ElementTree
 
@@ -74,7 +75,7 @@ def main():
     compiled, ran, wrong = {}, {}, []
     for unit, (seconds, megabytes) in units.items():
         target = target_of(unit)
-        folder = folder_of(target.replace("nysalt_test_", ""), budget)
+        folder = folder_of(re.sub("^nysalt_(test_)?", "", target), budget)
         if target.startswith("long_"):
             continue
         compiled[folder] = compiled.get(folder, 0.0) + seconds / scale

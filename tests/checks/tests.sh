@@ -16,7 +16,7 @@ run_tests() {
     --record)
       (($# == 1)) || refuse "test --record takes nothing"
       configure
-      NYSALT_RECORD=1 test_named programs/documents programs/files
+      NYSALT_RECORD=1 test_named programs/cases
       git status --short -- tests
       ;;
     -*) refuse "test takes PRESET, all, --changed, --record or names of tests, got '$1'" ;;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // What no output may replace or remove: files that were read, and what is no regular file. Each name that a
 // command writes is tried, and each kind of input, before any work; plug-ins as inputs are in
-// cases/own_systems.txt.
+// long/programs/cases/own_systems.txt.
 #include <boost/test/unit_test.hpp>
 
 #include <map>

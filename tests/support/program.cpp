@@ -512,12 +512,17 @@ texts wrong_rows(const std::string& text, const std::string& name) {
   return wrong_rows(text, name, rows);
 }
 
-void run_table(const std::string& name) {
-  int rows = 0;
-  const std::string text = contents(source + "cases/" + name + ".txt");
-  for (const auto& wrong : wrong_rows(text, name, rows)) BOOST_TEST(false, wrong);
-  BOOST_TEST(rows > 0);
-  BOOST_TEST(text.find("\nx") != std::string::npos, name << " has no row that must be found wrong");
+void run_tables_named() {
+  const auto& suite = boost::unit_test::framework::master_test_suite();
+  BOOST_REQUIRE(suite.argc > 1);
+  for (int k = 1; k < suite.argc; ++k) {
+    const fs::path file = suite.argv[k];
+    const std::string text = contents(file);
+    int rows = 0;
+    for (const auto& wrong : wrong_rows(text, file.stem().string(), rows)) BOOST_TEST(false, wrong);
+    BOOST_TEST(rows > 0);
+    BOOST_TEST(text.find("\nx") != std::string::npos, file << " has no row that must be found wrong");
+  }
 }
 
 }  // namespace nysalt::test

@@ -32,6 +32,8 @@
 // "nysalt: ", nothing on the standard output, and a folder that stays as it was. NYSALT_RECORD=1 writes golden files.
 #pragma once
 
+#include <boost/test/unit_test.hpp>
+
 #include <string>
 #include <vector>
 
@@ -40,7 +42,7 @@ namespace nysalt::test {
 /// What is wrong with the rows of a table of that text, a line each. Empty if they are as they must be.
 std::vector<std::string> wrong_rows(const std::string& text, const std::string& name);
 
-/// Every row of tests/programs/cases/NAME.txt is a check.
-void run_table(const std::string& name);
+/// Every row is a check, of each table whose file the command line names after "--"; there must be one.
+void run_tables_named();
 
 }  // namespace nysalt::test
