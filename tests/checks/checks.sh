@@ -186,7 +186,7 @@ check_coverage() {
   llvm-profdata merge -sparse -o "$folder/all.profdata" "$folder"/profiles/*.profraw
   llvm-cov export -format=lcov -instr-profile="$folder/all.profdata" "$folder/nysalt" "${objects[@]}" \
     "$PWD/include" "$PWD/src" >"$folder/all.lcov"
-  awk -v root="$PWD/" -v target=90 -f tests/coverage.awk "$folder/all.lcov" | tee build/check/coverage.log || status=1
+  awk -v root="$PWD/" -v target=90 -f tests/checks/coverage.awk "$folder/all.lcov" | tee build/check/coverage.log || status=1
   {
     awk '/whole$|together$/ { printf "%s%s %% of %s lines of %s", comma, $3, $1, $4; comma = ", " }' \
       build/check/coverage.log

@@ -42,7 +42,7 @@ std::int64_t evaluations_over(const S& system, const vector<T, 1>& q = vector<T,
 /// Three masses on two springs, held by nothing.
 const Eigen::MatrixXd of_free_chain{{2.0, -2.0, 0.0}, {-2.0, 5.0, -3.0}, {0.0, -3.0, 3.0}};
 
-/// Two springs whose modes are told from outside.
+/// Two springs whose normal modes are set by the caller.
 struct told {
   static constexpr int dimension = 2;
   normal_modes given_modes;

@@ -26,7 +26,7 @@ const henon_heiles galaxy;
 const normal_around<2> law_of_type({vector<double, 2>::Zero(), vector<double, 2>::Zero()}, 0.45, 0.45);
 const initial_states law = law_of_type;
 
-/// What is seen of each trajectory every so many steps, from several threads.
+/// Samples of each trajectory, taken every k-th step by several threads.
 struct seen {
   std::int64_t every = 7;
   std::vector<std::vector<double>> values{static_cast<std::size_t>(trajectories)};

@@ -49,7 +49,7 @@ void must_be_what_they_state(const auto& system, const auto& points, double h) {
   (check(check_letter<L>(system, points, h)), ...);
 }
 
-/// The largest change of a function of the state in so many steps, seen every so often.
+/// The largest change of a function of the state during n steps, sampled every k-th step.
 double largest_change(const auto& system, const auto& method, double step, const auto& start,
                       std::int64_t steps, const auto& of, std::int64_t every = 1) {
   double worst = 0.0;

@@ -58,7 +58,7 @@ using trial = std::function<void(const model&, const tabulated&, double step, co
 /// Calls f for each specimen and each method that suits it, at a random state and at a quarter of a radian of
 /// the fastest motion there.
 void try_all(const std::vector<specimen>& on, const std::vector<tabulated>& methods, const trial& f);
-/// The same for methods_as_data(), so many times, with other members and states each time.
+/// The same for methods_as_data(), repeated with new members of the families and new states.
 void try_all_methods(const std::vector<specimen>& on, int times, const trial& f);
 
 shears shears_at(const model& system, const any_state& x);

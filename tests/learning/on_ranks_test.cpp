@@ -65,7 +65,7 @@ std::vector<double> learned_from(std::int64_t trajectories, const communicator& 
   return numbers_of(make(trajectories, 1, ranks), make(trajectories, 2, ranks));
 }
 
-/// Whether each of so many ranks has the expected numbers.
+/// Whether each rank has the expected numbers.
 void check_on_ranks(int size, const std::function<std::vector<double>(const communicator&)>& numbers,
                     const std::vector<double>& expected) {
   std::mutex guard;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far what was learned reaches: starts beyond the energies that were learned on are told from those that
-// are outside by chance; theta at steps between the learned ones; and whether the trajectories are enough.
+// Where a learned method is valid: starts whose energies lie beyond the range of the data are distinguished
+// from those outside by chance; theta at steps between the learned ones; and whether the trajectories are
+// enough.
 #include <boost/test/unit_test.hpp>
 
 #include <boost/math/distributions/beta.hpp>

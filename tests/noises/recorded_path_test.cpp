@@ -293,8 +293,8 @@ auto stepper_of(const recorded_path<T, 2>& path, const M& method, double h = ste
   return make_stepper(galaxy, method, h, noise_of(path, method, h));
 }
 
-/// Some steps letter by letter, whose letters O are told by hand: the momentum goes through one interval of
-/// the path after the other.
+/// A number of steps letter by letter, with the noise of letters O taken from the path: the momentum uses one
+/// interval of the path after the other.
 template <Method M>
 state by_hand(const recorded_path<double, 2>& path, const M& method, int steps, state x) {
   const auto c = method.coefficients();

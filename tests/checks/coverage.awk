@@ -3,13 +3,13 @@
 
 /^SF:/ { file = substr($0, 4); is_ours = index(file, root) == 1; file = substr(file, length(root) + 1) }
 /^DA:/ && is_ours {
-  split(substr($0, 4), its, ",")
-  if (its[1] == last[file]) next
-  last[file] = its[1]
+  split(substr($0, 4), fields, ",")
+  if (fields[1] == last[file]) next
+  last[file] = fields[1]
   ++lines[file]
-  if (its[2] > 0) { ++covered[file]; in_gap[file] = 0; next }
-  if (in_gap[file]) to[file, gaps[file]] = its[1]
-  else { ++gaps[file]; from[file, gaps[file]] = to[file, gaps[file]] = its[1]; in_gap[file] = 1 }
+  if (fields[2] > 0) { ++covered[file]; in_gap[file] = 0; next }
+  if (in_gap[file]) to[file, gaps[file]] = fields[1]
+  else { ++gaps[file]; from[file, gaps[file]] = to[file, gaps[file]] = fields[1]; in_gap[file] = 1 }
 }
 
 function percent(some, all) { return all ? 100 * some / all : 100 }
