@@ -15,7 +15,7 @@ import sys
 # beginning that fits, and what fits none (include/nysalt/word.hpp) to the second layer.
 LAYERS = [
     (["include/nysalt/scalar"], ["scalars"]),
-    (["include/nysalt", "src/nysalt", "cmake", "CMakeLists.txt"], ["core", "static", "must_not_compile"]),
+    (["include/nysalt", "src/nysalt", "cmake", "CMakeLists.txt"], ["core", "parallel", "static", "must_not_compile"]),
     (["include/nysalt/systems", "src/nysalt/systems", "include/nysalt/noise", "src/nysalt/noises",
       "include/nysalt/bath"], ["systems", "noises"]),
     (["include/nysalt/flow", "include/nysalt/method", "include/nysalt/famil", "src/nysalt/families",
@@ -28,11 +28,12 @@ LAYERS = [
     (["include/nysalt/learn", "src/nysalt/learning"], ["learning"]),
     (["include/nysalt/analysis", "src/nysalt/analysis"], ["analysis"]),
     (["include/nysalt/hmc", "src/nysalt/sampling"], ["sampling"]),
-    (["src/comparison", "src/report", "src/nysalt/exports", "share"], ["report", "parts_of_program"]),
-    (["src/program", "src/plugin", "src/reproduction", "examples"], ["programs", "smoke"]),
+    (["src/comparison", "src/report", "src/nysalt/exports", "share", "bench"], ["report", "bench", "parts_of_program"]),
+    (["src/program", "src/plugin", "src/reproduction", "examples"], ["programs", "smoke", "faults", "inputs"]),
     (["python"], ["python"]),
 ]
 PAGES = ["docs"]
+OF_SCRIPTS = {"must_not_compile", "faults", "inputs"}  # folders whose tests are not files of their own
 
 
 def layer_of(path):
@@ -67,7 +68,7 @@ def main():
     run = lambda *words: subprocess.run(["git", *words], cwd=root, capture_output=True, text=True, check=True).stdout
     paths = run("diff", "--name-only", sys.argv[1]).split() + run("ls-files", "--others", "--exclude-standard").split()
     folders = {str(file.parent.relative_to(root / "tests")) for kind in ("*_test.*", "test_*.py")
-               for file in (root / "tests").rglob(kind)}
+               for file in (root / "tests").rglob(kind)} | OF_SCRIPTS
     print("\n".join(reached(paths, folders)))
 
 
