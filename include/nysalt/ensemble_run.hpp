@@ -112,6 +112,11 @@ class ensemble_run {
   }
 
   std::int64_t step() const { return step_; }  ///< steps that every trajectory has done
+  /// The largest |H - H_0| of trajectory m at a check for divergence, since it began or was resumed.
+  double energy_error(std::int64_t m) const {
+    const std::int64_t at = m - first_;
+    return blocks_[static_cast<std::size_t>(at / width)]->energy_error(static_cast<int>(at % width));
+  }
   /// Step of divergence of trajectory m, if any.
   std::optional<std::int64_t> diverged_at(std::int64_t m) const {
     const std::int64_t at = m - first_;

@@ -43,9 +43,10 @@ struct flow_map_data {
   vector_list noise;
 
   /// Further states of the ensemble, beyond those that trajectories begin at, the most energetic of many
-  /// among them: at all ranks the same. They are where trial runs begin, and where frequencies are
-  /// estimated.
+  /// among them: at all ranks the same. They are where frequencies are estimated.
   phase_points further_starts;
+  /// Starts to judge methods on, see starts_to_judge(): at all ranks the same.
+  phase_points judged_starts;
 
   /// A few finishes again with the finer reference: {pair, finish}. They estimate the reference's own error.
   std::vector<std::pair<std::size_t, phase_point<double, Eigen::Dynamic>>> finer;

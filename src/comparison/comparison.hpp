@@ -35,7 +35,7 @@ struct row {
   double evaluations_per_time = 0.0;  // at their prices
   timed_job seconds_per_time{};
   std::vector<measurement> measurements{};  // by each metric
-  std::optional<double> margin{};           // linear, of the step; nothing for words that rotate
+  std::optional<judgement> judged{};        // at the step; nothing where it was not used
   std::optional<energy_course> energies{};
 };
 

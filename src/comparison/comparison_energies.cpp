@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
-// Stability in a report: the margin of each step, and energies and survivors along time.
+// Stability in a report: the judgement of each step, and energies and survivors along time.
 #include <algorithm>
 #include <cmath>
 
 #include "comparison.hpp"
 #include "nysalt/detail/served_letters.hpp"
 #include "sampled_run.hpp"
-#include "seeds.hpp"
-#include "stability.hpp"
-#include "stability_margin.hpp"
 
 namespace nysalt::program {
 
@@ -37,13 +34,11 @@ energy_course course_of(const std::vector<record>& all, double between) {
 
 }  // namespace
 
-/// At the frequencies for which `stability` judges a step.
 void comparison::judge_steps() {
-  constexpr std::uint64_t starts = 64;
-  const auto known = frequencies_along_starts(*system_, seed_for(role::test, common_.seed), starts);
   for (row& line : rows_) {
-    if (!has_windows(line.coefficients->letters())) continue;
-    line.margin = judge(*line.coefficients, chart_of(*line.coefficients), known, line.step).margin();
+    if (!line.coefficients) continue;
+    shown_.part(fmt::format("judging {} at step {:g}", line.method, line.nominal));
+    line.judged = system_->judged(*line.coefficients, line.step, common_.threads);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "stability_margin.hpp"
+#include "judging.hpp"
 
 namespace nysalt::program {
 
@@ -91,7 +91,7 @@ json fit_json(const fit_summary& fit) {
           {"rival", fit.rival.empty() ? json(nullptr) : json(fit.rival)},
           {"rival_loss", fit.rival.empty() ? json(nullptr) : json(fit.rival_loss)},
           {"rival_loss_noise", fit.rival.empty() ? json(nullptr) : json(fit.rival_noise)},
-          {"trial", to_json(fit.trial)},
+          {"judgement", to_json(fit.judgement)},
           {"reason", fit.usable ? json(nullptr) : json(fit.reason)},
           {"seconds", fit.data_seconds + fit.fit_seconds},
           {"data_seconds", fit.data_seconds},

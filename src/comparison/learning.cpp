@@ -13,7 +13,7 @@
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "seeds.hpp"
-#include "stability_margin.hpp"
+#include "judging.hpp"
 
 namespace nysalt {
 

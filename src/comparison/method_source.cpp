@@ -13,7 +13,6 @@
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "refusal.hpp"
-#include "stability_margin.hpp"
 
 namespace nysalt::program {
 
@@ -162,13 +161,12 @@ namespace {
 tabulated from_scheme(const method_source& source, const prepared_problem& system, double step, bool force) {
   tabulated method = with_letters_of(system, source.learned->at(step));
   if (source.learned->is_learned_at(step) || force) return method;
-  const std::string objection =
-      system.guard(method.letters()).objection(method.letters(), method.coefficients(), step);
-  if (!objection.empty()) {
+  const judgement& found = system.judged(method, step, 1);
+  if (!found.holds()) {
     refuse(
-        "{} must be stable between the steps for which it was learned, at {}: {}; learn it there, or take "
+        "{} must hold between the steps for which it was learned, at {}, got: {}; learn it there, or take "
         "--force",
-        source.typed, step, objection);
+        source.typed, step, found.in_words());
   }
   return method;
 }
@@ -183,15 +181,14 @@ void take_at_size(const method_source& source, const tabulated& method, const pr
     return;
   }
   system.require_served(method.letters());
-  const size_trial& tried = system.try_at_size(method, step);
-  if (!tried.passed()) {
+  const judgement& found = system.judged(method, step, 1);
+  if (!found.holds()) {
     refuse(
-        "{} must pass the trial for {}, as it was learned at another size, for {}: {}; learn it there, take "
-        "a smaller step, or take --force",
-        source.typed, system.description(), source.learned->system, tried.objection);
+        "{} must hold for {}, as it was learned at another size, for {}, got: {}; learn it there, take a "
+        "smaller step, or take --force",
+        source.typed, system.description(), source.learned->system, found.in_words());
   }
-  warnings.push_back(
-      fmt::format("{}; it passed the trial run for {}: {}", which, system.description(), tried.run.report()));
+  warnings.push_back(fmt::format("{}; for {} it was judged {}", which, system.description(), found.in_words()));
 }
 
 tabulated found_at(const method_source& source, const prepared_problem& system, double step, bool force,
@@ -264,12 +261,6 @@ tabulated coefficients_at(const method_source& source, const prepared_problem& s
       adapted_to_bath(source, found_at(source, system, step, force, warnings), system, otherwise, warnings);
   system.require_served(method.letters());
   system.require_sound_letters(source.typed, method.letters(), step);
-  // What was learned here and found usable was judged by the frequencies that are met often, and by a trial.
-  const bool was_judged =
-      source.learned && source.learned->usable && out_of_place(*source.learned, system, step).empty() &&
-      !(force && (is_of_other_size(*source.learned, system) || !source.learned->is_learned_at(step)));
-  if (was_judged) return method;
-  if (const auto text = instability(source.typed, method, system, step)) warnings.push_back(*text);
   return method;
 }
 

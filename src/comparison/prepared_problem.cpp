@@ -319,23 +319,18 @@ std::optional<stability_guard> prepared_problem::guard_of_parts(const run_time_w
   return std::nullopt;
 }
 
-trial_result prepared_problem::trial(const tabulated& method, const trajectories_plan& plan) const {
-  states_in_double states =
-      starts_ ? typical_and_energetic_starts(made_.system, *starts_, plan.seed, 0, plan.count)
-              : typical_and_energetic_starts(made_.system, made_.starts, plan.seed, 0, plan.count);
-  if (std::ssize(states) > plan.count) states.resize(static_cast<std::size_t>(plan.count));
-  return trial_run(made_.system, method, plan.step, repeated_in_bath(made_.system, states),
-                   {.steps = plan.steps,
-                    .seed = plan.seed,
-                    .threads = plan.threads,
-                    .watches_growth = guard_of_parts(method.letters()).has_value()});
-}
-
-const size_trial& prepared_problem::try_at_size(const tabulated& method, double step) const {
+const judgement& prepared_problem::judged(const tabulated& method, double step, int threads) const {
   const std::string key =
       fmt::format("{} {} {}", method.letters().letters(), fmt::join(method.coefficients(), " "), step);
-  if (const auto known = tried_.find(key); known != tried_.end()) return known->second;
-  return tried_.emplace(key, nysalt::try_at_size(made_.system, method, step, starts_or_law())).first->second;
+  if (const auto known = judged_.find(key); known != judged_.end()) return known->second;
+  constexpr std::size_t most = 16;  // a judge keeps its starts
+  if (judges_.size() == most) judges_.clear();
+  auto judge = judges_.find(step);
+  if (judge == judges_.end()) {
+    const phase_points starts = starts_to_judge(made_.system, starts_or_law());
+    judge = judges_.emplace(step, step_judge(made_.system, starts, step, {.threads = threads})).first;
+  }
+  return judged_.emplace(key, judge->second.of(method)).first->second;
 }
 
 int prepared_problem::derivative_calls() const { return made_.system.facts().derivative_calls; }

@@ -19,9 +19,9 @@
 #include "nysalt/analysis/gathered_statistics.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/bath.hpp"
-#include "nysalt/learning/at_other_size.hpp"
+#include "nysalt/judgement.hpp"
 #include "nysalt/system_declaration.hpp"
-#include "nysalt/trial_run.hpp"
+#include "nysalt/judgement.hpp"
 #include "plans.hpp"
 
 namespace nysalt {
@@ -107,12 +107,10 @@ class prepared_problem {
   /// The guard of a word with kicks of parts whose linearised motion can be computed; nothing of others, and
   /// of words without letters of one's own. Cost: that of guard().
   std::optional<stability_guard> guard_of_parts(const run_time_word& word) const;
-  /// Runs a method for long from as many starts as the plan says, 192 at most: typical ones, then energetic
-  /// ones. Of a word with kicks of parts it watches the growth of energy errors too.
-  trial_result trial(const tabulated& method, const trajectories_plan& plan) const;
-  /// Tries a method that was learned at another size, see nysalt::try_at_size(). Cost: of a method that was
-  /// tried before none.
-  const size_trial& try_at_size(const tabulated& method, double step) const;
+  /// The judgement of a method at a step, on starts of its own, see starts_to_judge(): equal for equal
+  /// coefficients, whatever the method is called and whichever command asks. Cost: that of step_judge::of();
+  /// of a method that was judged at the step before none.
+  const judgement& judged(const tabulated& method, double step, int threads) const;
   /// Throws refusal for a word that the system does not serve.
   void require_served(const run_time_word& word) const;
   /// Letters of one's own that the system has, by name.
@@ -190,7 +188,8 @@ class prepared_problem {
   std::optional<initial_states> starts_;
   mutable std::optional<std::vector<frequency_band>> bands_along_motion_;
   detail::named_letters letters_;
-  mutable std::map<std::string, size_trial> tried_;  // by letters, coefficients and step
+  mutable std::map<double, step_judge> judges_;      // by step
+  mutable std::map<std::string, judgement> judged_;  // by letters, coefficients and step
   mutable std::set<std::string> sound_;              // by letters and step
 };
 

@@ -28,6 +28,10 @@ std::string to_string(mark which) {
       return "formula";
     case mark::processed:
       return "processed";
+    case mark::edge:
+      return "edge";
+    case mark::loses:
+      return "loses";
     case mark::volume:
       return "volume";
     case mark::diverged:
@@ -60,6 +64,10 @@ std::string meaning(mark which) {
     case mark::volume:
       return "the method keeps volume and is reversible, but it is not symplectic: it is for sampling, and "
              "nothing bounds its energy over long runs";
+    case mark::edge:
+      return "the method at this step is near an edge: the judgement in the data says which";
+    case mark::loses:
+      return "the method loses trajectories in long runs at this step; the value is not ranked";
     case mark::diverged:
       return "some trajectories diverged; the value is of the others only, and is not ranked";
   }
@@ -143,6 +151,11 @@ std::vector<mark> marks_of(const comparison& all, std::size_t m, const row& line
   if (line.coefficients && !line.coefficients->letters().is_symplectic && !metric.is_acceptance()) {
     result.push_back(mark::volume);
   }
+  if (line.judged && !metric.is_acceptance()) {
+    if (line.judged->verdict == step_verdict::near_an_edge) result.push_back(mark::edge);
+    if (!line.judged->holds() && line.judged->verdict != step_verdict::not_tried)
+      result.push_back(mark::loses);
+  }
   if (one.diverged > 0 && !metric.is_acceptance()) result.push_back(mark::diverged);
   return result;
 }
@@ -152,7 +165,8 @@ bool is_known(const comparison& all, std::size_t m, const row& line) {
   if (!one.reason.empty() || std::isnan(one.value.mean)) return false;
   const auto marks = marks_of(all, m, line);
   return std::ranges::none_of(marks, [](mark found) {
-    return found == mark::reference || found == mark::horizon || found == mark::diverged;
+    return found == mark::reference || found == mark::horizon || found == mark::loses ||
+           found == mark::diverged;
   });
 }
 

@@ -22,6 +22,8 @@ enum class mark {
   formula,    // learned, but a classical method of its cost is as good by the loss
   processed,  // further observations cost evaluations that are not counted
   volume,     // the method is not symplectic
+  edge,       // judged near an edge
+  loses,      // judged to lose trajectories, or unstable
   diverged    // only of those trajectories that did not diverge (an acceptance is of all)
 };
 std::string to_string(mark which);

@@ -9,7 +9,6 @@
 #include "learning.hpp"
 #include "nysalt/analysis/tail.hpp"
 #include "seeds.hpp"
-#include "stability_margin.hpp"
 
 namespace nysalt::program {
 
@@ -149,25 +148,9 @@ void recommendation::confirm(contest& among, candidate& contender) {
   }
 }
 
-/// As `run` would warn, and `stability` call the step not stable.
 std::string recommendation::objection_to(const candidate& contender) const {
-  const auto [found, is_new] = objections_.try_emplace({contender.source.typed, contender.step});
-  if (!is_new) return found->second;
-  const auto& name = contender.source.typed;
-  if (const auto text = instability(name, *contender.method, *system_, contender.step)) {
-    found->second = *text;
-  } else if (const auto warning =
-                 stability_warning(name, *contender.method, *system_, contender.step,
-                                   static_cast<std::int64_t>(options_.horizon / contender.step),
-                                   seed_for(role::test, common_.seed))) {
-    found->second = *warning;
-  } else {
-    const auto trial = try_step(*contender.method, *system_, contender.step,
-                                seed_for(role::test, common_.seed), common_.threads);
-    const std::string why = trial.objection();
-    if (!why.empty()) found->second = fmt::format("at step {:g}: {}", contender.step, why);
-  }
-  return found->second;
+  const judgement& found = system_->judged(*contender.method, contender.step, common_.threads);
+  return found.holds() ? std::string() : fmt::format("at step {:g}: {}", contender.step, found.in_words());
 }
 
 error_statistic recommendation::statistic(bool by_quantiles) const {

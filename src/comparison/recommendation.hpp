@@ -112,7 +112,6 @@ class recommendation {
   bool searches_by_quantiles_ = false;                         // at one error
   std::optional<contest> by_evaluations_;                      // nothing: only seconds are asked for
   std::optional<contest> by_seconds_;
-  mutable std::map<std::pair<std::string, double>, std::string> objections_;  // by name and step
   std::vector<std::string> warnings_;
   progress shown_;
 };

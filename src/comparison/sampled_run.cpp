@@ -40,7 +40,7 @@ std::int64_t all_trajectories_of_rank(std::int64_t count, const communicator& ra
 
 /// With as many trajectories side by side as P has lanes. Rank 0 takes, and its plan says where to begin.
 template <class P>
-void run_in_batches(const initial_value_problem& made, const initial_states& starts, const tabulated& method,
+double run_in_batches(const initial_value_problem& made, const initial_states& starts, const tabulated& method,
                     const sampled_plan& plan, const record_taker& take, const counter& progress,
                     const communicator& ranks) {
   using states = phase_point<P, Eigen::Dynamic>;
@@ -62,6 +62,7 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
   const std::int64_t at_a_time = trajectories_at_a_time(numbers, lanes_in<P>, ranks.sum(all.threads));
   std::int64_t first = plan.from.first;
   std::int64_t under_way = std::ssize(plan.from.batch.diverged_at);
+  double energy_error = 0.0;
   broadcast(ranks, first);
   broadcast(ranks, under_way);
   while (first < all.count) {
@@ -106,13 +107,17 @@ void run_in_batches(const initial_value_problem& made, const initial_states& sta
       const run_progress at{first, shared.gather(runs ? runs->save() : saved_runs())};
       report_reached(plan, at, ranks);
     }
+    for (std::int64_t m = shared.first(); m < shared.first() + shared.count(); ++m) {
+      if (!runs->diverged_at(m)) energy_error = std::max(energy_error, runs->energy_error(m));
+    }
     first += count;
     under_way = 0;
     if (plan.segment) report_reached(plan, {first, {}}, ranks);
   }
+  return std::ranges::max(all_gather(ranks, energy_error));
 }
 
-void run_from(const initial_states& starts, const initial_value_problem& made, const tabulated& method,
+double run_from(const initial_states& starts, const initial_value_problem& made, const tabulated& method,
               const sampled_plan& plan, const record_taker& take, const counter& progress) {
   // Where some ranks would have no trajectory, all share the sites of each.
   if (plan.trajectories.count < all_ranks().size() &&
@@ -122,9 +127,9 @@ void run_from(const initial_states& starts, const initial_value_problem& made, c
   // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
   const bool fills_lanes = plan.trajectories.count >= default_lanes / 4 && size(made.system) <= 20'000;
   if (!fills_lanes || !made.system.facts().in_lanes) {
-    run_in_batches<double>(made, starts, method, plan, take, progress, all_ranks());
+    return run_in_batches<double>(made, starts, method, plan, take, progress, all_ranks());
   } else {
-    run_in_batches<nysalt::detail::lanes>(made, starts, method, plan, take, progress, all_ranks());
+    return run_in_batches<nysalt::detail::lanes>(made, starts, method, plan, take, progress, all_ranks());
   }
 }
 
@@ -138,9 +143,9 @@ void report_reached(const sampled_plan& plan, const run_progress& at, const comm
   if (signal != 0) throw interrupted(signal);
 }
 
-void run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
-         const record_taker& take, const counter& progress) {
-  run_from(system.prepared_starts(), system.definition(), method, plan, take, progress);
+double run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
+           const record_taker& take, const counter& progress) {
+  return run_from(system.prepared_starts(), system.definition(), method, plan, take, progress);
 }
 
 void integrate(const prepared_problem& system, const tabulated& method, const trajectories_plan& plan,

@@ -71,9 +71,10 @@ inline std::int64_t end_of_segment(std::int64_t step, std::int64_t steps, std::o
 /// segment by segment, and in a segment in the order of the trajectories. A segment ends at the first
 /// multiple of 64 at or beyond each multiple of `segment`: divergence is checked there anyway, so that
 /// cutting changes nothing in the run. Rank 0's plan says where to begin. Progress is reported in
-/// thousandths. Collective.
-void run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
-         const record_taker& take, const counter& progress);
+/// thousandths. Returns the largest |H - H_0| of all trajectories that did not diverge, at checks for divergence
+/// since the run began or was resumed. Collective.
+double run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
+           const record_taker& take, const counter& progress);
 
 /// Takes given states, instead of starts, to the end of a plan: each of dimension() numbers, one trajectory
 /// after the other. With the bits of run(); where that is lost all of q and p become NaN. Throws refusal for

@@ -105,6 +105,8 @@ class shared_trajectory {
 
   std::int64_t step() const { return run_.step(); }
   std::optional<std::int64_t> diverged_at() const { return diverged_at_; }
+  /// The largest |H - H_0| at a check, as far as ranks can sum it.
+  double energy_error() const { return energy_error_; }
 
   /// q, p and f of the open run at rank 0, elsewhere nothing. f is the force at q, which is what words keep
   /// that keep one.
@@ -154,9 +156,10 @@ class shared_trajectory {
   /// What `divergence` says of the whole state. The sum of the ranks' energies decides where it is off by
   /// less than .999 of what is allowed, as it differs from the energy of the whole state by rounding; where
   /// it does not decide, rank 0 does with the whole state.
-  bool has_diverged() const {
+  bool has_diverged() {
     if (has_energy_ && run_.is_finite()) {
       const double change = std::abs(run_.energy() - initial_);
+      energy_error_ = std::max(energy_error_, change);
       if (change <= 0.999 * diverged_.largest_change()) return false;
     } else if (!has_energy(*system_)) {
       return !run_.is_finite();
@@ -182,12 +185,13 @@ class shared_trajectory {
   divergence<model, double> diverged_;
   bool has_energy_;  // that ranks can sum
   double initial_;   // the sum of the ranks
+  double energy_error_ = 0.0;
   std::optional<std::int64_t> diverged_at_;
 };
 
 }  // namespace
 
-void run_on_shared_sites(const initial_value_problem& made, const initial_states& starts,
+double run_on_shared_sites(const initial_value_problem& made, const initial_states& starts,
                          const tabulated& method, const sampled_plan& plan, const record_taker& take,
                          const counter& progress, const communicator& ranks) {
   const trajectories_plan& all = plan.trajectories;
@@ -203,6 +207,7 @@ void run_on_shared_sites(const initial_value_problem& made, const initial_states
   std::int64_t first = plan.from.first;
   std::int64_t under_way = std::ssize(saved.diverged_at);
   for (std::int64_t* number : {&first, &under_way, &saved.step}) broadcast(ranks, *number);
+  double energy_error = 0.0;
   while (first < all.count) {
     const std::int64_t count = under_way > 0 ? under_way : all.count - first;
     std::vector<shared_trajectory> runs;
@@ -254,10 +259,14 @@ void run_on_shared_sites(const initial_value_problem& made, const initial_states
       }
       report_reached(plan, {first, std::move(here)}, ranks);
     }
+    for (const auto& one : runs) {
+      if (!one.diverged_at()) energy_error = std::max(energy_error, one.energy_error());
+    }
     first += count;
     under_way = 0;
     if (plan.segment) report_reached(plan, {first, {}}, ranks);
   }
+  return energy_error;
 }
 
 }  // namespace nysalt::program

@@ -12,7 +12,7 @@ namespace nysalt::program {
 /// can_be_distributed() is true. Memory: on each rank one whole start and a share of each
 /// trajectory; on rank 0 also the state of a sample, and at a checkpoint the states of all trajectories.
 /// Collective.
-void run_on_shared_sites(const initial_value_problem& made, const initial_states& starts,
+double run_on_shared_sites(const initial_value_problem& made, const initial_states& starts,
                          const tabulated& method, const sampled_plan& plan, const record_taker& take,
                          const counter& progress, const communicator& ranks);
 

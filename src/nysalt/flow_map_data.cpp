@@ -16,6 +16,7 @@
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/ensembles/typical_and_energetic.hpp"
+#include "nysalt/judgement.hpp"
 
 namespace nysalt {
 
@@ -246,6 +247,7 @@ flow_map_data make_flow_map_data(const model& system, const initial_states& ense
   });
   add_up(data);
   data.further_starts = find_further_starts(system, ensemble, options);
+  data.judged_starts = starts_to_judge(system, ensemble);
   if (options.ranks->is_single()) data.shared.reset();
   data.step = options.step;
   data.system = describe(system);
@@ -286,6 +288,7 @@ void extend_data(const model& system, const initial_states& ensemble,
     data.energies->include(further.energies->high);
   }
   data.further_starts = find_further_starts(system, ensemble, options);
+  data.judged_starts = starts_to_judge(system, ensemble);
   data.evaluations += further.evaluations;
   data.shared.reset();
   if (!all.ranks().is_single()) {

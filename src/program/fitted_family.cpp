@@ -52,7 +52,6 @@ json document_of(const learned_scheme& learned, const prepared_problem& system,
   result["guard"] = fit.guard;
   result["held_by_guard"] = fit.is_held_by_guard;
   result["unguarded"] = fit.unguarded.empty() ? json(nullptr) : json(fit.unguarded);
-  if (!fit.resonance.empty()) result["resonance"] = fit.resonance;
   result["gaps"] = json::array();
   for (const auto& [low, high] : fit.gaps) result["gaps"].push_back({low, high});
   result["starts"] = fit.ensemble;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "comparison/judging.hpp"
 #include "comparison_report.hpp"
 #include "comparison_tables.hpp"
 
@@ -34,7 +35,7 @@ json row_json(const comparison& all, std::size_t m, const row& line) {
               {"survivors", all.options().trajectories - one.diverged},
               {"diverged", one.diverged},
               {"diverged_at", to_json(one.diverged_at)},
-              {"stability_margin", number(line.margin)},
+              {"judgement", line.judged ? to_json(*line.judged) : json(nullptr)},
               {"reference_error", metric.is_of_law() ? json(nullptr) : number(against.reference_error)},
               {"marks", marks}};
   if (!one.reason.empty()) result["reason"] = one.reason;
@@ -203,7 +204,7 @@ std::string csv_of(const comparison& all) {
                 "median_standard_error",
                 "deciding",
                 "enough_trajectories",
-                "stability_margin"});
+                "verdict"});
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     for (const row& line : all.rows()) {
       const measurement& one = line.measurements[m];
@@ -235,7 +236,7 @@ std::string csv_of(const comparison& all) {
                   in_full(spread.median.standard_error),
                   in_full(spread.largest.deciding),
                   one.spread ? in_full(spread.largest.enough()) : std::string(),
-                  in_full(line.margin)});
+                  line.judged ? std::string(to_string(line.judged->verdict)) : std::string()});
     }
   }
   return result.csv();

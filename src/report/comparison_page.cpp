@@ -313,8 +313,7 @@ page report_of(const comparison& all) {
           all.horizon()),
       "learning repaid after: the time of one trajectory in which as many evaluations are saved as the "
       "most expensive fit of the method took, against the cheapest of the others at the same error",
-      "margin: how far the step is, linearly, from the end of its stability window at the highest frequency "
-      "that the starts are known to meet, as a share of the window; `-` for words with rotations",
+      "verdict: what happens to the method at the step in a long trial of its own; the data have it in full",
       fmt::format("peak memory {} MB", (peak_memory() + 500'000) / 1'000'000),
       fmt::format("nysalt {}, {}, {}, {:%Y-%m-%d}", version, compiler, machine(),
                   fmt::gmtime(std::time(nullptr)))};

@@ -47,10 +47,6 @@ std::string plain_verdict(const comparison& all, std::size_t m) {
 namespace {
 
 std::string in_short(double x) { return std::isfinite(x) ? fmt::format("{:.2e}", x) : std::string("-"); }
-std::string text_of_margin(const std::optional<double>& margin) {
-  if (!margin) return "-";
-  return *margin < 0.0 ? "unstable" : fmt::format("{:.0f} %", 100.0 * *margin);
-}
 
 }  // namespace
 
@@ -69,7 +65,7 @@ table rows_of(const comparison& all, std::size_t m) {
                                  "median +", metric.value(), "standard error"};
   const bool has_spread = metric.is_along_paths();
   if (has_spread) names.insert(names.end(), {"median error", "5 % to 95 %"});
-  names.insert(names.end(), {"diverged", "margin", "marks"});
+  names.insert(names.end(), {"diverged", "verdict", "marks"});
   table result(names);
   const auto shown = [&](double x) {
     return metric.is_acceptance() && std::isfinite(x) ? fmt::format("{:.4f}", x) : in_short(x);
@@ -93,7 +89,7 @@ table rows_of(const comparison& all, std::size_t m) {
                                : "-");
     }
     cells.push_back(fmt::format("{}/{}", one.diverged, all.options().trajectories));
-    cells.push_back(text_of_margin(line.margin));
+    cells.push_back(line.judged ? std::string(to_string(line.judged->verdict)) : std::string("-"));
     cells.push_back(joined_marks(all, m, line));
     result.add(cells);
   }
@@ -123,7 +119,7 @@ std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, 
 std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t m) {
   std::vector<std::string> result;
   for (const mark one : {mark::reference, mark::null, mark::floor, mark::horizon, mark::tail, mark::formula,
-                         mark::processed, mark::volume, mark::diverged}) {
+                         mark::processed, mark::volume, mark::edge, mark::loses, mark::diverged}) {
     const bool is_there = std::ranges::any_of(
         all.rows(), [&](const row& line) { return std::ranges::count(marks_of(all, m, line), one) > 0; });
     if (is_there) result.push_back(fmt::format("`{}`: {}", to_string(one), meaning(one)));

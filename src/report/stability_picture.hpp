@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "comparison/stability_margin.hpp"
+#include "comparison/stability.hpp"
 #include "figure.hpp"
 
 namespace nysalt::program {

@@ -22,36 +22,47 @@ struct diverged_trajectory {
   std::int64_t step = 0;        ///< the first bad one
 };
 
-/// Detects divergence: not finite, or |H - H_0| > 1e3 max(|H_0|, N kT, 1). Without an energy only the
-/// first, and likewise in a bath that heats without end (noise, but no friction).
-/// Over packs lane by lane.
+/// Detects divergence: not finite, or |H - H_0| > 1e3 max(|H_0|, K_0, N kT), K_0 the kinetic energy at the
+/// start. Without an energy only the first, and likewise where these are all 0, and in a bath that heats
+/// without end (noise, but no friction). Over packs lane by lane.
 template <System S, Scalar T = double>
 class divergence {
  public:
   using state = phase_point<T, S::dimension>;  ///< over double, or over packs
 
-  /// For trajectories that begin at `start`, where H_0 is taken. Refers to the system. Cost: one energy,
+  /// For trajectories that begin at `start`, where H_0 is taken. Refers to the system. Cost: two energies,
   /// where there is one.
   divergence(const S& system, const state& start) : system_(&system) {
     if constexpr (HasEnergy<S>) {
       if (!has_energy(system)) return;
       initial_ = energy_in_lanes<T>(system, start);
-      const T size = magnitude(initial_);
+      state at_rest = start;
+      for (T& p : at_rest.p) p = T(0.0);
+      const T kinetic = magnitude(initial_ - energy_in_lanes<T>(system, at_rest));
+      T size = magnitude(initial_);
+      size = select(kinetic > size, kinetic, size);
       const double least = energy_of_bath(system);
-      most_ = 1e3 * select(size > least, size, T(least));
+      size = select(size > least, size, T(least));
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      most_ = 1e3 * select(size > 0.0, size, T(infinity));
     }
   }
 
   /// The largest |H - H_0| that is no divergence.
   const T& largest_change() const { return most_; }
 
+  /// The largest |H - H_0| of the states that were checked and are finite; 0 without an energy.
+  const T& largest_seen() const { return largest_; }
+
   /// Whether x has run away: a bool, or a mask of lanes. Cost: one energy.
-  condition_of<T> operator()(const state& x) const {
+  condition_of<T> operator()(const state& x) {
     condition_of<T> sound = is_finite(x);
     if constexpr (HasEnergy<S>) {
       if (has_energy(*system_)) {
         const T change = energy_in_lanes<T>(*system_, x) - initial_;
         sound = both(sound, both(change <= most_, change >= -most_));
+        const T size = magnitude(change);
+        largest_ = select(size > largest_, size, largest_);
       }
     }
     return !sound;
@@ -61,11 +72,11 @@ class divergence {
   static double energy_of_bath(const S& system) {
     if constexpr (HasBath<S>) {
       const bath& heat_bath = system.bath();
-      if (!heat_bath.acts()) return 1.0;
+      if (!heat_bath.acts()) return 0.0;
       if (!heat_bath.has_temperature()) return std::numeric_limits<double>::infinity();
-      return std::max(1.0, heat_bath.temperature() * static_cast<double>(size(system)));
+      return heat_bath.temperature() * static_cast<double>(size(system));
     }
-    return 1.0;
+    return 0.0;
   }
   static T magnitude(const T& x) {
     using std::abs;
@@ -74,6 +85,7 @@ class divergence {
   const S* system_;
   T initial_{};
   T most_{};
+  T largest_{};
 };
 
 }  // namespace nysalt

@@ -91,6 +91,8 @@ class lockstep {
   /// first bad state.
   state synchronous() const { return stepper_->synchronous(run_); }
   const condition& live() const { return live_; }  ///< those that go on
+  /// The largest |H - H_0| that was seen of lane k at a check, since the run began or was resumed.
+  double energy_error(int k) const { return lane(diverged_.largest_seen(), k); }
   /// The step at which lane k diverged; nothing while it goes on.
   std::optional<std::int64_t> diverged_at(int k) const { return diverged_at_[k]; }
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nysalt/trial_run.hpp"
+#include "nysalt/judgement.hpp"
 
 namespace nysalt {
 
@@ -85,17 +85,16 @@ struct fit_summary {
     double high;  ///< upper end of the stability interval
   };
   std::vector<gap> gaps;           ///< unstable intervals of z between the bands
-  std::string resonance;           ///< resonance near the step, where planned runs are long; empty: none
   double one_step_error = 0.0;     ///< root of the one-step loss on held-out data
   double trajectory_error = 0.0;   ///< error at the end of the held-out trajectories
   double reference_error = 0.0;    ///< error of the reference, in the measure of one_step_error
   bool reference_checked = false;  ///< false: the data hold no finishes by a finer reference
 
-  trial_result trial{};  ///< trial run of the returned parameters, from held-out and further starts
+  nysalt::judgement judgement{};  ///< judgement of the returned parameters at the step
   double highest_frequency =
       0.0;  ///< highest frequency along the states that the guard examined; 0: not known
   /// The classical method of the same cost with the least held-out loss, of those that the system serves; if
-  /// nothing is gained over it, it withstands a trial run. Empty if there is none.
+  /// nothing is gained over it, it holds at the step. Empty if there is none.
   std::string rival;
   double rival_loss = 0.0;     ///< held-out loss of the rival
   double rival_noise = 0.0;    ///< standard error of the difference to held_out_loss

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "nysalt/judgement.hpp"
 #include "nysalt/learning/curvature.hpp"
 #include "nysalt/learning/fit_summary.hpp"
 #include "nysalt/learning/search.hpp"
@@ -17,7 +18,6 @@
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/run_time_family.hpp"
-#include "nysalt/trial_run.hpp"
 
 namespace nysalt {
 
@@ -38,7 +38,7 @@ struct fit_options {
   nysalt::effort effort = nysalt::effort::normal;  ///< effort of a search in stages
   std::vector<std::optional<double>> fixed{};      ///< a value for each parameter that is not to be learned
   bool guarded = true;  ///< false: an unstable optimum is found, and said not to be usable
-  /// The largest number of steps of a run with the method: the length of a trial run, and the steps, up to
+  /// The largest number of steps of a run with the method: the length of its trial, and the steps, up to
   /// 10,000, over which the guard examines growth. A proposal of Hybrid Monte Carlo takes few.
   std::int64_t planned_steps = 20'000;
   bool check_force = true;   ///< whether learn() checks the force first
@@ -51,7 +51,7 @@ struct fit_options {
 struct rival_method {
   std::string name;                     ///< name of the rival
   std::vector<double> held_out_losses;  ///< contribution of each held-out trajectory of this rank to the loss
-  std::function<trial_result(std::int64_t trajectories, std::int64_t steps)> trial;  ///< runs it
+  tabulated method;                     ///< word and coefficients
 };
 
 /// The problem that learn() makes of system and data, and solve() solves. Refers to the system. Where ranks
@@ -81,15 +81,8 @@ struct learning_problem {
   /// is not one of trajectories.
   std::function<bool(const Eigen::VectorXd&)> follows{};
   std::shared_ptr<learning_problem> shorter{};  ///< problem over a quarter of the steps; null: none
-  std::int64_t trial_evaluations =
-      0;  ///< smallest budget of force evaluations of a trial run, for any cost of the fit
-  std::int64_t trial_starts = 0;  ///< number of starts of a trial run
-  std::int64_t trial_trajectories =
-      64;  ///< sufficient number of trajectories; more in a bath, where energy is not conserved
-  /// Runs the word with these coefficients from the first of these starts.
-  std::function<trial_result(const std::vector<double>& coefficients, std::int64_t trajectories,
-                             std::int64_t steps)>
-      trial;
+  /// Judges the family's word with these coefficients, or another, at the step; made when first asked.
+  std::function<judgement(const tabulated&)> judged;
   /// The contribution of each held-out trajectory of this rank to the loss of another method, with the
   /// letters O of the family's word; nothing if the system does not serve its letters.
   std::function<std::optional<rival_method>(const tabulated&)> rival;

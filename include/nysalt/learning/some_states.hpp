@@ -26,9 +26,7 @@ struct states_of_data {
 /// further starts. Cost: two evaluations a pair.
 states_of_data some_states(const model& system, const flow_map_data& data);
 
-/// Initial states of trial runs: up to 64 states of held-out data and the further starts of both sets;
-/// energetic ones, which are the last of the further starts, in turn with the others as long as there are
-/// some.
-phase_points starts_of_trial(const model& system, const flow_map_data& data, const flow_map_data& held_out);
+/// Starts to judge methods on: those of the data, or if they have none up to 512 states of held-out data.
+phase_points judged_starts_of(const model& system, const flow_map_data& data, const flow_map_data& held_out);
 
 }  // namespace nysalt

@@ -108,13 +108,14 @@ std::string fit_summary::full() const {
                              : is_in_valley   ? ", in a valley of parameters that do as well"
                                               : ""));
   line("stability", guard);
-  line("trial run", trial.report());
+  line("judgement", judgement.in_words());
+  line("trial", judgement.report());
   if (!unguarded.empty()) line("without the guard", unguarded);
   for (const auto& [low, high] : gaps) {
     line("gap",
          fmt::format("unstable for z = {:.4g} to {:.4g}, which the motion meets rarely or never", low, high));
   }
-  if (!resonance.empty()) line("resonance", resonance);
+  if (!judgement.resonance.empty()) line("resonance", judgement.resonance);
   line("one-step error",
        fmt::format("{:.3e}, the reference's own {}", one_step_error,
                    reference_checked ? fmt::format("{:.3e}", reference_error) : "not measured"));

@@ -111,36 +111,23 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
                            .loss_at_end = at_end.value,
                            .judge = {},
                            .evaluations = {},
-                           .trial = {},
+                           .judged = {},
                            .rival = {},
                            .guard = guard_along(system, data, held_out, family.letters, options),
                            .facts = {}};
-  auto starts = std::make_shared<const phase_points>(starts_of_trial(system, data, held_out));
-  problem.trial_starts = static_cast<std::int64_t>(starts->size());
-  constexpr std::int64_t in_bath = 192;
-  if (system.bath().acts()) problem.trial_trajectories = in_bath;
-  // Some tenths of a second in lanes. What a black box costs is not known.
-  constexpr std::int64_t coordinates_at_once = 400'000'000;
   problem.is_of_black_box = is_black_box(system);
   problem.is_in_bath = system.bath().acts();
-  if (!problem.is_of_black_box) problem.trial_evaluations = coordinates_at_once / size(system);
   if (has_modes(system)) problem.frequency_to_fit = detail::frequency_to_fit(system);
-  const auto run = [system = system, starts, step = data.step, seed = held_out.seed,
-                    threads = options.threads, of_parts = problem.guard.parts() != nullptr](
-                       const run_time_word& letters, const std::vector<double>& coefficients,
-                       std::int64_t trajectories, std::int64_t steps) {
-    phase_points first;
-    for (std::int64_t k = 0; k < trajectories; ++k) first.push_back((*starts)[static_cast<std::size_t>(k)]);
-    const tabulated method("trial", letters, coefficients, {1, false, false});
-    return trial_run(system, method, step, first,
-                     {.steps = steps, .seed = seed, .threads = threads, .watches_growth = of_parts});
-  };
-  problem.trial = [run, letters = family.letters](const std::vector<double>& coefficients,
-                                                  std::int64_t trajectories, std::int64_t steps) {
-    return run(letters, coefficients, trajectories, steps);
+  problem.judged = [system = system, starts = judged_starts_of(system, data, held_out), step = data.step,
+                    how = judging_options{.steps = options.planned_steps,
+                                          .threads = options.threads,
+                                          .watches_energy = other != nullptr || !kind.is_of_proposals},
+                    made = std::make_shared<std::optional<step_judge>>()](const tabulated& method) {
+    if (!*made) made->emplace(system, starts, step, how);
+    return (*made)->of(method);
   };
   const auto place = placement_in(family.letters);
-  const detail::rivals_by rival = [system = system, family = family, place, in_lanes = in_lanes, run](
+  const detail::rivals_by rival = [system = system, family = family, place, in_lanes = in_lanes](
                                       const tabulated& method,
                                       const detail::data_loss& held) -> std::optional<rival_method> {
     if (method.requires_quadratic_kinetic && !has_quadratic_kinetic(system)) return std::nullopt;
@@ -155,15 +142,8 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
     } catch (const std::invalid_argument&) {
       return std::nullopt;
     }
-    const auto coefficients = as_family.coefficients({});
-    rival_method result;
-    result.name = method.name();
-    result.held_out_losses = held.by_trajectory_of(as_family);
-    result.trial = [run, letters = as_family.letters, coefficients](std::int64_t trajectories,
-                                                                    std::int64_t n) {
-      return run(letters, coefficients, trajectories, n);
-    };
-    return result;
+    return rival_method{method.name(), held.by_trajectory_of(as_family),
+                        {method.name(), as_family.letters, as_family.coefficients({}), method}};
   };
   fit_summary& facts = problem.facts;
   facts.family = family.name;

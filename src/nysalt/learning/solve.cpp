@@ -14,8 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "length_of_trial.hpp"
-#include "nysalt/derivatives/near_resonance.hpp"
 #include "nysalt/detail/collectively.hpp"
 #include "nysalt/families/phase_fitted_start.hpp"
 #include "nysalt/learning/objection.hpp"
@@ -28,13 +26,11 @@ namespace nysalt {
 using detail::contender;
 using detail::fix;
 using detail::is_better;
-using detail::length_of_trial;
 using detail::noise_of_difference;
 using detail::objection;
 using detail::options_within;
 using detail::starts_of;
 using detail::summarise_rival;
-using detail::trial_length;
 using detail::within;
 
 namespace {
@@ -50,13 +46,6 @@ std::optional<named_parameters> phase_fitted_member(const learning_problem& prob
   const double z = problem.step * highest;
   if (!(z > 0.0) || !std::isfinite(z)) return std::nullopt;
   return phase_fitted_start(problem.family, z);
-}
-
-/// Whether a trial run shows what rare frequencies do to a method: it is long enough to meet states many
-/// times over that are one in a thousand.
-bool shows_rare_states(const trial_result& trial) {
-  constexpr std::int64_t many_steps = 100'000;
-  return trial.passed() && trial.kept() * trial.steps >= many_steps;
 }
 
 /// The best member of the family that this one contains: what is learned is no worse than what fewer
@@ -129,34 +118,17 @@ attempt solve_as_it_is(const learning_problem& problem) {
   const auto objection_of_guard = [&](const Eigen::VectorXd& theta, met which) {
     return problem.guard.objection(family.letters, family.coefficients(theta), problem.step, which);
   };
-  // The same for all that are tried.
-  std::optional<trial_length> length;
-  const auto run_for_trial = [&](const auto& run) {
-    if (!length) length = length_of_trial(problem);
-    if (length->not_run.empty()) return trial_result(run(length->trajectories, length->steps));
-    trial_result result;
-    result.not_run = length->not_run;
-    return result;
+  const auto method_at = [&](const Eigen::VectorXd& theta) {
+    return tabulated(family.name, family.letters, family.coefficients(theta), {1, false, false});
   };
-  std::vector<std::pair<Eigen::VectorXd, trial_result>> tried;
-  const auto trial_of = [&](const Eigen::VectorXd& theta) {
+  std::vector<std::pair<Eigen::VectorXd, judgement>> tried;
+  const auto judged_at = [&](const Eigen::VectorXd& theta) {
     const auto known = std::ranges::find_if(tried, [&](const auto& one) { return one.first == theta; });
     if (known != tried.end()) return known->second;
-    const auto coefficients = family.coefficients(theta);
-    tried.emplace_back(theta, run_for_trial([&](std::int64_t trajectories, std::int64_t steps) {
-                         return problem.trial(coefficients, trajectories, steps);
-                       }));
+    tried.emplace_back(theta, problem.judged(method_at(theta)));
     return tried.back().second;
   };
-  // Where no trial can decide, the guard has the last word on all frequencies that were met.
-  const auto instability_of = [&](const Eigen::VectorXd& theta, const trial_result& trial) {
-    if (std::string linear = objection_of_guard(theta, met::often); !linear.empty()) return linear;
-    if (std::string failed = trial.objection(); !failed.empty()) return failed;
-    return shows_rare_states(trial) ? std::string() : objection_of_guard(theta, met::ever);
-  };
-  const auto withstands = [&](const Eigen::VectorXd& theta) {
-    return instability_of(theta, trial_of(theta)).empty();
-  };
+  const auto withstands = [&](const Eigen::VectorXd& theta) { return judged_at(theta).holds(); };
   search_task task{.family = &problem.family,
                    .loss = problem.loss,
                    .stages = problem.stages,
@@ -247,7 +219,10 @@ attempt solve_as_it_is(const learning_problem& problem) {
   summary.highest_frequency = problem.guard.highest_along();
   if (found.unguarded) {
     summary.unguarded = objection_of_guard(found.unguarded->theta, met::often);
-    if (summary.unguarded.empty()) summary.unguarded = trial_of(found.unguarded->theta).objection();
+    if (summary.unguarded.empty()) {
+      const judgement of_unguarded = judged_at(found.unguarded->theta);
+      if (!of_unguarded.holds()) summary.unguarded = of_unguarded.reason;
+    }
     if (summary.unguarded.empty()) summary.unguarded = objection_of_guard(found.unguarded->theta, met::ever);
   }
 
@@ -275,8 +250,8 @@ attempt solve_as_it_is(const learning_problem& problem) {
     const bool is_held_there = std::find(best.free.begin(), best.free.end(), k) == best.free.end();
     if (is_held_there && std::abs(theta[k]) == farthest_parameter) summary.is_at_no_bound = false;
   }
-  summary.trial = trial_of(theta);
-  const std::string instability = instability_of(theta, summary.trial);
+  summary.judgement = judged_at(theta);
+  const std::string instability = summary.judgement.holds() ? std::string() : summary.judgement.in_words();
   if (instability.empty()) {
     for (const auto& [low, high] :
          problem.guard.gaps(family.letters, family.coefficients(theta), problem.step)) {
@@ -284,16 +259,10 @@ attempt solve_as_it_is(const learning_problem& problem) {
     }
   }
 
-  if (options.planned_steps > long_run && !problem.is_in_bath && !family.letters.has_own_letters()) {
-    const auto near = near_resonance(family.letters, family.coefficients(theta),
-                                     problem.guard.frequencies(met::often), problem.step);
-    if (near) summary.resonance = in_words(*near);
-  }
-
   if (contained) {  // what is learned, too, and no rival of it
     std::erase_if(members, [&](const contender& one) { return one.name == contained->name; });
   }
-  if (has_data) summarise_rival(problem, chosen, std::move(members), run_for_trial, summary);
+  if (has_data) summarise_rival(problem, chosen, std::move(members), summary);
   summary.reason = objection(summary, best.converged || best.in_valley || best.is_held, instability);
   summary.usable = summary.reason.empty();
   summary.learning_evaluations = problem.evaluations();

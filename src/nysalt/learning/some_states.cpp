@@ -9,7 +9,6 @@
 
 #include "nysalt/derivatives/force_jacobian.hpp"
 #include "nysalt/ensembles/typical_and_energetic.hpp"
-#include "nysalt/trial_run.hpp"
 
 namespace nysalt {
 
@@ -100,25 +99,16 @@ states_of_data some_states(const model& system, const flow_map_data& data) {
   return {std::move(result), typical};
 }
 
-phase_points starts_of_trial(const model& system, const flow_map_data& data, const flow_map_data& held_out) {
-  constexpr std::size_t most = 64;
+phase_points judged_starts_of(const model& system, const flow_map_data& data, const flow_map_data& held_out) {
+  if (!data.judged_starts.empty()) return data.judged_starts;
+  constexpr std::size_t most = 512;
   const auto trajectories = static_cast<std::size_t>(held_out.share().total());
   std::vector<std::size_t> pairs;
   for (const std::size_t m : detail::spread_pairs(trajectories, most)) {
     // The first pair of a trajectory, where all are of one length; else a state of the same motion.
     pairs.push_back(m * (held_out.all_pairs() / trajectories));
   }
-  auto plain = starts_of(held_out, size(system), pairs);
-  phase_points energetic;
-  for (const auto* of : {&held_out.further_starts, &data.further_starts}) {
-    for (std::size_t k = 0; k < of->size(); ++k) (k < plain_starts ? plain : energetic).push_back((*of)[k]);
-  }
-  phase_points result;
-  for (std::size_t k = 0; k < std::max(plain.size(), energetic.size()); ++k) {
-    if (k < energetic.size()) result.push_back(energetic[k]);
-    if (k < plain.size()) result.push_back(plain[k]);
-  }
-  return repeated_in_bath(system, std::move(result));
+  return starts_of(held_out, size(system), pairs);
 }
 
 }  // namespace nysalt

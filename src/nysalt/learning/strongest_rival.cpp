@@ -17,7 +17,7 @@ bool is_better(const contender& a, const contender& b, const shard& share) {
 }
 
 void summarise_rival(const learning_problem& problem, const contender& chosen, std::vector<contender> rivals,
-                     const run_for_trial& run, fit_summary& summary) {
+                     fit_summary& summary) {
   const run_time_family& family = problem.family;
   const shard& share = problem.held_out;
   std::vector<std::optional<rival_method>> methods;
@@ -33,8 +33,7 @@ void summarise_rival(const learning_problem& problem, const contender& chosen, s
     if (!known) continue;
     contender one{known->name, known->held_out_losses};
     one.loss = share.sum(one.losses);
-    // Where no trial is run nothing is against it.
-    one.withstands = [&run, trial = known->trial] { return run(trial).objection().empty(); };
+    one.withstands = [&problem, method = known->method] { return problem.judged(method).holds(); };
     rivals.push_back(std::move(one));
   }
   std::erase_if(rivals, [](const auto& one) { return !std::isfinite(one.loss); });

@@ -26,13 +26,9 @@ struct contender {
 /// than rounding: losses below 1e-24 are errors of 1e-12 of an increment.
 bool is_better(const contender& a, const contender& b, const shard& share);
 
-/// Runs of as many trajectories and steps as a trial takes, or what was not run and why.
-using run_for_trial = std::function<trial_result(
-    const std::function<trial_result(std::int64_t trajectories, std::int64_t steps)>&)>;
-
-/// The strongest rival of the same cost, of `rivals` and the classical methods that withstand a trial run:
+/// The strongest rival of the same cost, of `rivals` and the classical methods that hold at the step:
 /// puts into the summary who it is, and whether `chosen` beats it.
 void summarise_rival(const learning_problem& problem, const contender& chosen, std::vector<contender> rivals,
-                     const run_for_trial& run, fit_summary& summary);
+                     fit_summary& summary);
 
 }  // namespace nysalt::detail

@@ -12,6 +12,7 @@
 #include "../output.hpp"
 #include "comparison/checks.hpp"
 #include "comparison/interruption.hpp"
+#include "comparison/judging.hpp"
 #include "comparison/learning.hpp"
 #include "comparison/progress.hpp"
 #include "comparison/sampled_run.hpp"
@@ -156,6 +157,7 @@ int run(const run_command& asked, const common_settings& common) {
   if (!was_finished || common.json) prepare_starts(system, common, shown);
   shown.clear();
   std::vector<std::string> warnings = planned.warnings;
+  double energy_error = 0.0;
   if (!was_finished) {
     for (const auto& text : planned.warnings_of_starts()) warnings.push_back(text);
     if (!common.json) {  // only now: a refusal is one line
@@ -168,8 +170,12 @@ int run(const run_command& asked, const common_settings& common) {
     shown.part("running");
     std::optional<signals_are_noted> noted;
     if (!command.checkpoint.empty()) noted.emplace();
-    run(system, *planned.method, sampled, take, shown.counter(1000));
+    energy_error = run(system, *planned.method, sampled, take, shown.counter(1000));
     shown.clear();
+    if (auto text = planned.warning_of_energy(energy_error)) {
+      if (!common.json && all_ranks().is_first()) warn(*text);
+      warnings.push_back(std::move(*text));
+    }
   }
 
   on_first(all_ranks(), [&] {
@@ -198,6 +204,8 @@ int run(const run_command& asked, const common_settings& common) {
                                 further_observations * planned.method->letters().evaluations_to_observe;
     }
     document["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    document["energy_error"] = was_finished ? json() : json(energy_error);
+    document["judgement"] = to_json(planned.judged());
     document["warnings"] = warnings;
     if (common.json) {
       print(text_of(document));

@@ -11,11 +11,10 @@
 #include "../output.hpp"
 #include "comparison/catalogue.hpp"
 #include "comparison/checks.hpp"
+#include "comparison/judging.hpp"
 #include "comparison/learning.hpp"
 #include "comparison/method_source.hpp"
 #include "comparison/progress.hpp"
-#include "comparison/seeds.hpp"
-#include "comparison/stability_margin.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "report/stability_picture.hpp"
 
@@ -114,82 +113,54 @@ answer about(const subject& target, const stability_chart& chart) {
   return result;
 }
 
-std::string where_from(const known_frequencies& known) {
-  std::string text = known.declared ? fmt::format("declared up to {:.6g}", *known.declared)
-                                    : std::string("no bands are declared");
-  constexpr double accuracy = 1.02;  // of the estimate along starts
-  const bool is_of_these_starts = accuracy * known.of_law >= known.along_starts.value_or(0.0);
-  if (is_of_these_starts) text += fmt::format("; rare starts meet {:.6g}", known.of_law);
-  if (known.along_starts)
-    text += fmt::format("; {} starts have up to {:.6g}", known.starts, *known.along_starts);
-  return text;
+/// The judgement in full.
+void add_judgement(answer& result, const judgement& found) {
+  json& document = result.document;
+  document["judgement"] = to_json(found);
+  result.text += fmt::format("  {}\n  trial: {}\n", found.in_words(), found.report());
+  if (found.highest_frequency > 0.0) {
+    result.text += fmt::format("  highest frequency along the motion {:.6g}, z = {:.6g} ({})\n",
+                               found.highest_frequency, found.step * found.highest_frequency,
+                               found.frequencies);
+  } else {
+    result.text += fmt::format("  {}\n", found.frequencies);
+  }
+  if (found.margin) result.text += fmt::format("  linear margin {}\n", percent(*found.margin));
+  const bool is_reason = found.linear_objection == found.reason;
+  if (!found.linear_objection.empty() && !is_reason)
+    result.text += fmt::format("  linear criterion: {}\n", found.linear_objection);
+  if (!found.resonance.empty()) result.text += fmt::format("  resonance: {}\n", found.resonance);
 }
 
-void add_frequencies(answer& result, const known_frequencies& known, double step) {
+/// Where the step lies among the windows, and which steps are stable and safe.
+void add_steps(answer& result, const tabulated& method, const stability_chart& chart,
+               const prepared_problem& system, const judgement& found, int threads) {
   json& document = result.document;
-  document["highest_frequency"] = known.highest();
-  document["highest_z"] = step * known.highest();
-  document["frequency_source"] = known.source();
-  document["declared"] = known.declared ? json(*known.declared) : json();
-  document["of_law"] = known.of_law;
-  document["along_starts"] = known.along_starts ? json(*known.along_starts) : json();
-  document["starts"] = known.starts;
-  result.text += fmt::format("  highest frequency {:.6g}, z = {:.6g} ({})\n", known.highest(),
-                             step * known.highest(), where_from(known));
-}
-
-void add_windows_of(answer& result, const judged_step& judged, const prepared_problem& system, double step) {
-  json& document = result.document;
+  auto bands = system.frequency_bands();
+  if (bands.empty()) bands.push_back({0.0, found.highest_frequency});
   document["bands"] = json::array();
-  for (const auto& [band, stable, margin, touching] : judged.bands) {
-    document["bands"].push_back({{"low", band.low},
-                                 {"high", band.high},
-                                 {"stable", stable},
-                                 {"margin", margin},
-                                 {"touching", touching ? json(*touching) : json()}});
-    result.text +=
-        fmt::format("  frequencies {:g} .. {:g} of {} at step {:g}: {}, margin {}\n", band.low, band.high,
-                    system.description(), step, stable ? "stable" : "NOT stable", percent(margin));
-    if (touching) result.text += fmt::format("    but windows touch among them, at z = {:.10g}\n", *touching);
+  for (const auto& band : bands) {
+    const double margin = stability_margin(chart.windows, found.step * band.low, found.step * band.high);
+    document["bands"].push_back({{"low", band.low}, {"high", band.high}, {"margin", finite(margin)}});
+    result.text += fmt::format("  frequencies {:g} .. {:g} of {} at step {:g}: margin {}\n", band.low, band.high,
+                               system.description(), found.step, percent(margin));
   }
-  document["stable"] = judged.is_stable();
-  document["margin"] = judged.margin();
-  document["gaps"] = pairs(judged.gaps);
-  document["stable_steps"] = pairs(judged.stable_steps);
-  document["linear_step"] = judged.linear_step > 0.0 ? json(judged.linear_step) : json();
-  if (judged.is_stable()) {
-    for (const auto& [low, high] : judged.gaps) {
-      result.text +=
-          fmt::format("  gap {:.6g} .. {:.6g}: unstable, where the system has no frequencies\n", low, high);
-    }
-  }
-  for (const auto& [low, high] : judged.stable_steps)
-    result.text += fmt::format("  stable steps {:.6g} .. {:.6g}\n", low, high);
-  result.text += fmt::format("  {} to the first end, and turn by less than a quarter\n", advice(judged));
-}
-
-/// Adds what a trial run finds at the step. `stable` is both: the linear criterion, and a trial run.
-void add_trial(answer& result, const tabulated& method, const prepared_problem& system, double step,
-               const judged_step* judged, std::uint64_t seed, int threads) {
-  json& document = result.document;
-  const auto trial = try_step(method, system, step, seed, threads);
-  document["trial"] = to_json(trial);
-  document["linearly_stable"] = document["stable"];
-  document["stable"] = document["stable"].get<bool>() && trial.passed();
-  result.text += fmt::format("  trial run at step {:g}: {}\n", step, trial.report());
-  document["safe_step"] = nullptr;
-  if (judged == nullptr) return;
-  const auto failed = trial.passed() ? std::nullopt : std::optional(step);
-  const auto safe = safe_step(method, system, *judged, failed, seed, threads);
+  const auto steps = stable_steps(chart.windows, bands);
+  document["stable_steps"] = pairs(steps);
+  for (const auto& [low, high] : steps)
+    result.text += fmt::format("  linearly stable steps {:.6g} .. {:.6g}\n", low, high);
+  const double linear = linear_step(method, chart, found.highest_frequency);
+  document["linear_step"] = linear > 0.0 ? json(linear) : json();
+  result.text += fmt::format("  {} to the first end, and turn by less than a quarter\n", advice(linear));
+  const auto safe = safe_step(method, system, linear, threads);
+  document["safe_step"] = safe ? json(*safe) : json();
   if (safe) {
-    document["safe_step"] = *safe;
-    result.text +=
-        fmt::format("  safe step {:g}: trial runs passed there, at {:g}, {:g} % more, and at shorter steps\n",
-                    *safe, *safe / (1.0 - tried_margin), 100.0 * (1.0 / (1.0 - tried_margin) - 1.0));
+    result.text += fmt::format("  safe step {:g}: good there, at {:g}, {:g} % more, and at shorter steps\n", *safe,
+                               *safe / (1.0 - tried_margin), 100.0 * (1.0 / (1.0 - tried_margin) - 1.0));
   } else if (system.frequency_bands().empty()) {
     result.text += "  no step is called safe: the frequencies of the system have no bound\n";
   } else {
-    result.text += "  no step is called safe: no trial run passed\n";
+    result.text += "  no step is called safe: none was judged good at a range of steps\n";
   }
 }
 
@@ -210,16 +181,12 @@ std::optional<resonance> nearest_resonance(const std::vector<double>& modes, dou
   return nearest;
 }
 
+/// Which modes a word that rotates magnifies, and which pair of them grows.
 void add_rotation(answer& result, const tabulated& method, const prepared_problem& system, double step) {
   const auto guard = system.guard(method.letters());
-  const bool stable = guard.admits(method.letters(), method.coefficients(), step);
   const auto worst = guard.most_magnified(method.letters(), method.coefficients(), step);
   json& document = result.document;
-  document["stable"] = stable;
   document["magnification"] = {{"mode", worst.frequency}, {"factor", worst.factor}, {"steps", guard.steps()}};
-  result.text +=
-      fmt::format("{} at step {:g}: {}; {}\n", system.description(), step,
-                  stable ? "linearly stable on what was examined" : "NOT stable", guard.description());
   if (worst.frequency > 0.0) {
     result.text += fmt::format("  the mode {:.6g} is magnified most, {:.4g}-fold in {} steps\n",
                                worst.frequency, worst.factor, guard.steps());
@@ -239,24 +206,6 @@ void add_rotation(answer& result, const tabulated& method, const prepared_proble
     result.text += fmt::format("  nearest resonance h omega = {:g} pi, of the mode {:.6g}: at step {:.6g}\n",
                                nearest->multiple, nearest->mode, nearest->step);
   }
-}
-
-/// What the linearised motion of a word with kicks of parts says; whether it is known. Of other words nothing
-/// is against them but a trial.
-bool add_parts(answer& result, const tabulated& method, const prepared_problem& system, double step) {
-  result.document["stable"] = true;
-  const auto guard = system.guard_of_parts(method.letters());
-  if (!guard) {
-    result.text += "its linearised motion is not known: only a trial run decides\n";
-    return false;
-  }
-  const std::string objection = guard->objection(method.letters(), method.coefficients(), step);
-  result.document["stable"] = objection.empty();
-  result.text +=
-      fmt::format("{} at step {:g}: {}; {}\n", system.description(), step,
-                  objection.empty() ? "linearly stable on what was examined" : "NOT stable, " + objection,
-                  guard->description());
-  return true;
 }
 
 void write_curve(const stability_command& command, const subject& target, const stability_chart& chart,
@@ -312,23 +261,15 @@ int stability(const stability_command& command, const common_settings& common) {
     warn_of_threads(common);
     prepare_starts(*system, common,
                    shown);  // a bath drives the initial states to its stationary distribution
+    shown.part("judging the step");
+    const judgement& found = system->judged(target.method, *command.step, common.threads);
     shown.clear();
-    const std::uint64_t seed = seed_for(role::test, common.seed);
-    if (has_own_letters) {
-      const bool is_known = add_parts(result, target.method, *system, *command.step);
-      add_trial(result, target.method, *system, *command.step, nullptr, seed, common.threads);
-      if (!is_known) result.document["linearly_stable"] = nullptr;
-    } else if (rotates) {
-      add_rotation(result, target.method, *system, *command.step);
-      add_trial(result, target.method, *system, *command.step, nullptr, seed, common.threads);
-    } else {
-      constexpr std::uint64_t starts = 64;
-      const auto known = frequencies_along_starts(*system, seed, starts);
-      add_frequencies(result, known, *command.step);
-      const judged_step judged = judge(target.method, chart, known, *command.step);
-      add_windows_of(result, judged, *system, *command.step);
-      add_trial(result, target.method, *system, *command.step, &judged, seed, common.threads);
-      marked = {system->description(), *command.step, known.bands};
+    add_judgement(result, found);
+    if (rotates) add_rotation(result, target.method, *system, *command.step);
+    if (!rotates && !has_own_letters) {
+      add_steps(result, target.method, chart, *system, found, common.threads);
+      marked = {system->description(), *command.step, system->frequency_bands()};
+      if (marked->bands.empty()) marked->bands.push_back({0.0, found.highest_frequency});
     }
     result.document["warnings"] = warnings;
   }

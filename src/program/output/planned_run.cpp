@@ -6,7 +6,7 @@
 #include "comparison/all_ranks.hpp"
 #include "comparison/checks.hpp"
 #include "comparison/refusal.hpp"
-#include "comparison/stability_margin.hpp"
+#include "comparison/judging.hpp"
 #include "hdf5_layout.hpp"
 #include "nysalt/detail/collectively.hpp"
 #include "program/systems.hpp"
@@ -43,11 +43,20 @@ planned_run::planned_run(const run_command& asked, const common_settings& common
                            warnings);
 }
 
+const judgement& planned_run::judged() const { return system->judged(*method, plan.step, plan.threads); }
+
+std::optional<std::string> planned_run::warning_of_energy(double largest) const {
+  constexpr double small = 0.01;  // of the kinetic energy: less does not show in a temperature
+  const double kinetic = judged().kinetic_energy;
+  if (!judged().energy_was_watched || !(largest > small * kinetic)) return std::nullopt;
+  return fmt::format("{} at step {:g}: the energy erred by up to {:.2g}, {:.2g} times the median kinetic energy",
+                     command.method, plan.step, largest, largest / kinetic);
+}
+
 std::vector<std::string> planned_run::warnings_of_starts() const {
   std::vector<std::string> found;
   for (const auto& text :
-       {stability_warning(command.method, *method, *system, plan.step, plan.steps, plan.seed),
-        failed_trial(command.method, *method, *system, plan.step, plan.steps, plan.seed, plan.threads),
+       {warning_of(command.method, judged()),
         warning_of_energies(source, *system, plan)}) {
     if (text) found.push_back(*text);
   }

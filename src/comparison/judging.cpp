@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "judging.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "stability.hpp"
+
+namespace nysalt::program {
+
+json to_json(const judgement& found) {
+  json result{{"verdict", std::string(to_string(found.verdict))},
+              {"reason", found.reason.empty() ? json() : json(found.reason)},
+              {"step", found.step},
+              {"trajectories", found.trajectories},
+              {"unconfined", found.unconfined},
+              {"steps", found.steps},
+              {"lost", found.lost},
+              {"diverged", found.diverged},
+              {"share_lost", found.share_lost()},
+              {"most_lost", found.most_lost()},
+              {"first_lost", nullptr},
+              {"energy_error", nullptr},
+              {"kinetic_energy", nullptr},
+              {"highest_frequency", found.highest_frequency > 0.0 ? json(found.highest_frequency) : json()},
+              {"frequencies", found.frequencies},
+              {"margin", found.margin ? finite(*found.margin) : json()},
+              {"linear_objection", found.linear_objection.empty() ? json() : json(found.linear_objection)},
+              {"resonance", found.resonance.empty() ? json() : json(found.resonance)}};
+  if (found.first_lost) {
+    result["first_lost"] = {{"trajectory", found.first_lost->trajectory}, {"step", found.first_lost->step}};
+  }
+  if (found.energy_was_watched) {
+    result["kinetic_energy"] = found.kinetic_energy;
+    if (found.diverged < found.trajectories) {
+      result["energy_error"] = {{"median", finite(found.energy_error.median)},
+                                {"most", finite(found.energy_error.most)},
+                                {"largest", finite(found.energy_error.largest)},
+                                {"drift", finite(found.drift)},
+                                {"growth", finite(found.growth)}};
+    }
+  }
+  return result;
+}
+
+std::optional<std::string> warning_of(const std::string& name, const judgement& found) {
+  if (found.verdict == step_verdict::good) return std::nullopt;
+  return fmt::format("{} at step {:g}: {}", name, found.step, found.in_words());
+}
+
+namespace {
+
+/// The first z below `end` at which a step turns an oscillator by a quarter, or the end.
+double quarter_turn_of(const tabulated& method, double end) {
+  constexpr int samples = 1000;
+  for (int i = 1; i <= samples; ++i) {
+    double high = end * i / samples;
+    if (half_trace_of(method, high) > 0.0) continue;
+    double low = end * (i - 1) / samples;
+    for (int halvings = 0; halvings < 50; ++halvings) {
+      const double middle = std::midpoint(low, high);
+      (half_trace_of(method, middle) > 0.0 ? low : high) = middle;
+    }
+    return low;
+  }
+  return end;
+}
+
+/// To three digits.
+double rounded_down(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2.0);
+  return std::floor(x / unit) * unit;
+}
+
+}  // namespace
+
+double linear_step(const tabulated& method, const stability_chart& chart, double highest_frequency) {
+  if (chart.windows.empty() || chart.windows.front().low > 0.0 || !(highest_frequency > 0.0)) return 0.0;
+  double end = chart.windows.front().high;
+  if (!chart.touching.empty()) end = std::min(end, chart.touching.front());
+  const double turned = quarter_turn_of(method, end);
+  return std::min((1.0 - linear_margin) * end, (1.0 - turn_margin) * turned) / highest_frequency;
+}
+
+std::string advice(double linear_step) {
+  if (linear_step == 0.0) return "it has no stability window from 0 on";
+  return fmt::format("by the linear criterion steps up to {:g} have a margin of {:g} %",
+                     rounded_down(linear_step), 100.0 * linear_margin);
+}
+
+std::optional<double> safe_step(const tabulated& method, const prepared_problem& system, double linear_step,
+                                int threads) {
+  if (!has_windows(method.letters()) || linear_step == 0.0 || system.frequency_bands().empty()) {
+    return std::nullopt;
+  }
+  constexpr int most_tries = 12;
+  constexpr int below = 3;  // rungs at which it must be good, too
+  const auto rung = [&](int n) { return rounded_down(linear_step * std::pow(1.0 - tried_margin, n)); };
+  const auto is_good = [&](int n) {
+    return system.judged(method, rung(n), threads).verdict == step_verdict::good;
+  };
+  for (int n = 0; n < most_tries; ++n) {
+    bool is_safe = true;
+    for (int k = n - 1; is_safe && k <= n + below; ++k) is_safe = is_good(k);
+    if (is_safe) return rung(n);
+  }
+  return std::nullopt;
+}
+
+}  // namespace nysalt::program
