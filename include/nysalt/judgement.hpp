@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include "nysalt/detail/divergence.hpp"
-#include "nysalt/initial_states.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_points.hpp"
@@ -120,9 +119,5 @@ class step_judge {
 /// The judgement of one method, see step_judge.
 judgement judge(const model& system, const phase_points& starts, const tabulated& method, double step,
                 const judging_options& options = {});
-
-/// Starts to judge methods on: the first 512 of an ensemble by a seed of their own, 64 of one whose states are
-/// expensive to make, fewer where it has no more or they are large; in a bath repeated up to 192.
-phase_points starts_to_judge(const model& system, const initial_states& ensemble);
 
 }  // namespace nysalt

@@ -19,6 +19,7 @@
 #include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/ensembles/gibbs_of_modes.hpp"
 #include "nysalt/ensembles/one_long_trajectory.hpp"
+#include "nysalt/ensembles/starts_to_judge.hpp"
 #include "nysalt/ensembles/typical_and_energetic.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/learning/stability_guard.hpp"

@@ -16,7 +16,7 @@
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/ensembles/typical_and_energetic.hpp"
-#include "nysalt/judgement.hpp"
+#include "nysalt/ensembles/starts_to_judge.hpp"
 
 namespace nysalt {
 

@@ -10,7 +10,6 @@
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/r_respa.hpp"
 #include "nysalt/systems/sum_of_parts.hpp"
-#include "nysalt/trial_run.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -357,24 +356,6 @@ BOOST_AUTO_TEST_CASE(a_short_plan_refuses_resonances_and_no_slow_modes) {
     BOOST_TEST(std::abs(std::abs(spectrum.first) - pi) <= 1e-6);
   }
   BOOST_TEST(refused > 0);
-}
-
-// Neither diverges, nor does its energy drift after the first tenth: the trial run compares with early steps.
-BOOST_AUTO_TEST_CASE(a_trial_run_finds_what_grows_beside_a_tongue) {
-  constexpr double coupling = 0.5;
-  const auto system = pair_coupled_by(coupling);
-  const tabulated method("respa", run_time_word(respa::word{}, system), coefficients, {2, true, false});
-  const auto at = [&](double couplings, bool watches) {
-    return trial_run(system, method, step_at(coupling, couplings), of_two,
-                     {.steps = steps, .watches_growth = watches});
-  };
-  const auto beside = at(2.1, true);
-  BOOST_TEST(!beside.lost.has_value());
-  BOOST_TEST(!beside.energy_wanders(), beside.report());
-  BOOST_TEST(beside.energy_grows(), beside.report());
-  BOOST_TEST(beside.objection().find("first 64 steps") != std::string::npos);
-  BOOST_TEST(at(2.1, false).passed());
-  BOOST_TEST(at(30.0, true).passed(), at(30.0, true).report());
 }
 
 // Half a period and one period of the fastest mode between slow kicks [schlick_mandziuk_skeel_srinivas_1998].

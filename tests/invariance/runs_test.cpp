@@ -31,7 +31,7 @@
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/lennard_jones_liquid.hpp"
 #include "nysalt/systems/phi4_chain.hpp"
-#include "nysalt/trial_run.hpp"
+#include "nysalt/judgement.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -241,16 +241,15 @@ result starts_after_a_burn_in(const division& how, std::uint64_t seed) {
   return all;
 }
 
-result trial(const division& how, std::uint64_t seed, const model& system, const tabulated& method) {
+result judged(const division& how, std::uint64_t seed, const model& system, const tabulated& method) {
   phase_points starts;
   for (std::uint64_t m = 0; m < 100; ++m) starts.push_back(law(seed, m));  // more than a block
-  const trial_result found = trial_run(
-      system, method, 0.04, starts,
-      {.steps = 128, .seed = seed, .threads = how.threads, .watches_growth = !system.bath().acts()});
+  const judgement found =
+      judge(system, starts, method, 0.04, {.steps = 128, .seed = seed, .threads = how.threads});
   result all;
-  all.of_all << found.trajectories << found.diverged << found.lost << found.deviation << found.first_deviation
-             << found.early_deviation << found.kinetic_energy << found.relative_deviation << found.farthest
-             << found.unconfined;
+  all.of_all << found.trajectories << found.lost << found.diverged << found.kinetic_energy
+             << found.energy_error.median << found.energy_error.most << found.energy_error.largest << found.drift
+             << found.growth << found.farthest << found.unconfined << found.highest_frequency;
   return all;
 }
 
@@ -320,10 +319,10 @@ BOOST_AUTO_TEST_CASE(no_trajectory_depends_on_how_it_was_divided) {
        [](const auto& how, auto seed) { return pairs(how, seed, in_noise(how), fine_paths(1e-3), 2); }},
       {"checks of pairs", by_threads + by_lanes + by_ranks, checks_of_pairs},
       {"starts after a burn-in", by_threads + by_lanes, starts_after_a_burn_in},
-      {"a trial run", by_threads + by_lanes,
-       [&](const auto& how, auto seed) { return trial(how, seed, quiet(how), tabulated(verlet())); }},
-      {"a trial run in a bath", by_threads + by_lanes,
-       [](const auto& how, auto seed) { return trial(how, seed, in_noise(how), tabulated(obabo())); }},
+      {"a judgement", by_threads + by_lanes,
+       [&](const auto& how, auto seed) { return judged(how, seed, quiet(how), tabulated(verlet())); }},
+      {"a judgement in a bath", by_threads + by_lanes,
+       [](const auto& how, auto seed) { return judged(how, seed, in_noise(how), tabulated(obabo())); }},
       {"noise", by_lanes, noise_of_sources},
       {"a liquid", by_threads + by_cuts, run_of_a_liquid},
   });

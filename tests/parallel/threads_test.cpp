@@ -11,7 +11,7 @@
 #include "nysalt/detail/held_signals.hpp"
 #include "nysalt/ensemble_run.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/trial_run.hpp"
+#include "nysalt/judgement.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -95,9 +95,9 @@ BOOST_AUTO_TEST_CASE(a_black_box_with_memory_is_used_by_one_thread_at_a_time) {
   const tabulated method{verlet{}};
   phase_points starts;
   for (std::uint64_t n = 0; n < 64; ++n) starts.push_back(around_rest(1, n));
-  const trial_result trial = trial_run(system, method, 0.1, starts, {.steps = 700, .threads = 4});
-  BOOST_TEST(trial.objection() == "");
-  BOOST_TEST(trial.energy_was_watched);
+  const judgement found = judge(system, starts, method, 0.1, {.steps = 700, .threads = 4});
+  BOOST_TEST(found.holds(), found.in_words());
+  BOOST_TEST(found.energy_was_watched);
   BOOST_TEST(black_box_with_memory::meetings == 0);
   const auto errors =
       trajectory_errors(system, fine_steps<>(0.01), around_rest, method, energy_measure(system),

@@ -23,7 +23,7 @@
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/bonded_chain.hpp"
-#include "nysalt/trial_run.hpp"
+#include "nysalt/judgement.hpp"
 
 namespace nysalt::hard {
 
@@ -83,17 +83,16 @@ struct periodic_wells {
 enum class outcome { fine, grows, large };
 
 constexpr std::int64_t long_steps = 100'000;
+constexpr std::int64_t long_work = 40 * judging_options{}.work;
 
-/// Judged by what a guard does not use: the second half of a long run against the first.
+/// Judged by what a guard does not use: whether the energy error of a long run is large, or grows.
 outcome what_came_of(const model& system, const tabulated& method, double step, const phase_points& starts) {
-  const auto all = trial_run(system, method, step, starts, {.steps = long_steps});
-  if (all.lost) return outcome::grows;
-  const auto half = trial_run(system, method, step, starts, {.steps = long_steps / 2});
+  const auto found = judge(system, starts, method, step, {.steps = long_steps, .work = long_work});
   constexpr double trend = 1.4;  // a drift doubles the largest error, a random walk multiplies it by sqrt(2)
   constexpr double seen = 0.01;  // a hundredth of a temperature
-  if (all.deviation > trend * half.deviation && all.deviation > seen * all.kinetic_energy)
-    return outcome::grows;
-  return all.deviation > all.kinetic_energy ? outcome::large : outcome::fine;
+  if (found.diverged > 0) return outcome::grows;
+  if (found.growth > trend && found.energy_error.largest > seen) return outcome::grows;
+  return found.energy_error.largest > 1.0 ? outcome::large : outcome::fine;
 }
 
 /// The guard that learn() would have, which plans for 20,000 steps unless it is asked for another number.

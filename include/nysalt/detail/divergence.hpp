@@ -22,15 +22,16 @@ struct diverged_trajectory {
   std::int64_t step = 0;        ///< the first bad one
 };
 
-/// Detects divergence: not finite, or |H - H_0| > 1e3 max(|H_0|, K_0, N kT), K_0 the kinetic energy at the
-/// start. Without an energy only the first, and likewise where these are all 0, and in a bath that heats
-/// without end (noise, but no friction). Over packs lane by lane.
+/// Detects divergence: not finite, or |H - H_0| > 1e3 max(|H_0|, K_0, |q grad V|, N kT) with the values at the
+/// start, energies that do not vanish together where H_0 does by chance. Without an energy only the first, and
+/// likewise where these are all 0, and in a bath that heats without end (noise, but no friction). Over packs
+/// lane by lane.
 template <System S, Scalar T = double>
 class divergence {
  public:
   using state = phase_point<T, S::dimension>;  ///< over double, or over packs
 
-  /// For trajectories that begin at `start`, where H_0 is taken. Refers to the system. Cost: two energies,
+  /// For trajectories that begin at `start`, where H_0 is taken. Refers to the system. Cost: three energies,
   /// where there is one.
   divergence(const S& system, const state& start) : system_(&system) {
     if constexpr (HasEnergy<S>) {
@@ -38,11 +39,14 @@ class divergence {
       initial_ = energy_in_lanes<T>(system, start);
       state at_rest = start;
       for (T& p : at_rest.p) p = T(0.0);
-      const T kinetic = magnitude(initial_ - energy_in_lanes<T>(system, at_rest));
+      const T potential = energy_in_lanes<T>(system, at_rest);
+      constexpr double further = 0x1p-10;
+      for (T& q : at_rest.q) q = q * (1.0 + further);
+      const T slope = magnitude(energy_in_lanes<T>(system, at_rest) - potential) * (1.0 / further);
       T size = magnitude(initial_);
-      size = select(kinetic > size, kinetic, size);
-      const double least = energy_of_bath(system);
-      size = select(size > least, size, T(least));
+      for (const T& other : {magnitude(initial_ - potential), slope, T(energy_of_bath(system))}) {
+        size = select(other > size, other, size);
+      }
       constexpr double infinity = std::numeric_limits<double>::infinity();
       most_ = 1e3 * select(size > 0.0, size, T(infinity));
     }

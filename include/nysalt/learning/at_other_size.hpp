@@ -6,6 +6,7 @@
 #include <string>
 
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/ensembles/starts_to_judge.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/judgement.hpp"
 #include "nysalt/method.hpp"

@@ -25,10 +25,10 @@ fit fit_of(const run_time_family& family, const S& system, const E& law, const R
 template <class S, class E>
 std::int64_t lost_of(const S& system, const E& law, const run_time_family& family, const fit& found,
                      std::int64_t steps) {
-  std::vector<phase_point<double, S::dimension>> starts;
+  phase_points starts;
   for (std::uint64_t n = 0; n < 64; ++n) starts.push_back(law(77, n));
   const tabulated method("found", family.letters, family.coefficients(found.theta), {1, false, false});
-  return trial_run(system, method, found.summary.step, starts, {.steps = steps}).diverged;
+  return judge(system, starts, method, found.summary.step, {.steps = steps}).lost;
 }
 
 const phi4_chain<> chain(16);

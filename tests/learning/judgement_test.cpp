@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSL-1.0
+// A judgement finds what linear criteria do not: trajectories that are lost, and energies that err by much.
+#include "nysalt/judgement.hpp"
+
+#include "../support/refusal.hpp"
+#include "nysalt/core.hpp"
+#include "nysalt/ensembles/kepler_law.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/starts_to_judge.hpp"
+#include "nysalt/systems/kepler.hpp"
+#include "nysalt/systems/linear_chain.hpp"
+
+using namespace nysalt;
+using namespace nysalt::test;
+
+namespace {
+
+phase_points starts_of(const auto& law, std::uint64_t count) {
+  phase_points result;
+  for (std::uint64_t n = 0; n < count; ++n) result.push_back(law(7, n));
+  return result;
+}
+
+const model chain = phi4_chain<>(16);
+Eigen::VectorXd numbers(double x) { return Eigen::VectorXd::Constant(16, x); }
+const auto chain_starts =
+    starts_of(normal_around<Eigen::Dynamic>({numbers(0.0), numbers(0.0)}, 0.5, 1.0), 32);
+phase_point<double, 2> at(double q, double p) { return {{0.0, q}, {0.0, p}}; }
+const normal_around<1> in_well({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 1.5, 1.5);
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_step_far_below_the_limit_is_good_and_one_above_it_loses_trajectories) {
+  const auto sound = judge(chain, chain_starts, tabulated(mclachlan2{}), 0.2, {.steps = 5000});
+  BOOST_TEST_CONTEXT(sound.in_words() << "\n" << sound.report()) {
+    BOOST_TEST((sound.verdict == step_verdict::good));
+    BOOST_TEST(sound.reason.empty());
+    BOOST_TEST(sound.trajectories == 32);
+    BOOST_TEST(sound.steps == 5000);
+    BOOST_TEST(sound.energy_was_watched);
+    BOOST_TEST(sound.energy_error.median <= sound.energy_error.most);
+    BOOST_TEST(sound.energy_error.most <= sound.energy_error.largest);
+    // None of 32: a share of 1 - .05^(1/32) is still likely [clopper_pearson_1934].
+    BOOST_TEST(sound.most_lost() == 1.0 - std::pow(0.05, 1.0 / 32.0), boost::test_tools::tolerance(1e-9));
+    BOOST_REQUIRE(sound.margin.has_value());
+    BOOST_TEST(*sound.margin > 0.2);
+  }
+  // z = 2.4 at the frequency that a mass has at rest among others: linearly stable, limit 2.553.
+  const auto lost = judge(chain, chain_starts, tabulated(mclachlan2{}), 0.65, {.steps = 5000});
+  BOOST_TEST_CONTEXT(lost.in_words()) {
+    BOOST_TEST(!lost.holds());
+    BOOST_REQUIRE(lost.first_lost.has_value());
+    BOOST_TEST(lost.lost > 5);
+    BOOST_TEST(lost.first_lost->step < 5000);
+    BOOST_TEST(lost.reason.find("are lost") != std::string::npos);
+  }
+}
+
+// At each pericentre the energy errs by more than there is kinetic energy, from the first on: it does not
+// grow, and nothing diverges.
+BOOST_AUTO_TEST_CASE(an_energy_error_that_is_large_from_the_first_steps_on_is_no_good_step) {
+  const kepler system;
+  const auto starts = starts_of(kepler_law(0.6), 64);
+  const auto large = judge(system, starts, tabulated(chin4a{}), 0.3);
+  BOOST_TEST_CONTEXT(large.in_words()) {
+    BOOST_TEST((large.verdict == step_verdict::unstable));
+    BOOST_TEST(large.diverged == 0);
+    BOOST_TEST(large.growth < 2.0);
+    BOOST_TEST(large.energy_error.median > 1.0);
+  }
+  BOOST_TEST((judge(system, starts, tabulated(chin4a{}), 0.1).verdict == step_verdict::good));
+}
+
+// The standard map: beyond h = sqrt(.9716) no invariant circle is left [greene_1979].
+BOOST_AUTO_TEST_CASE(an_energy_that_diffuses_is_found_where_nothing_diverges) {
+  const auto starts = starts_of(in_well, 64);
+  const auto below = judge(pendulum{}, starts, tabulated(verlet{}), 0.15);
+  const auto beyond = judge(pendulum{}, starts, tabulated(verlet{}), 1.3);
+  BOOST_TEST((below.verdict == step_verdict::good), below.in_words());
+  BOOST_TEST(!beyond.holds(), beyond.in_words());
+}
+
+// Between the two the error is bounded and large: the verdict says how large.
+BOOST_AUTO_TEST_CASE(a_large_error_that_does_not_grow_is_an_edge) {
+  const auto found = judge(pendulum{}, starts_of(in_well, 64), tabulated(verlet{}), 0.4);
+  BOOST_TEST((found.verdict == step_verdict::near_an_edge), found.in_words());
+  BOOST_TEST(found.lost == 0);
+  BOOST_TEST(found.energy_error.largest > 0.25);
+  BOOST_TEST(found.reason.find("of the kinetic energy") != std::string::npos, found.reason);
+}
+
+// Scaled units: all numbers but energies and times stay, and so does the verdict.
+BOOST_AUTO_TEST_CASE(a_verdict_has_no_units) {
+  constexpr double small = 1e-18;
+  const auto of = [](double scale, double step) {
+    const auto scaled = [&](double q, double p) {
+      return phase_point<double, Eigen::Dynamic>{numbers(q).head(1), scale * numbers(p).head(1)};
+    };
+    // H = p^2/2m + k q^2/2 with mass and stiffness in proportion: the frequency stays.
+    const linear_chain one(Eigen::MatrixXd::Constant(1, 1, 4.0 * scale), Eigen::VectorXd::Constant(1, scale));
+    return judge(one, phase_points(std::vector{scaled(1.0, 0.3), scaled(0.2, -1.0)}), tabulated(verlet{}), step,
+                 {.steps = 2000});
+  };
+  for (const double step : {0.1, 0.8, 1.01}) {
+    const auto large = of(1.0, step);
+    const auto tiny = of(small, step);
+    BOOST_TEST((large.verdict == tiny.verdict), large.in_words() << " and " << tiny.in_words());
+    BOOST_TEST(large.lost == tiny.lost);
+    BOOST_TEST(large.diverged == tiny.diverged);
+    if (large.diverged == 0) {
+      BOOST_TEST(large.energy_error.largest == tiny.energy_error.largest, boost::test_tools::tolerance(1e-6));
+    }
+  }
+}
+
+// Where a method is exact there is rounding alone, which grows with the steps and is no drift.
+BOOST_AUTO_TEST_CASE(rounding_is_no_drift) {
+  const linear_chain one(Eigen::MatrixXd::Constant(1, 1, 4.0));
+  const phase_points starts(
+      std::vector{phase_point<double, Eigen::Dynamic>{numbers(1.0).head(1), numbers(0.3).head(1)}});
+  const tabulated rotation("rotation", run_time_word("RSR"), {0.5, 1.0, 0.5}, {2, true, true});
+  const auto exact = judge(one, starts, rotation, 0.7);
+  BOOST_TEST((exact.verdict == step_verdict::good), exact.in_words());
+  BOOST_TEST(exact.energy_error.largest < 1e-9);
+}
+
+// Above H = 1/6 the motion of Henon and Heiles may leave through a gap of the potential: no method is to
+// blame.
+BOOST_AUTO_TEST_CASE(motion_that_is_not_confined_is_left_out) {
+  const phase_points starts(std::vector{at(0.0, 0.3), at(0.0, 0.8)});
+  const auto left = judge(henon_heiles{}, starts, tabulated(verlet{}), 0.05, {.steps = 5000});
+  BOOST_TEST(left.unconfined == 1);
+  BOOST_TEST(left.holds(), left.in_words());
+  // At a step beyond the window the confined one is lost as well, and that counts.
+  const auto lost = judge(henon_heiles{}, starts, tabulated(verlet{}), 2.1, {.steps = 5000});
+  BOOST_TEST(lost.diverged == 1);
+  BOOST_TEST(!lost.holds());
+  // Where nothing is left nothing was tried.
+  const phase_points outside(std::vector{at(3.0, 0.0), at(3.0, 0.0)});
+  const auto none = judge(henon_heiles{}, outside, tabulated(verlet{}), 0.1, {.steps = 5000});
+  BOOST_TEST(none.unconfined == 2);
+  BOOST_TEST((none.verdict == step_verdict::not_tried));
+  BOOST_TEST(!none.holds());
+  BOOST_TEST(none.report().find("not confined") != std::string::npos, none.report());
+}
+
+// An accurate method in parts of such a step is unstable itself: that tells nothing of the motion.
+BOOST_AUTO_TEST_CASE(what_an_accurate_method_cannot_follow_is_not_left_out) {
+  const normal_around<1> law({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 1.0, 1.0);
+  for (const double omega : {300.0, 1e5}) {  // in 30 parts, and in too many
+    const auto found =
+        judge(harmonic_oscillator(omega), starts_of(law, 8), tabulated(verlet{}), 0.1, {.steps = 400});
+    BOOST_TEST((found.verdict == step_verdict::unstable), found.in_words());
+    BOOST_TEST(found.unconfined == 0);
+    BOOST_TEST(found.diverged == 8);
+  }
+}
+
+// Starts are run 64 at a time: the first of the second block is the only one that moves too fast for the
+// step, one of 65.
+BOOST_AUTO_TEST_CASE(starts_beyond_the_first_block_are_tried) {
+  const auto point = [](double q) { return phase_point<double, Eigen::Dynamic>{numbers(q), numbers(0.1)}; };
+  std::vector<phase_point<double, Eigen::Dynamic>> starts(64, point(0.1));
+  BOOST_TEST(judge(chain, starts, tabulated(mclachlan2{}), 0.2, {.steps = 500}).lost == 0);
+  starts.push_back(point(20.0));  // sqrt(3) 20 h = 7, far beyond 2.553
+  const auto found = judge(chain, starts, tabulated(mclachlan2{}), 0.2, {.steps = 500});
+  BOOST_TEST(found.trajectories == 65);
+  BOOST_TEST(found.diverged == 1);
+  BOOST_TEST(found.unconfined == 0);
+  BOOST_REQUIRE(found.first_lost.has_value());
+  BOOST_TEST(found.first_lost->trajectory == 64);
+  BOOST_TEST((found.verdict == step_verdict::near_an_edge), found.in_words());  // less than one in fifty
+}
+
+BOOST_AUTO_TEST_CASE(in_a_bath_only_divergence_counts) {
+  const in_bath warm(harmonic_oscillator(1.0), bath::of_temperature(0.1, 1.0));
+  const phase_points starts(std::vector{phase_point<double, 1>{vector<double, 1>(1.0), vector<double, 1>(0.0)}});
+  const auto sound = judge(warm, starts, tabulated(baoab{}), 0.5, {.steps = 5000});
+  BOOST_TEST(sound.holds(), sound.in_words());
+  BOOST_TEST(!sound.energy_was_watched);
+  BOOST_TEST(!judge(warm, starts, tabulated(baoab{}), 2.2, {.steps = 5000}).holds());
+}
+
+// Where nobody asks for the energy only divergence counts, as for proposals.
+BOOST_AUTO_TEST_CASE(energies_that_are_not_watched_do_not_count) {
+  const auto starts = starts_of(kepler_law(0.6), 64);
+  const auto found =
+      judge(kepler{}, starts, tabulated(chin4a{}), 0.3, {.steps = 2000, .watches_energy = false});
+  BOOST_TEST(found.holds(), found.in_words());
+  BOOST_TEST(!found.energy_was_watched);
+}
+
+BOOST_AUTO_TEST_CASE(a_judge_gives_equal_judgements_of_equal_coefficients) {
+  const step_judge judge_of(chain, chain_starts, 0.3, {.steps = 500});
+  const tabulated by_name(verlet{});
+  const tabulated by_letters("word", run_time_word("BAB"), by_name.coefficients(), {2, true, false});
+  const auto one = judge_of.of(by_name);
+  const auto other = judge(chain, chain_starts, by_letters, 0.3, {.steps = 500});
+  BOOST_TEST(one.in_words() == other.in_words());
+  BOOST_TEST(one.report() == other.report());
+  BOOST_TEST(one.energy_error.largest == other.energy_error.largest);
+  BOOST_TEST(one.highest_frequency == other.highest_frequency);
+}
+
+BOOST_AUTO_TEST_CASE(starts_of_an_ensemble_are_the_first_ones_whatever_a_command_seeds) {
+  const initial_states law(in_well);
+  const auto starts = starts_to_judge(pendulum{}, law);
+  BOOST_REQUIRE(starts.size() == 512);
+  for (const std::size_t k : {std::size_t{0}, std::size_t{511}}) {
+    BOOST_TEST(starts[k].q[0] == in_well(1, k).q[0]);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_judged_is_refused) {
+  const auto with = [](const phase_points& starts, double step, const judging_options& options) {
+    return [=] { judge(chain, starts, tabulated(verlet{}), step, options); };
+  };
+  BOOST_TEST(refuses<std::invalid_argument>(with(chain_starts, 0.1, {.steps = -1}), {"judge", "-1"}));
+  BOOST_TEST(refuses<std::invalid_argument>(with(chain_starts, 0.0, {}), {"judge", "step 0"}));
+  BOOST_TEST(refuses<std::invalid_argument>(with({}, 0.1, {}), {"judge", "0 starts"}));
+}
