@@ -352,11 +352,16 @@ void decide(judgement& found) {
   if (found.share_lost() > 0.5) return say(step_verdict::unstable, loss);
   if (found.share_lost() > few_lost) return say(step_verdict::loses_trajectories, loss);
   if (found.lost > 0) return say(step_verdict::near_an_edge, loss);
-  if (found.energy_error.largest > large_error) {
+  if (found.energy_error.largest > 1.0) {
     return say(step_verdict::near_an_edge,
                fmt::format("the energy of trajectory {} errs by {} of the kinetic energy at step {}",
                            found.farthest.trajectory, percent(found.energy_error.largest),
                            found.farthest.step));
+  }
+  if (found.energy_error.most > large_error) {
+    return say(step_verdict::near_an_edge,
+               fmt::format("the energies of one trajectory in twenty err by {} of the kinetic energy or more",
+                           percent(found.energy_error.most)));
   }
   if (const double later = projected(found); later > 1.0) {
     return say(step_verdict::near_an_edge,
@@ -433,7 +438,11 @@ void add_linear(const stability_guard& guard, const tabulated& method, Eigen::In
   const auto& coefficients = method.coefficients();
   const auto& bands = guard.frequencies(met::often);
   found.frequencies = guard.description();
-  for (const auto& band : guard.frequencies()) found.highest_frequency = std::max(found.highest_frequency, band.high);
+  constexpr double wider = 1.0 + stability_guard::widened;
+  constexpr double narrower = 1.0 - stability_guard::widened;
+  for (const auto& band : guard.frequencies()) {
+    found.highest_frequency = std::max(found.highest_frequency, band.high / wider);
+  }
   // A trial shows what rare frequencies do if it meets states many times over that are one in a thousand.
   constexpr double many_states = 100'000;
   const bool shows_rare_states = static_cast<double>(found.trajectories) * static_cast<double>(found.steps) *
@@ -444,7 +453,8 @@ void add_linear(const stability_guard& guard, const tabulated& method, Eigen::In
   if (!has_rotation(word)) {
     const auto chart = chart_stability(word, coefficients);
     for (const auto& band : bands) {
-      const double margin = stability_margin(chart.windows, found.step * band.low, found.step * band.high);
+      const double margin = stability_margin(chart.windows, found.step * band.low / narrower,
+                                             found.step * band.high / wider);
       found.margin = std::min(found.margin.value_or(margin), margin);
     }
   }

@@ -402,7 +402,7 @@ BOOST_AUTO_TEST_CASE(an_unstable_optimum_is_not_handed_out) {
   BOOST_TEST_CONTEXT(guarded.summary.full() << unguarded.summary.full()) {
     // It is found, and said not to be usable.
     BOOST_TEST(!unguarded.summary.usable);
-    BOOST_TEST(says(unguarded.summary.reason, "it is not linearly stable at z = 3."));
+    BOOST_TEST(says(unguarded.summary.judgement.linear_objection, "it is not linearly stable at z = 3."));
     BOOST_TEST(largest_half_trace(unguarded) > 1.0 + 1e-5);
     BOOST_TEST(unguarded.summary.unguarded.empty());
     // With the guard it is another, and stable.

@@ -149,8 +149,9 @@ BOOST_AUTO_TEST_CASE(an_optimum_that_is_unstable_on_the_systems_frequencies_is_f
     BOOST_TEST(stable.summary.usable);
     BOOST_TEST(!diverges(stable));
     BOOST_TEST(!unstable.summary.usable);
-    BOOST_TEST(says(unstable.summary.reason, "it is not linearly stable at z = 2.8"));
-    BOOST_TEST(says(unstable.summary.reason, "1.96 to 2.04"));  // 2, and 2 % on either side
+    BOOST_TEST(says(unstable.summary.reason, "unstable: "));
+    BOOST_TEST(says(unstable.summary.judgement.linear_objection, "it is not linearly stable at z = 2.8"));
+    BOOST_TEST(says(unstable.summary.judgement.linear_objection, "1.96 to 2.04"));  // 2, and 2 % on either side
     BOOST_TEST(diverges(unstable));
   }
 }
@@ -254,7 +255,7 @@ BOOST_AUTO_TEST_CASE(where_learning_gains_nothing_the_classical_method_is_named)
     BOOST_TEST(says(own.brief(), "nothing gained over mclachlan2: take mclachlan2"));
     BOOST_TEST((large.verdict() == verdict::usable));
     BOOST_TEST(large.gain() > 1.0);
-    BOOST_TEST(says(large.full(), "trial run"));
+    BOOST_TEST(says(large.full(), "judgement"));
   }
 }
 

@@ -168,8 +168,20 @@ mutant(45, "the scale of an energy loss is twice as large", LIBRARY + "losses/en
 mutant(46, "each frequency counts twice in the loss gaussian_acceptance", LIBRARY + "losses/gaussian_acceptance.cpp",
        "losses learning",
        ("const double weight = 0.5 * count;", "const double weight = (MUTANT ? 1.0 : 0.5) * count;"))
-mutant(16, "a trial run repeats its first 64 starts", LIBRARY + "trial_run.cpp", "data learning",
+mutant(16, "a trial repeats its first 64 starts", LIBRARY + "judgement.cpp", "learning programs",
        (".first = first},", ".first = MUTANT ? 0 : first},"))
+mutant(122, "a trial asks whether energies diverge, and not whether they err by much", LIBRARY + "judgement.cpp",
+       "learning programs",
+       ("is_lost = median_of(one.last) > scale + rounding * one.magnitude;",
+        "is_lost = !MUTANT && median_of(one.last) > scale + rounding * one.magnitude;"))
+mutant(123, "judges have the first 64 starts eight times", LIBRARY + "ensembles/starts_to_judge.cpp", "learning",
+       ("sound_starts<T>(system, ensemble, seed, n, count);", "sound_starts<T>(system, ensemble, seed, MUTANT ? n % 64 : n, count);"))
+mutant(124, "a method near an edge does not hold", "include/nysalt/judgement.hpp", "learning programs",
+       ("verdict == step_verdict::near_an_edge; }", "(!MUTANT && verdict == step_verdict::near_an_edge); }"))
+mutant(125, "compare ranks what loses trajectories", "src/comparison/ranking.cpp", "programs",
+       ("found == mark::loses ||", "(!MUTANT && found == mark::loses) ||"))
+mutant(126, "the energy error of a run is that of its first trajectories alone", "src/comparison/sampled_run.cpp", "programs",
+       ("return std::ranges::max(all_gather(ranks, energy_error));", "return MUTANT ? 0.0 : std::ranges::max(all_gather(ranks, energy_error));"))
 
 # ---- Analysis.
 

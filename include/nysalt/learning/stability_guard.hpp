@@ -41,6 +41,9 @@ enum class met { ever, often };
 /// and trial runs decide; description() says so.
 class stability_guard {
  public:
+  /// Share by which frequencies() are wider on either side than what is declared or was met.
+  static constexpr double widened = 0.02;
+
   /// Bounds growth over this number of steps: less than a factor e is admitted. Of words with rotations, if
   /// there will be some, only where there are states. Cost: that of frequencies_of_states(), and twice that
   /// where a quadratic part is. Throws what that does, and std::invalid_argument if no bands are declared and

@@ -21,7 +21,7 @@ namespace nysalt {
 
 namespace {
 
-constexpr double margin = 0.02;
+constexpr double margin = stability_guard::widened;
 constexpr double rarely = 0.1;  // of the states
 
 /// Threefold is much: a stable motion whose energy swings by nine. On the FPU chain at h omega = j pi
