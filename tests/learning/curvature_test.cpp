@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(standard_errors_are_the_sandwich) {
 
 BOOST_AUTO_TEST_CASE(others_count_about_their_mean_as_one_among_the_blocks) {
   const curvature bend(Eigen::MatrixXd::Identity(1, 1), {0});
-  const auto score = [](double x) { return Eigen::VectorXd::Constant(1, x); };
+  const auto score = [](double x) -> Eigen::VectorXd { return Eigen::VectorXd::Constant(1, x); };
   const std::vector<Eigen::VectorXd> few{score(0.1), score(-0.1)};
   // Four, each of weight 1/4 in their own loss: among two, 1/2. With that they are 2.4 and .4 twice each.
   const std::vector<Eigen::VectorXd> others{score(1.2), score(1.2), score(0.2), score(0.2)};

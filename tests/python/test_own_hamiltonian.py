@@ -23,7 +23,7 @@ def test_it_learns_the_theta_of_the_compiled_one():
     # vanish, is off by that times residual/slope (standard error times root of samples) times the condition. A
     # hundredth of theta stands for the standard error, which ten trajectories do not tell.
     share = np.finfo(float).eps ** (2 / 3) * compiled.fit["condition"] * compiled.fit["samples"] ** 0.5
-    assert set(compiled.standard_errors.values()) == {None} and "decide" in compiled.fit["standard_errors_withheld"]
+    assert set(compiled.standard_errors.values()) == {None} and "rest on" in compiled.fit["standard_errors_withheld"]
     tolerance = share * 0.01 * compiled.theta
     assert (abs(mine.theta - compiled.theta) <= tolerance).all()
     assert mine.loss == pytest.approx(compiled.loss, rel=1e-12)  # of second order there; rounding of its sum

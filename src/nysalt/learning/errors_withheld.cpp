@@ -78,7 +78,7 @@ std::string reason_to_withhold(const learning_problem& problem, const fit_summar
   for (const Eigen::Index k : free) fewest = std::min(fewest, spread->deciding[k]);
   if (!(fewest >= fewest_that_decide)) {
     return fmt::format(
-        "{:.0f} trajectories decide them, and fewer than {:.0f} show too small a scatter; take more, or "
+        "they rest on {:.0f} of the trajectories, and fewer than {:.0f} show too small a scatter; take more, or "
         "starts of less different energies",
         std::floor(fewest), fewest_that_decide);
   }
