@@ -77,6 +77,7 @@ json fit_json(const fit_summary& fit) {
   return {{"family", fit.family},
           {"parameters", by_name(fit, &fitted_parameter::value)},
           {"standard_errors", by_name(fit, &fitted_parameter::standard_error)},
+          {"standard_errors_withheld", fit.errors_withheld.empty() ? json(nullptr) : json(fit.errors_withheld)},
           {"step", fit.step},
           {"objective", fit.loss_name},
           {"loss", fit.loss},

@@ -23,6 +23,11 @@ Eigen::MatrixXd valley(double small) {
   return across * across.transpose() + small * along * along.transpose();
 }
 
+/// Without others.
+Eigen::VectorXd standard_errors_of(const curvature& bend, const std::vector<Eigen::VectorXd>& scores) {
+  return bend.spread(scores, std::vector<Eigen::VectorXd>{}).standard_errors;
+}
+
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Residuals r + J (theta - 0) of a linear problem.
@@ -103,7 +108,7 @@ BOOST_AUTO_TEST_CASE(only_free_parameters_count) {
   BOOST_TEST(solved[1] == 1.0 / valley(1e-9)(1, 1), boost::test_tools::tolerance(1e-14));
   const curvature none(valley(1.0), {});
   BOOST_TEST(none.is_minimum());
-  BOOST_TEST(norm(none.standard_errors(std::vector<Eigen::VectorXd>(3, Eigen::Vector2d::Ones()))) == 0.0);
+  BOOST_TEST(norm(standard_errors_of(none, std::vector<Eigen::VectorXd>(3, Eigen::Vector2d::Ones()))) == 0.0);
 }
 
 BOOST_AUTO_TEST_CASE(standard_errors_are_the_sandwich) {
@@ -113,17 +118,81 @@ BOOST_AUTO_TEST_CASE(standard_errors_are_the_sandwich) {
   for (const auto& score : scores) spread += score * score.transpose();
   const Eigen::Matrix2d bread = valley(0.1).inverse();
   const Eigen::Matrix2d sandwich = bread * spread * bread * 3.0 / 2.0;
-  const auto errors = curvature(valley(0.1), {0, 1}).standard_errors(scores);
+  const auto errors = standard_errors_of(curvature(valley(0.1), {0, 1}), scores);
   // A condition of 10, squared, times some 10 roundings.
   BOOST_TEST(norm(errors.cwiseAbs2() - sandwich.diagonal()) <= 1e3 * eps * norm(sandwich));
   const double excess = curvature(valley(0.1), {0, 1}).expected_excess(scores);
   BOOST_TEST(std::abs(excess - 0.5 * (valley(0.1) * sandwich).trace()) <= 1e3 * eps * norm(sandwich));
   BOOST_TEST(std::abs(excess - 0.5 * sandwich.trace()) > 0.01 * excess);  // H matters
-  const auto unknown = curvature(valley(0.1), {0, 1}).standard_errors(std::vector{scores[0]});
+  const auto unknown = standard_errors_of(curvature(valley(0.1), {0, 1}), std::vector{scores[0]});
   BOOST_TEST(std::isnan(unknown[0]));
-  const auto unbounded = curvature(valley(0.0), {0, 1}).standard_errors(scores);
+  const auto unbounded = standard_errors_of(curvature(valley(0.0), {0, 1}), scores);
   BOOST_TEST(unbounded[0] == infinite);
   BOOST_TEST(unbounded[1] == infinite);
+}
+
+BOOST_AUTO_TEST_CASE(others_count_about_their_mean_as_one_among_the_blocks) {
+  const curvature bend(Eigen::MatrixXd::Identity(1, 1), {0});
+  const auto score = [](double x) -> Eigen::VectorXd { return Eigen::VectorXd::Constant(1, x); };
+  const std::vector<Eigen::VectorXd> few{score(0.1), score(-0.1)};
+  // Four, each of weight 1/4 in their own loss: among two, 1/2. With that they are 2.4 and .4 twice each.
+  const std::vector<Eigen::VectorXd> others{score(1.2), score(1.2), score(0.2), score(0.2)};
+  const auto found = bend.spread(few, others);
+  const double squares = 2.0 * 0.01 + 4.0 * 1.0;  // about 1.4
+  BOOST_TEST(found.standard_errors[0] == std::sqrt(squares * 2.0 / (1.0 + 3.0)),
+             boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(found.deciding[0] == squares * squares / (2.0 * 1e-4 + 4.0), boost::test_tools::tolerance(1e-14));
+  const auto alone = bend.spread(few, std::vector<Eigen::VectorXd>{});
+  BOOST_TEST(alone.standard_errors[0] == std::sqrt(0.02 * 2.0), boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(alone.deciding[0] == 2.0, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(bend.spread(few, std::vector{score(5.0)}).standard_errors[0] == alone.standard_errors[0]);
+}
+
+// Of a line through the origin, y = x e with x = exp(.75 n), so that few blocks of sixty decide: at the minimum
+// their residuals are small, as it has gone to them. Each ratio is known to 2 %.
+BOOST_AUTO_TEST_CASE(others_show_the_scatter_that_the_blocks_of_a_fit_hide) {
+  constexpr int repetitions = 1500;
+  constexpr int blocks = 60;
+  draws random;
+  const auto normal = [&] {
+    double sum = -6.0;  // of twelve, of variance 1/12 each
+    for (int k = 0; k < 12; ++k) sum += random.uniform(0.0, 1.0);
+    return sum;
+  };
+  double scatter = 0.0;
+  double with_others = 0.0;
+  double by_fit_alone = 0.0;
+  for (int n = 0; n < repetitions; ++n) {
+    std::array<std::vector<std::array<double, 2>>, 2> sets;
+    for (auto& set : sets) {
+      for (int b = 0; b < blocks; ++b) {
+        const double x = std::exp(0.75 * normal());
+        set.push_back({x, x * normal()});
+      }
+    }
+    double xx = 0.0;
+    double xy = 0.0;
+    for (const auto& [x, y] : sets[0]) {
+      xx += x * x;
+      xy += x * y;
+    }
+    const double slope = xy / xx;
+    const auto scores_of = [&](const auto& set) {
+      std::vector<Eigen::VectorXd> scores;
+      for (const auto& [x, y] : set) scores.push_back(Eigen::VectorXd::Constant(1, 2.0 * x * (slope * x - y)));
+      return scores;
+    };
+    const curvature bend(Eigen::MatrixXd::Constant(1, 1, 2.0 * xx), {0});
+    const auto alone = scores_of(sets[0]);
+    scatter += slope * slope;
+    with_others += std::pow(bend.spread(alone, scores_of(sets[1])).standard_errors[0], 2);
+    by_fit_alone += std::pow(standard_errors_of(bend, alone)[0], 2);
+  }
+  BOOST_TEST_MESSAGE("scatter over error: " << std::sqrt(scatter / with_others) << ", by the fit alone "
+                                            << std::sqrt(scatter / by_fit_alone));
+  BOOST_TEST(std::sqrt(scatter / with_others) < 1.0);
+  BOOST_TEST(std::sqrt(scatter / with_others) > 0.75);
+  BOOST_TEST(std::sqrt(scatter / by_fit_alone) > 1.1);
 }
 
 // C is infinite along the valley and H zero: what is across it counts alone.

@@ -81,14 +81,10 @@ BOOST_AUTO_TEST_CASE(whatever_makes_the_paths_the_same_is_learned) {
   const auto off = [&](const auto& fit) { return (fit.theta - by_baoab.theta).cwiseAbs().maxCoeff(); };
   BOOST_TEST_CONTEXT(by_baoab.summary.full()) {
     // The generators' errors, sigma h/sqrt(12) = 7e-5 at time 1, are a hundred times below those of a step,
-    // and of either sign; other paths move theta by its standard errors.
-    double error = 0.0;
-    for (const auto& parameter : by_baoab.summary.parameters)
-      error = std::max(error, parameter.standard_error);
-    BOOST_TEST(off(by_aboba) <= 0.05 * error);
-    BOOST_TEST(off(by_finer) <= 0.05 * error);
-    BOOST_TEST(off(by_other_seed) > 0.05 * error);
-    BOOST_TEST(off(by_other_seed) <= 4.0 * std::sqrt(2.0) * error);
+    // and of either sign; other paths move theta by as much as thirty of them leave open.
+    BOOST_TEST(off(by_aboba) <= 0.05 * off(by_other_seed));
+    BOOST_TEST(off(by_finer) <= 0.05 * off(by_other_seed));
+    BOOST_TEST(off(by_other_seed) <= 0.1);
     BOOST_TEST(by_baoab.summary.reference_checked);
     BOOST_TEST(by_baoab.summary.reference_error < 0.05 * by_baoab.summary.one_step_error);
     BOOST_TEST(by_baoab.summary.reference == "baoab with step 0.0025");

@@ -114,6 +114,23 @@ BOOST_AUTO_TEST_CASE(weight_deviations_are_what_a_trajectory_adds_to_the_weights
   }
 }
 
+BOOST_AUTO_TEST_CASE(weight_deviations_of_other_trajectories_are_those_among_as_many_like_them) {
+  const auto chain = two_weights_on_springs();
+  const auto data = data_of(chain);
+  const metric measure(chain, data, coordinates::qp);
+  const Eigen::MatrixXd known = measure.weight_deviations();
+  BOOST_TEST((measure.weight_deviations(data) - known).cwiseAbs().maxCoeff() <= 45 * eps);
+  auto wider = data;
+  for (std::size_t n = 0; n < wider.pairs(); ++n) {  // increments twice as large
+    wider.finish[n].q += wider.finish[n].q - wider.start[n].q;
+    wider.finish[n].p += wider.finish[n].p - wider.start[n].p;
+  }
+  const double share = 1.0 / 9.0;
+  const Eigen::MatrixXd four_times = 4.0 * (known.array() + share) - share;
+  BOOST_TEST((measure.weight_deviations(wider) - four_times).cwiseAbs().maxCoeff() <= 4 * 45 * eps);
+  BOOST_TEST(std::abs(measure.weight_deviations(wider).row(0).sum() - 3.0) <= 9 * 4 * 45 * eps);
+}
+
 BOOST_AUTO_TEST_CASE(coordinates_that_do_not_exist_are_refused) {
   using wrong = std::invalid_argument;
   const pendulum swing;

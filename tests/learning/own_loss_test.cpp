@@ -256,6 +256,7 @@ BOOST_AUTO_TEST_CASE(a_problem_takes_a_loss_of_another_form_and_its_judge_decide
   problem.scores = [&](const Eigen::VectorXd& theta) {
     return trajectory_scores(trajectory_gradients(loss, theta), loss.share());
   };
+  problem.held_out_scores = {};
   problem.held_out_losses = [&](const Eigen::VectorXd& theta) { return trajectory_losses(loss, theta); };
   problem.facts.loss_name = "two minima";
   for (const double wanted : {0.45, 0.55}) {

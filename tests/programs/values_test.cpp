@@ -257,8 +257,10 @@ BOOST_AUTO_TEST_CASE(learn_gives_the_fit_of_the_library) {
       "--coordinates modes");
   for (const auto& parameter : fit.parameters) {
     BOOST_TEST(printed["parameters"][parameter.name] == parameter.value);
-    BOOST_TEST(printed["standard_errors"][parameter.name] == parameter.standard_error);
+    BOOST_TEST(std::isnan(parameter.standard_error));  // fifteen trajectories do not tell
+    BOOST_TEST(printed["standard_errors"][parameter.name].is_null());
   }
+  BOOST_TEST(printed["standard_errors_withheld"] == fit.errors_withheld);
   BOOST_TEST(printed["loss"] == fit.loss);
   BOOST_TEST(printed["held_out_loss"] == fit.held_out_loss);
   BOOST_TEST(printed["held_out_loss"] != printed["loss"]);

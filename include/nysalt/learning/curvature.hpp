@@ -42,6 +42,16 @@ Eigen::MatrixXd hessian(const Loss& loss, const Eigen::VectorXd& theta) {
   return hessian(objective_of(loss), theta);
 }
 
+/// Standard errors of a minimum by each parameter, and how far they may be relied on.
+struct spread_of_minimum {
+  /// NaN with a single block; infinite along flat directions; 0 of what is not free.
+  Eigen::VectorXd standard_errors;
+  /// Number of blocks that decide each: (sum_b x_b^2)^2/sum_b x_b^4 of the x_b that block b moves it by. The
+  /// variance of a sum of squares is about that of the squares' sample, sum x_b^4 - (sum x_b^2)^2/B, so that
+  /// a standard error has the relative error sqrt(1/deciding - 1/B)/2 [satterthwaite_1946].
+  Eigen::VectorXd deciding;
+};
+
 /// A Hessian restricted to the free parameters, in its eigenvectors.
 class curvature {
  public:
@@ -65,16 +75,19 @@ class curvature {
   /// flat direction C has no bound, and H nothing to add: it is left out. NaN with a single block.
   double expected_excess(const trajectory_scores& scores) const;
 
-  /// Effective number of blocks on which the curvature and the standard errors rest: (sum_b e_b)^2/sum_b
-  /// e_b^2, with e_b = g_b^T H^+ g_b. Of B blocks with normal gradients it is B P/(P + 2), P the number of
-  /// parameters.
+  /// Effective number of blocks on which the curvature rests: (sum_b e_b)^2/sum_b e_b^2, with
+  /// e_b = g_b^T H^+ g_b. Of B blocks with normal gradients it is B P/(P + 2), P the number of parameters.
   double deciding_blocks(const trajectory_scores& scores) const;
 
-  /// Sandwich covariance of the minimum [white_1982, theorem 3.2], clustered by block:
+  /// Uncertainty of the minimum by its sandwich covariance [white_1982, theorem 3.2], clustered by block:
   /// H^+ (sum_b g_b g_b^T) H^+ B/(B - 1), where g_b is what block b adds to the gradient, by its residuals
   /// and by its part in the weights. It holds for a misspecified model, as a learned map is one.
-  /// NaN with a single block; infinite along flat directions.
-  Eigen::VectorXd standard_errors(const trajectory_scores& scores) const;
+  ///
+  /// The blocks that the minimum was fitted to show too small a spread where few of them matter: theta has
+  /// gone to where their g_b are small (leverage), and the rare blocks with a large one are missing from most
+  /// samples. `others` are scores at the same theta, about their mean, of B' blocks that theta was not fitted
+  /// to; the spread is then the mean of both, weighted by B - 1 and B' - 1. None are all of one block.
+  spread_of_minimum spread(const trajectory_scores& scores, const trajectory_scores& others) const;
 
  private:
   std::vector<double> excesses(const trajectory_scores& scores) const;

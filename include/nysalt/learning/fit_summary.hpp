@@ -27,7 +27,8 @@ constexpr std::string_view to_string(verdict v) {
 struct fitted_parameter {
   std::string name;       ///< name of the parameter in the family
   double value;           ///< learned, or fixed
-  double standard_error;  ///< NaN from a single trajectory, infinite where the loss is flat, 0 if not free
+  double standard_error;  ///< NaN where it is not known, see errors_withheld; infinite where the loss is
+                          ///< flat; 0 if the user fixed the parameter
   bool free;              ///< false: fixed by the user, or held at its bound or by the guard
 };
 
@@ -50,6 +51,7 @@ struct fit_summary {
   bool is_of_data = true;  ///< false: the loss asks no data, and these only judge
 
   std::vector<fitted_parameter> parameters;  ///< theta, with its uncertainty
+  std::string errors_withheld;               ///< reason why standard errors are not known; empty: they are
   /// The loss that was minimised, at theta; one-step: mean over pairs of the sum over coordinates of
   /// r^2/Sigma.
   double loss = 0.0;

@@ -67,6 +67,8 @@ struct learning_problem {
                                 ///< empty: none
   /// The contribution of each trajectory to the gradient of `loss`, its part in the weights included.
   std::function<trajectory_scores(const Eigen::VectorXd&)> scores;
+  /// The same of each held-out trajectory, in the loss on held-out data. Empty: there are no such data.
+  std::function<trajectory_scores(const Eigen::VectorXd&)> held_out_scores{};
   shard held_out;  ///< distribution of the held-out trajectories over ranks
   /// The contribution of each held-out trajectory of this rank to the loss.
   std::function<std::vector<double>(const Eigen::VectorXd&)> held_out_losses;

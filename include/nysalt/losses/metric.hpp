@@ -43,6 +43,9 @@ class metric {
   /// The weights are estimates too. Row k, column m: what trajectory m adds to the relative error of the
   /// mean square increment of coordinate k; a row sums to zero.
   const Eigen::MatrixXd& weight_deviations() const { return deviations_; }
+  /// The same of the trajectories of other data, of which no weight was estimated: what each would add to it
+  /// among as many like it. A row does not sum to zero.
+  Eigen::MatrixXd weight_deviations(const flow_map_data& others) const;
 
   /// r[0..residuals()) of the difference a - b; b is data, a may carry derivatives.
   template <Scalar T>
@@ -77,10 +80,12 @@ class metric {
   }
 
   void change_coordinates(const model& system, coordinates which);
-  void weigh(const flow_map_data& data, coordinates which);
-  std::string name_of(Eigen::Index row, coordinates which) const;
+  void weigh(const flow_map_data& data);
+  std::vector<Eigen::VectorXd> squares_in(const flow_map_data& data) const;
+  std::string name_of(Eigen::Index row) const;
 
   Eigen::Index size_;
+  coordinates which_;
   sums sums_of_q_;
   sums sums_of_p_;
   Eigen::VectorXd weight_;

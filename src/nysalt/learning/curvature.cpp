@@ -97,16 +97,33 @@ double curvature::deciding_blocks(const trajectory_scores& scores) const {
   return squares > 0.0 ? sum * sum / squares : scores.blocks();
 }
 
-Eigen::VectorXd curvature::standard_errors(const trajectory_scores& scores) const {
-  const double blocks = scores.blocks();
-  std::vector<Eigen::VectorXd> squares;
-  for (const auto& score : scores.of_each) squares.push_back(solve(score).cwiseAbs2());
+spread_of_minimum curvature::spread(const trajectory_scores& scores, const trajectory_scores& others) const {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(size_);
-  Eigen::VectorXd result = (scores.share.sum(squares, zero) * (blocks / (blocks - 1.0))).cwiseSqrt();
-  if (blocks < 2.0) result.setConstant(std::numeric_limits<double>::quiet_NaN());
+  const double blocks = scores.blocks();
+  const double further = others.blocks();
+  Eigen::VectorXd squares = zero;
+  Eigen::VectorXd fourths = zero;
+  const auto add = [&](const trajectory_scores& some, const Eigen::VectorXd& mean, double factor) {
+    std::vector<Eigen::VectorXd> powers;
+    for (const auto& score : some.of_each) powers.push_back((solve(score - mean) * factor).cwiseAbs2());
+    squares += some.share.sum(powers, zero);
+    for (auto& power : powers) power = power.cwiseAbs2().eval();
+    fourths += some.share.sum(powers, zero);
+  };
+  add(scores, zero, 1.0);  // at the minimum they sum to zero
+  double freedom = blocks - 1.0;
+  if (further >= 2.0) {  // a score is of the mean over all of its data: B'/B of it is one among B
+    add(others, others.share.sum(others.of_each, zero) / further, further / blocks);
+    freedom += further - 1.0;
+  }
+  spread_of_minimum result{(squares * (blocks / freedom)).cwiseSqrt(), zero};
+  for (Eigen::Index i = 0; i < size_; ++i) {
+    result.deciding[i] = fourths[i] > 0.0 ? squares[i] * squares[i] / fourths[i] : freedom;
+  }
+  if (blocks < 2.0) result.standard_errors.setConstant(std::numeric_limits<double>::quiet_NaN());
   for (const auto& flat : flat_directions()) {
     for (Eigen::Index i = 0; i < size_; ++i) {
-      if (std::abs(flat[i]) > 1e-6) result[i] = std::numeric_limits<double>::infinity();
+      if (std::abs(flat[i]) > 1e-6) result.standard_errors[i] = std::numeric_limits<double>::infinity();
     }
   }
   return result;

@@ -8,6 +8,17 @@
 
 namespace nysalt {
 
+namespace {
+
+/// What is known of the error of a parameter, with so many digits after the first.
+std::string error_of(const fitted_parameter& p, const fit_summary& fit, int digits) {
+  if (std::isinf(p.standard_error)) return "(not determined by the data)";
+  if (std::isnan(p.standard_error)) return fit.is_held_by_guard ? "(held by the guard)" : "+- not known";
+  return p.free ? fmt::format("+- {:.{}e}", p.standard_error, digits) : "(not free)";
+}
+
+}  // namespace
+
 std::string fit_summary::verdict_in_words() const {
   switch (verdict()) {
     case nysalt::verdict::usable:
@@ -51,10 +62,7 @@ std::string fit_summary::brief() const {
   std::string text = fmt::format("{} at step {:g} for {}:", family, step, system);
   for (const auto& p : parameters) {
     text += fmt::format(" {} = {:.6f}", p.name, p.value);
-    text += p.free && !std::isfinite(p.standard_error) ? std::string(" (not determined)")
-            : p.free                                   ? fmt::format(" +- {:.1e}", p.standard_error)
-            : is_held_by_guard                         ? " (held)"
-                                                       : " (fixed)";
+    text += fmt::format(" {}", error_of(p, *this, 1));
   }
   text += fmt::format(", loss {:.3e}, held out {:.3e}{}, {}", loss, held_out_loss,
                       held_out_is_new ? "" : " (the same data)", verdict_in_words());
@@ -65,12 +73,7 @@ std::string fit_summary::brief() const {
 std::string fit_summary::full() const {
   std::string text = fmt::format("{} at step {} for {}\n", family, step, system);
   for (const auto& p : parameters) {
-    text +=
-        fmt::format("  {:<22}{:.17g}{}\n", p.name, p.value,
-                    p.free && !std::isfinite(p.standard_error) ? std::string("  (not determined by the data)")
-                    : p.free                                   ? fmt::format("  +- {:.2e}", p.standard_error)
-                    : is_held_by_guard                         ? "  (held by the guard)"
-                                                               : "  (not free)");
+    text += fmt::format("  {:<22}{:.17g}  {}\n", p.name, p.value, error_of(p, *this, 2));
   }
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<22}{}\n", what, value);
@@ -102,6 +105,7 @@ std::string fit_summary::full() const {
                      std::isfinite(rival_noise) ? fmt::format("{:.2g}", rival_noise / held_out_loss)
                                                 : std::string("unknown")));
   }
+  if (!errors_withheld.empty()) line("standard errors", "not known: " + errors_withheld);
   if (is_of_data) line("uncertainty", uncertainty());
   line("search", fmt::format("{} starts; this is from '{}'{}", starts_tried, from,
                              is_held_by_guard ? ", held by the guard"

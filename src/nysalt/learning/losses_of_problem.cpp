@@ -62,7 +62,16 @@ void put_losses(learning_problem& problem, const source_of_losses& from, const r
   };
   const learning_problem without = problem;
   problem.loss = loss.of_theta;
-  problem.scores = loss.scores;
+  problem.scores = [of = loss.scores, measure = from.measure](const Eigen::VectorXd& theta) {
+    return of(theta, measure->weight_deviations());
+  };
+  problem.held_out_scores = {};
+  if (problem.facts.held_out_is_new) {
+    const auto deviations = from.measure->weight_deviations(from.held_out);
+    problem.held_out_scores = [of = held.scores, deviations](const Eigen::VectorXd& theta) {
+      return of(theta, deviations);
+    };
+  }
   problem.held_out_losses = held.by_trajectory;
   const auto judge = from.other == nullptr ? kind.judge : judge_of_minima::held_out_loss;
   problem.judge = judge == judge_of_minima::held_out_end    ? at_end.value

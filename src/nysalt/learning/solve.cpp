@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "errors_withheld.hpp"
 #include "nysalt/detail/collectively.hpp"
 #include "nysalt/families/phase_fitted_start.hpp"
 #include "nysalt/learning/objection.hpp"
@@ -29,6 +30,7 @@ using detail::is_better;
 using detail::noise_of_difference;
 using detail::objection;
 using detail::options_within;
+using detail::reason_to_withhold;
 using detail::starts_of;
 using detail::summarise_rival;
 using detail::within;
@@ -226,13 +228,14 @@ attempt solve_as_it_is(const learning_problem& problem) {
     if (summary.unguarded.empty()) summary.unguarded = objection_of_guard(found.unguarded->theta, met::ever);
   }
 
-  Eigen::VectorXd errors = Eigen::VectorXd::Zero(theta.size());
+  std::optional<spread_of_minimum> spread;
   if (best.is_held && has_data) summary.expected_excess = std::numeric_limits<double>::quiet_NaN();
   if (!best.is_held) {  // where it is, no minimum is near
     const curvature bend(best.hessian, best.free);
     if (has_data) {
       const auto scores = problem.scores(theta);
-      errors = bend.standard_errors(scores);
+      const trajectory_scores none(std::vector<Eigen::VectorXd>{});
+      spread = bend.spread(scores, problem.held_out_scores ? problem.held_out_scores(theta) : none);
       summary.expected_excess = bend.expected_excess(scores);
       summary.deciding_trajectories = bend.deciding_blocks(scores);
     }
@@ -241,10 +244,15 @@ attempt solve_as_it_is(const learning_problem& problem) {
       summary.flat_directions.emplace_back(flat.begin(), flat.end());
     }
   }
+  summary.errors_withheld = has_data ? reason_to_withhold(problem, summary, best, free, spread) : std::string();
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
-    const bool varies = !best.is_held && std::find(best.free.begin(), best.free.end(), k) != best.free.end();
+    const bool is_estimated = has_data && std::ranges::find(free, k) != free.end();
+    const bool varies = !best.is_held && std::ranges::find(best.free, k) != best.free.end();
+    const double error = !is_estimated                       ? 0.0
+                         : !summary.errors_withheld.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                                             : spread->standard_errors[k];
     summary.parameters.push_back(
-        {family.parameter_names[static_cast<std::size_t>(k)], theta[k], varies ? errors[k] : 0.0, varies});
+        {family.parameter_names[static_cast<std::size_t>(k)], theta[k], error, varies});
   }
   for (const Eigen::Index k : free) {
     const bool is_held_there = std::find(best.free.begin(), best.free.end(), k) == best.free.end();

@@ -27,7 +27,8 @@ struct loss_inputs {
 /// Functions of theta; all are collective where ranks share the data.
 struct data_loss {
   objective of_theta;
-  std::function<trajectory_scores(const Eigen::VectorXd&)> scores;
+  /// With the deviations of the weights that these trajectories make; only if weights are estimated.
+  std::function<trajectory_scores(const Eigen::VectorXd&, const Eigen::MatrixXd& deviations)> scores;
   std::function<std::vector<double>(const Eigen::VectorXd&)> by_trajectory;  // of those of this rank
   std::function<double(const Eigen::VectorXd&)> value;
   std::function<Eigen::VectorXd(const Eigen::VectorXd&)> by_residual;  // the mean square of each
@@ -41,8 +42,9 @@ struct data_loss {
 /// larger by some part counts less by that part. Without this the standard errors are two to three times too
 /// small.
 template <class Loss>
-trajectory_scores scores_of(const Loss& loss, const Eigen::VectorXd& theta) {
-  const Eigen::MatrixXd* deviations = loss.error().weight_deviations;
+trajectory_scores scores_of(const Loss& loss, const Eigen::VectorXd& theta,
+                            const Eigen::MatrixXd& deviations) {
+  const bool has_estimated_weights = loss.error().weight_deviations != nullptr;
   const auto by_trajectory = residual_gradients(loss, theta);
   const Eigen::MatrixXd zero =
       Eigen::MatrixXd::Zero(loss.parameters(), static_cast<Eigen::Index>(loss.residuals()));
@@ -52,8 +54,8 @@ trajectory_scores scores_of(const Loss& loss, const Eigen::VectorXd& theta) {
     result.push_back(Eigen::VectorXd::Zero(sum.rows()));
     for (Eigen::Index k = 0; k < sum.cols(); ++k) {
       result[m] += by_trajectory[m].col(k);
-      if (deviations == nullptr) continue;
-      result[m] -= sum.col(k) * (*deviations)(k % deviations->rows(), static_cast<Eigen::Index>(m));
+      if (!has_estimated_weights) continue;
+      result[m] -= sum.col(k) * deviations(k % deviations.rows(), static_cast<Eigen::Index>(m));
     }
   }
   return {std::move(result), loss.share()};
@@ -64,7 +66,8 @@ template <class Loss>
 data_loss without_type(const std::shared_ptr<const Loss>& loss, const std::shared_ptr<const metric>& kept) {
   return {
       .of_theta = [loss, kept](const Eigen::VectorXd& theta) { return squares_at(*loss, theta); },
-      .scores = [loss, kept](const Eigen::VectorXd& theta) { return scores_of(*loss, theta); },
+      .scores = [loss, kept](const Eigen::VectorXd& theta,
+                             const Eigen::MatrixXd& deviations) { return scores_of(*loss, theta, deviations); },
       .by_trajectory = [loss, kept](const Eigen::VectorXd& theta) { return trajectory_losses(*loss, theta); },
       .value = [loss, kept](const Eigen::VectorXd& theta) { return loss_value(*loss, theta); },
       .by_residual = [loss, kept](const Eigen::VectorXd& theta) { return residual_squares(*loss, theta); },

@@ -45,9 +45,10 @@ std::string to_string(coordinates c) {
   return c == coordinates::qp ? "qp" : c == coordinates::modes ? "modes" : "energy";
 }
 
-metric::metric(const model& system, const flow_map_data& data, coordinates which) : size_(size(system)) {
+metric::metric(const model& system, const flow_map_data& data, coordinates which)
+    : size_(size(system)), which_(which) {
   if (which != coordinates::qp) change_coordinates(system, which);
-  weigh(data, which);
+  weigh(data);
 }
 
 void metric::change_coordinates(const model& system, coordinates which) {
@@ -68,21 +69,33 @@ void metric::change_coordinates(const model& system, coordinates which) {
   }
 }
 
-void metric::weigh(const flow_map_data& data, coordinates which) {
-  weight_ = Eigen::VectorXd::Ones(2 * size_);
-  for (Eigen::Index row = 0; row < 2 * size_; ++row) active_.push_back(row);
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(2 * size_);
-  Eigen::VectorXd increment = zero;
-  std::vector<Eigen::VectorXd> squares(data.trajectories(), zero);  // a term a trajectory
-  std::vector<Eigen::VectorXd> sizes(data.trajectories(), zero);
+/// What each trajectory adds to the mean square of each increment, in residuals as they are: a common one in
+/// the energy norm.
+std::vector<Eigen::VectorXd> metric::squares_in(const flow_map_data& data) const {
+  Eigen::VectorXd increment = Eigen::VectorXd::Zero(residuals());
+  std::vector<Eigen::VectorXd> squares(data.trajectories(), increment);
   const auto total = static_cast<double>(data.all_pairs());
   for (std::size_t m = 0; m < data.trajectories(); ++m) {
     for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
       residual(data.finish[n].q, data.finish[n].p, data.start[n], increment.data());
       squares[m] += increment.cwiseAbs2() / total;
+    }
+    if (which_ == coordinates::energy) squares[m].setConstant(mean_of(squares[m]));
+  }
+  return squares;
+}
+
+void metric::weigh(const flow_map_data& data) {
+  weight_ = Eigen::VectorXd::Ones(2 * size_);
+  for (Eigen::Index row = 0; row < 2 * size_; ++row) active_.push_back(row);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(2 * size_);
+  const auto squares = squares_in(data);
+  std::vector<Eigen::VectorXd> sizes(data.trajectories(), zero);
+  const auto total = static_cast<double>(data.all_pairs());
+  for (std::size_t m = 0; m < data.trajectories(); ++m) {
+    for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
       add_sizes_of_terms(data.finish[n], sums_of_q_, sums_of_p_, total, sizes[m]);
     }
-    if (which == coordinates::energy) squares[m].setConstant(mean_of(squares[m]));
   }
   const Eigen::VectorXd sigma = data.share().sum(squares, zero);
   const Eigen::VectorXd magnitudes = data.share().sum(sizes, zero);
@@ -91,7 +104,7 @@ void metric::weigh(const flow_map_data& data, coordinates which) {
     if (!std::isfinite(sigma[row]) || !std::isfinite(magnitudes[row])) {
       throw std::invalid_argument(sentence(
           "the weight of {} must be finite, got increments in the data that are too large to be squared",
-          name_of(row, which)));
+          name_of(row)));
     }
     // Motion below the rounding of the coordinate's own sum is none: its weight would amplify noise.
     constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
@@ -99,7 +112,7 @@ void metric::weigh(const flow_map_data& data, coordinates which) {
       weight_[row] = 1.0 / std::sqrt(sigma[row]);
       active_.push_back(row);
     } else {
-      dropped_.push_back(name_of(row, which));
+      dropped_.push_back(name_of(row));
     }
   }
   if (active_.empty()) throw std::invalid_argument("the data must hold motion to learn from, got none");
@@ -113,8 +126,20 @@ void metric::weigh(const flow_map_data& data, coordinates which) {
   }
 }
 
-std::string metric::name_of(Eigen::Index row, coordinates which) const {
-  const std::string_view names = which == coordinates::qp ? "qp" : "xy";
+/// In residuals of weight 1 from now on, so that their squares are those over Sigma.
+Eigen::MatrixXd metric::weight_deviations(const flow_map_data& others) const {
+  const auto squares = squares_in(others);
+  Eigen::MatrixXd result(residuals(), static_cast<Eigen::Index>(others.trajectories()));
+  const auto total = static_cast<double>(others.all_pairs());
+  for (std::size_t m = 0; m < others.trajectories(); ++m) {
+    const double share = static_cast<double>(others.first_of[m + 1] - others.first_of[m]) / total;
+    result.col(static_cast<Eigen::Index>(m)) = squares[m].array() - share;
+  }
+  return result;
+}
+
+std::string metric::name_of(Eigen::Index row) const {
+  const std::string_view names = which_ == coordinates::qp ? "qp" : "xy";
   return sentence("{}{}", names[row < size_ ? 0 : 1], row % size_ + 1);
 }
 
