@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -27,6 +28,7 @@
 #include "nysalt/learning/some_states.hpp"
 #include "nysalt/learning/sound_force.hpp"
 #include "nysalt/methods/frequency_to_fit.hpp"
+#include "nysalt/methods/repeated.hpp"
 
 namespace nysalt {
 
@@ -91,7 +93,7 @@ void require_served_with_slopes(const run_time_word& letters, const model& syste
 
 /// A problem of data that are as they should be.
 learning_problem make_problem(const detail::source_of_losses& from, fit_options options) {
-  const auto& [family, system, data, held_out, chosen, other, which, measure, threads, in_lanes] = from;
+  const auto& [family, system, data, held_out, chosen, other, which, measure, threads, in_lanes, kept] = from;
   const loss_kind& kind = *chosen.kind;
   if (other == nullptr && kind.is_of_proposals) {
     const int shortest = std::min(detail::shortest_of(data), detail::shortest_of(held_out));
@@ -124,10 +126,14 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
   problem.is_of_black_box = is_black_box(system);
   problem.is_in_bath = system.bath().acts();
   if (!problem.is_of_black_box) problem.trial_evaluations = coordinates_at_once / size(system);
-  if (has_modes(system)) problem.frequency_to_fit = detail::frequency_to_fit(system);
-  const auto run = [system = system, starts, step = data.step, seed = held_out.seed,
-                    threads = options.threads, of_parts = problem.guard.parts() != nullptr](
-                       const run_time_word& letters, const std::vector<double>& coefficients,
+  if (options.frequency) {
+    problem.frequency_to_fit = *options.frequency;
+  } else if (has_modes(system)) {
+    problem.frequency_to_fit = detail::frequency_to_fit(system);
+  }
+  const auto run = [system = system, starts, seed = held_out.seed, threads = options.threads,
+                    of_parts = problem.guard.parts() != nullptr](
+                       const run_time_word& letters, const std::vector<double>& coefficients, double step,
                        std::int64_t trajectories, std::int64_t steps) {
     phase_points first;
     for (std::int64_t k = 0; k < trajectories; ++k) first.push_back((*starts)[static_cast<std::size_t>(k)]);
@@ -135,17 +141,27 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
     return trial_run(system, method, step, first,
                      {.steps = steps, .seed = seed, .threads = threads, .watches_growth = of_parts});
   };
-  problem.trial = [run, letters = family.letters](const std::vector<double>& coefficients,
-                                                  std::int64_t trajectories, std::int64_t steps) {
-    return run(letters, coefficients, trajectories, steps);
-  };
+  problem.trial = [run, letters = family.letters, step = data.step](
+                      const std::vector<double>& coefficients, std::int64_t trajectories,
+                      std::int64_t steps) { return run(letters, coefficients, step, trajectories, steps); };
   const auto place = placement_in(family.letters);
-  const detail::rivals_by rival = [system = system, family = family, place, in_lanes = in_lanes, run](
-                                      const tabulated& method,
-                                      const detail::data_loss& held) -> std::optional<rival_method> {
+  const detail::rivals_by rival =
+      [system = system, family = family, place, in_lanes = in_lanes, run, step = data.step](
+          const tabulated& method, const detail::loss_by_times& held) -> std::optional<rival_method> {
     if (method.requires_quadratic_kinetic && !has_quadratic_kinetic(system)) return std::nullopt;
-    run_time_family as_family(method.name(), method.letters(), method.coefficients());
-    if (family.letters.stochastic_letters > 0) {
+    const run_time_word& word = method.letters();
+    const int ours = family.letters.evaluations_per_step;
+    const int theirs = word.evaluations_per_step;
+    if (ours < 1 || theirs < 1) return std::nullopt;
+    // `steps` steps of the family last as long, and cost as much, as `times` of the method.
+    const int steps = theirs / std::gcd(ours, theirs);
+    const int times = ours / std::gcd(ours, theirs);
+    const bool is_in_bath = family.letters.stochastic_letters > 0;
+    if (steps > 1 && (is_in_bath || family.letters.is_processed())) return std::nullopt;
+    if ((steps > 1 || times > 1) && word.is_processed()) return std::nullopt;
+    const tabulated over = repeated(method, times);
+    run_time_family as_family(over.name(), over.letters(), over.coefficients());
+    if (is_in_bath) {
       if (!place || as_family.letters.is_processed()) return std::nullopt;
       if (*place == placement::middle && as_family.letters.length % 2 == 0) return std::nullopt;
       as_family = thermostatted(as_family, *place);
@@ -155,14 +171,29 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
     } catch (const std::invalid_argument&) {
       return std::nullopt;
     }
-    const auto coefficients = as_family.coefficients({});
+    const auto losses = held(steps);
+    if (losses == nullptr) return std::nullopt;
     rival_method result;
     result.name = method.name();
-    result.held_out_losses = held.by_trajectory_of(as_family);
-    result.trial = [run, letters = as_family.letters, coefficients](std::int64_t trajectories,
-                                                                    std::int64_t n) {
-      return run(letters, coefficients, trajectories, n);
-    };
+    result.step = step * theirs / ours;
+    result.held_out_losses = losses->by_trajectory_of(as_family);
+    if (steps > 1) {
+      result.losses_beside = [losses, family, steps](const Eigen::VectorXd& theta) {
+        const tabulated member(family.name, family.letters, family.coefficients(theta), {1, false, false});
+        const tabulated all = repeated(member, steps);
+        return losses->by_trajectory_of({all.name(), all.letters(), all.coefficients()});
+      };
+    }
+    if (is_in_bath) {
+      result.trial = [run, letters = as_family.letters, coefficients = as_family.coefficients({}), step](
+                         std::int64_t trajectories, std::int64_t n) {
+        return run(letters, coefficients, step, trajectories, n);
+      };
+    } else {
+      result.trial = [run, method, h = result.step, steps, times](std::int64_t trajectories, std::int64_t n) {
+        return run(method.letters(), method.coefficients(), h, trajectories, (n * times + steps - 1) / steps);
+      };
+    }
     return result;
   };
   fit_summary& facts = problem.facts;
@@ -228,8 +259,13 @@ learning_problem make_learning_problem(const run_time_family& family, const mode
   }
   const coordinates which = coordinates_of(system, options, other == nullptr && kind.is_of_energy_norm);
   const auto measure = std::make_shared<const metric>(system, data, which);
+  // What rivals of other steps are compared on, which are none in a bath and of words with a processor.
+  const bool has_other_steps = family.letters.stochastic_letters == 0 && !family.letters.is_processed() &&
+                               !family.letters.has_own_letters();
+  const auto kept = has_other_steps ? std::make_shared<const flow_map_data>(held_out) : nullptr;
   return make_problem(
-      {family, system, data, held_out, chosen, other, which, measure, options.threads, in_lanes}, options);
+      {family, system, data, held_out, chosen, other, which, measure, options.threads, in_lanes, kept},
+      options);
 }
 
 fit learn(const run_time_family& family, const model& system, const flow_map_data& data,
