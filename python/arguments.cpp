@@ -208,6 +208,7 @@ program::system_settings system_of(const argument_reader& arguments) {
     take_parameters(arguments.inner("parameters"), settings);
   }
   arguments.take("spread", settings.spread);
+  arguments.take("frequency", settings.frequency);
   arguments.take("start", settings.start);
   arguments.take("friction", settings.bath.friction);
   arguments.take("sigma", settings.bath.sigma);

@@ -44,8 +44,10 @@ using held_methods = std::map<std::string, std::string>;
 
 /// Methods, trajectories and error measures of a comparison.
 struct comparison_options {
-  std::vector<std::string> methods{};  ///< names, "learned:FAMILY", paths of files, or names of `held`
-  std::vector<double> steps{};         ///< sizes: of a whole step, or (equal_cost) of a force evaluation
+  /// Names, "learned:FAMILY", paths of files, or names of `held`; "all" stands for each method of the
+  /// program's list that applies to the system, its bath and the metrics.
+  std::vector<std::string> methods{"all"};
+  std::vector<double> steps{};  ///< sizes: of a whole step, or (equal_cost) of a force evaluation
   bool equal_cost =
       false;  ///< whether steps are per force evaluation, so that rows of one step have equal cost
   /// The price of the force of each part of a sum, in any unit: evaluations are then those of the whole

@@ -135,13 +135,15 @@ def _held_by(system: Any) -> Any:
 
 def system(name: Union[str, _os.PathLike] = "fpu", *, spread: Optional[float] = None, friction: Optional[float] = None,
            sigma: Optional[float] = None, temperature: Optional[float] = None, start: Optional[str] = None,
-           **parameters: Union[float, str, None]) -> System:
+           frequency: Optional[float] = None, **parameters: Union[float, str, None]) -> System:
     """A bundled system with its parameters, such as omega=50; `systems()` names them all. Or one of your own.
 
     The path of what `build` made, or of its source, loads a system of your own, at full speed: it is code that
     runs as you. friction (gamma) with sigma or temperature (kT = sigma^2/(2 gamma)) puts the system into a
     bath; `start` says where trajectories start there: `"gibbs"`, `"law"` or `"trajectory"`. `spread` multiplies the
-    standard deviations of the initial distribution.
+    standard deviations of the initial distribution. `frequency` is the angular frequency that methods named
+    phase_fitted_... and s_aia... are fitted to; if it is not given, the one that the system declares, else an
+    estimate along the motion.
     """
     return System(_nysalt.bundled({**locals(), "name": _path(name)}))
 
@@ -163,14 +165,15 @@ def build(source: Union[str, _os.PathLike], output: Union[str, _os.PathLike, Non
 def potential(text: str, variables: Texts, *, mass: Optional[Numbers] = None,
               around: Optional[Mapping[str, float]] = None, spread: Optional[float] = None,
               friction: Optional[float] = None, sigma: Optional[float] = None, temperature: Optional[float] = None,
-              start: Optional[str] = None, **parameters: float) -> System:
+              start: Optional[str] = None, frequency: Optional[float] = None, **parameters: float) -> System:
     """H = sum_i p_i^2/(2 m_i) + V(q) of a potential as text, compiled: at full speed.
 
         nysalt.potential("0.5*k*(sqrt(x^2 + y^2) - 1)^2 + y", ["x", "y"], around={"y": -1}, k=400)
 
     The text has numbers, the variables, the parameters, + - * / ^, parentheses, sqrt, exp, log and their like,
     pi, and sum(i, 1, 15, (q[i+1] - q[i])^4) over the coordinates of a variable "q[16]". Starts are normal
-    around a point, with the deviations deviation_q and deviation_p, parameters too [0.1].
+    around a point, with the deviations deviation_q and deviation_p, parameters too [0.1]. `frequency` is that of
+    `system`.
     """
     if not isinstance(text, str):
         raise ValueError(f"text must be a text, got {text!r}")
@@ -178,7 +181,7 @@ def potential(text: str, variables: Texts, *, mass: Optional[Numbers] = None,
         raise ValueError(f"around must be a dict of numbers by name, got {around!r}")
     return System(_nysalt.bundled(dict(formula=text, variables=variables, mass=mass, around=around,
                                        parameters=parameters, spread=spread, friction=friction, sigma=sigma,
-                                       temperature=temperature, start=start)))
+                                       temperature=temperature, start=start, frequency=frequency)))
 
 
 def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], float],
@@ -191,8 +194,8 @@ def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], 
     potential(q) is V, force(q) is -grad V, of an array of `dimension` numbers that they may keep; the force is
     checked against differences of the potential at four starts. starts(seed, n) is the start (q, p) of
     trajectory n: a function of these two numbers only, such as one of np.random.default_rng([seed, n]).
-    `frequency` is the highest angular frequency of the motion, by which the reference chooses its step; if it
-    is not given, that along 64 starts. Schemes know the system by its name: let it hold the parameters. `kind` is
+    `frequency` is the highest angular frequency of the motion, by which the reference chooses its step, and to
+    which methods named phase_fitted_... and s_aia... are fitted; if it is not given, that along 64 starts. Schemes know the system by its name: let it hold the parameters. `kind` is
     the name without the size: a scheme that was learned at another size of the same kind is tried here, and used
     if it passes.
     The dimension is at most ten million.
@@ -207,7 +210,7 @@ def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], 
     central differences of the force along what a step does, good to 1e-7 in any units: two more calls for each
     parameter, and in each gradient kick one more than the two evaluations that it counts otherwise. What the
     functions raise comes through. There are no modes and no bands of frequencies, hence no coordinates but qp, no
-    rotations, no s_aia2 or phase_fitted_..., and starts in a bath are those of the function.
+    rotations, and starts in a bath are those of the function.
     """
     return System(_nysalt.own(dict(locals())))
 
@@ -423,7 +426,7 @@ def export(method: Method, to: str, *, name: Optional[str] = None, step: Optiona
                                displaced=displaced))
 
 
-def compare(system: System, methods: Union[Method, Iterable[Method]], steps: Numbers, *,
+def compare(system: System, methods: Union[Method, Iterable[Method]] = "all", steps: Numbers = (), *,
             equal_cost: bool = False, prices: Optional[Numbers] = None, horizon: Optional[float] = None,
             trajectories: Optional[int] = None, metric: Optional[Texts] = None, observable: Optional[str] = None, levels: Optional[Numbers] = None,
             range: Optional[Tuple[float, float]] = None, bins: Optional[int] = None,
@@ -435,6 +438,8 @@ def compare(system: System, methods: Union[Method, Iterable[Method]], steps: Num
             threads: Optional[int] = None) -> Dict[str, Any]:
     """Methods beside each other, at every step and by every metric: errors, evaluations, seconds.
 
+    "all" stands for every method of methods() that applies to the system, its bath and the metrics; `left_out` of
+    the document says which do not, and why.
     Returns the document that `nysalt compare --json` prints: `rows`, the `references` that they are seen
     against, `rankings`, `fits` of "learned:FAMILY". metrics() lists the metrics [path].
     equal_cost=True: steps are per force evaluation. prices: of the forces of parts 0, 1, ..., in any unit; a kick

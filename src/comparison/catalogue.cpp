@@ -173,10 +173,13 @@ const std::vector<classical_method>& classical_methods() {
 
 namespace {
 
-std::optional<double> frequency_to_fit(const prepared_problem& system) { return system.frequency_to_fit(); }
+std::optional<fitted_frequency> to_fit(const prepared_problem& system) { return system.frequency_to_fit(); }
+std::optional<fitted_frequency> to_cover(const prepared_problem& system) {
+  return system.frequency_to_cover();
+}
 
 template <class M>
-adaptive_method adaptive(std::optional<double> (*frequency)(const prepared_problem&)) {
+adaptive_method adaptive(std::optional<fitted_frequency> (*frequency)(const prepared_problem&)) {
   return {M::name(),
           M::source,
           run_time_word(typename M::word{}),
@@ -187,22 +190,16 @@ adaptive_method adaptive(std::optional<double> (*frequency)(const prepared_probl
 
 template <Family F, Method M>
 adaptive_method fitted() {
-  return adaptive<phase_fitted<F, M>>(frequency_to_fit);
+  return adaptive<phase_fitted<F, M>>(to_fit);
 }
 
 }  // namespace
 
 const std::vector<adaptive_method>& adaptive_methods() {
   static const std::vector<adaptive_method> all{
-      adaptive<s_aia2>(highest_frequency),
-      adaptive<s_aia3>(highest_frequency),
-      fitted<fg_chin, chin4a>(),
-      fitted<fg4, omelyan_fg4>(),
-      fitted<aba<4>, pefrl>(),
-      fitted<bab<4>, vefrl>(),
-      fitted<aba<5>, mclachlan5>(),
-      fitted<bab<5>, omelyan5v>(),
-      fitted<bab<6>, srkn6b>(),
+      adaptive<s_aia2>(to_cover),   adaptive<s_aia3>(to_cover),  fitted<fg_chin, chin4a>(),
+      fitted<fg4, omelyan_fg4>(),   fitted<aba<4>, pefrl>(),     fitted<bab<4>, vefrl>(),
+      fitted<aba<5>, mclachlan5>(), fitted<bab<5>, omelyan5v>(), fitted<bab<6>, srkn6b>(),
   };
   return all;
 }

@@ -18,6 +18,7 @@
 namespace nysalt::program {
 
 class prepared_problem;
+struct fitted_frequency;  // prepared_problem.hpp
 
 /// Every family that can be learned.
 const std::vector<run_time_family>& families();
@@ -68,12 +69,14 @@ struct adaptive_method {
   std::string_view source;  // in docs/bibliography.bib
   run_time_word letters;
   method_properties properties;
-  std::optional<double> (*frequency)(const prepared_problem&);  // of a system; nothing where none is declared
-  std::function<tabulated(double z)> at;                        // throws std::invalid_argument where it ends
+  std::optional<fitted_frequency> (*frequency)(const prepared_problem&);  // nothing where none is known
+  std::function<tabulated(double z)> at;  // throws std::invalid_argument where it ends
 };
 const std::vector<adaptive_method>& adaptive_methods();
 
 /// All names that `--method` takes, beside files.
 std::vector<std::string> method_names();
+/// What stands for all of them that apply.
+inline constexpr std::string_view every_method = "all";
 
 }  // namespace nysalt::program

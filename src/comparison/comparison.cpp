@@ -42,6 +42,7 @@ comparison::comparison(std::unique_ptr<prepared_problem> system, comparison_opti
                        common_settings common)
     : options_(std::move(asked)), common_(std::move(common)), system_(std::move(system)) {
   name_metrics();
+  name_methods();
   require_sound_command();
   plan_rows();
   question_ = question_asked();
@@ -61,10 +62,24 @@ void comparison::name_metrics() {
   if (options_.learning.loss.empty()) options_.learning.loss = loss_for(metrics_, system_->heat_bath());
 }
 
+void comparison::name_methods() {
+  std::vector<std::string> names;
+  const std::vector<std::string>& typed = options_.methods;
+  for (const auto& name : typed) {
+    if (name != every_method || options_.held.contains(name)) {
+      names.push_back(name);
+      continue;
+    }
+    for (const auto& known : method_names()) {
+      if (std::ranges::count(typed, known) == 0 && of_all_.insert(known).second) names.push_back(known);
+    }
+  }
+  options_.methods = std::move(names);
+}
+
 void comparison::require_sound_command() const {
   if (options_.methods.empty()) {
-    refuse(
-        "--methods must be one or more, got none; name methods, such as verlet,mclachlan2,learned:nystrom");
+    refuse("--methods must be one or more, got none; name methods, such as verlet,learned:nystrom, or all");
   }
   if (options_.steps.empty()) {
     refuse("--steps must be one or more, got none; give steps, such as 0.01,0.02");
@@ -111,15 +126,44 @@ void comparison::plan_rows() {
     charge(sources.back(), *system_);
     if (sources.back().family) families_[typed] = sources.back();
     if (sources.back().learned) schemes_.push_back(sources.back());
+    if (!is_of_all(typed)) continue;
+    if (const std::string reason = why_not(sources.back()); !reason.empty()) {
+      left_out_.emplace_back(typed, reason);
+      sources.pop_back();
+    }
   }
   horizon_ = options_.horizon.value_or(usual_horizon(sources));
   options_.learning.planned_horizon = horizon_;
   for (const double nominal : options_.steps) {
-    for (const auto& source : sources) add_row(source, nominal);
+    for (const auto& source : sources) {
+      if (!is_of_all(source.typed)) {
+        add_row(source, nominal);
+        continue;
+      }
+      const auto leave_out = [&](std::string reason) {
+        if (reason.starts_with(source.typed + " ")) reason.erase(0, source.typed.size() + 1);
+        left_out_.emplace_back(source.typed, fmt::format("{} (step {:g})", reason, nominal));
+      };
+      try {
+        add_row(source, nominal);
+      } catch (const refusal& problem) {
+        leave_out(problem.what());
+      } catch (const std::invalid_argument& problem) {
+        leave_out(problem.what());
+      }
+    }
   }
+  const auto has_no_row = [&](const std::string& name) {
+    return std::ranges::count(rows_, name, &row::method) == 0;
+  };
+  if (rows_.empty() && !left_out_.empty()) {
+    refuse("--methods must have one that applies, got none: {}: {}", left_out_.back().first,
+           left_out_.back().second);
+  }
+  std::erase_if(options_.methods,
+                [&](const std::string& name) { return is_of_all(name) && has_no_row(name); });
   for (const auto& source : sources) {
-    const auto is_of_source = [&](const row& line) { return line.method == source.typed; };
-    if (std::ranges::any_of(rows_, is_of_source)) continue;
+    if (is_of_all(source.typed) || !has_no_row(source.typed)) continue;
     if (!source.learned) refuse("{}", warnings_.back());
     const double evaluations = options_.equal_cost ? cost_of_step(source) : 1.0;
     refuse("--steps{} must hold {}, for which {} was learned; add {}, or take --force",
@@ -127,6 +171,20 @@ void comparison::plan_rows() {
            source.learned->curve.steps().back() / evaluations);
   }
   require_enough_samples();
+}
+
+std::string comparison::why_not(const method_source& source) const {
+  const run_time_word& word = *source.word;
+  if (!system_->heat_bath().acts() && word.stochastic_letters > 0) return "it is for a bath";
+  if (source.typed.ends_with("_2x")) return "it is two steps of another method";
+  if (!word.is_symplectic && std::ranges::none_of(metrics_, &asked_metric::is_acceptance))
+    return "it is not symplectic, and for Hybrid Monte Carlo only";
+  try {
+    system_->require_served(word);
+  } catch (const refusal& problem) {
+    return problem.what();
+  }
+  return {};
 }
 
 /// A scheme file has a row where its own step is asked for, and nowhere else.
@@ -151,11 +209,14 @@ void comparison::add_row(const method_source& source, double nominal) {
     if (where == placement::symmetric) parts = 2;
   } else {
     try {
-      planned.coefficients = coefficients_at(source, *system_, step, common_.force, otherwise, warnings_);
+      std::vector<std::string> of_all;  // their margins say which are not stable
+      planned.coefficients = coefficients_at(source, *system_, step, common_.force, otherwise,
+                                             is_of_all(source.typed) ? of_all : warnings_);
+      planned.frequency = frequency_of(source, *system_);
     } catch (const refusal& problem) {
       // Coefficients that follow from the step may end; other steps have their rows.
       const bool is_only_step = options_.steps.size() == 1;
-      if (source.adaptive == nullptr || is_only_step) throw;
+      if (source.adaptive == nullptr || is_only_step || is_of_all(source.typed)) throw;
       warnings_.push_back(fmt::format("{} (no row at step {:g})", problem.what(), nominal));
       return;
     }

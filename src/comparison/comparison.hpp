@@ -6,8 +6,10 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "asked_metric.hpp"
@@ -30,7 +32,8 @@ struct row {
   bool is_learned = false;
   bool gains_nothing = false;  // learned, and a classical method of its cost is as good by the loss
   std::optional<tabulated> coefficients{};
-  std::string reason{};               // why the method could not be used
+  std::optional<fitted_frequency> frequency{};  // of coefficients that follow from one
+  std::string reason{};                         // why the method could not be used
   double share_of_evaluation = 1.0;   // what an evaluation costs on average, of one of the whole force
   double evaluations_per_time = 0.0;  // at their prices
   timed_job seconds_per_time{};
@@ -64,6 +67,8 @@ class comparison {
   const std::vector<row>& rows() const { return rows_; }
   const std::vector<learned_row>& fits() const { return fits_; }
   const std::vector<method_source>& schemes() const { return schemes_; }
+  /// Methods of `all` that do not apply, or not at some step, and why.
+  const std::vector<std::pair<std::string, std::string>>& left_out() const { return left_out_; }
   const baselines& measured_baselines() const { return baselines_; }
   const std::optional<equal_bins>& bins(std::size_t metric) const { return bins_[metric]; }
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -76,12 +81,17 @@ class comparison {
   static constexpr double fine_angle = 0.05;             // usual of such a step, of the fastest motion
 
   void name_metrics();
+  /// Puts the names of the list in place of `all`.
+  void name_methods();
   void require_sound_command() const;
   void require_sound_statistics() const;
   /// 0.5, or as long as the largest step needs the horizon to be.
   double usual_horizon(const std::vector<method_source>& sources) const;
   void plan_rows();
   void add_row(const method_source& source, double nominal);
+  /// Why a method of `all` has no row at any step; empty if it may have.
+  std::string why_not(const method_source& source) const;
+  bool is_of_all(const std::string& name) const { return of_all_.contains(name); }
   trajectories_plan plan_at(double step) const;
   trajectories_plan paths_at(double step) const;
   /// Why a mean over time has too few samples at a step; empty if it has enough.
@@ -125,6 +135,8 @@ class comparison {
   std::vector<asked_metric> metrics_;
   std::map<std::string, method_source> families_;  // of the methods that are learned, by what was typed
   std::vector<method_source> schemes_;             // of the methods that come from files
+  std::set<std::string> of_all_;                   // names that `all` stands for, and that were not typed
+  std::vector<std::pair<std::string, std::string>> left_out_;  // name and reason
   std::vector<row> rows_;
   json question_;
   std::vector<learned_row> fits_;

@@ -132,6 +132,10 @@ tabulated with_letters_of(const prepared_problem& system, const tabulated& metho
 
 }  // namespace
 
+std::optional<fitted_frequency> frequency_of(const method_source& source, const prepared_problem& system) {
+  return source.adaptive == nullptr ? std::nullopt : source.adaptive->frequency(system);
+}
+
 bool is_at(const scheme& learned, double step) { return learned.curve.covers(step); }
 
 bool is_of_other_size(const scheme& learned, const prepared_problem& system) {
@@ -208,15 +212,16 @@ tabulated found_at(const method_source& source, const prepared_problem& system, 
     return from_scheme(source, system, step, force);
   }
   if (source.adaptive != nullptr) {
-    const auto frequency = source.adaptive->frequency(system);
+    const auto frequency = frequency_of(source, system);
     if (!frequency) {
       refuse(
-          "{} must run on a system with a highest frequency, got {}, which declares none; take another "
-          "method",
+          "{} must run on a system with a highest frequency, got {}, which declares none and shows none "
+          "along "
+          "its motion; give --frequency, or take another method",
           source.typed, system.description());
     }
     try {
-      return source.adaptive->at(step * *frequency);
+      return source.adaptive->at(step * frequency->value);
     } catch (const std::invalid_argument& problem) {
       refuse("cannot take {} at the step {}: {}", source.typed, step, problem.what());
     }
@@ -261,6 +266,11 @@ tabulated coefficients_at(const method_source& source, const prepared_problem& s
       adapted_to_bath(source, found_at(source, system, step, force, warnings), system, otherwise, warnings);
   system.require_served(method.letters());
   system.require_sound_letters(source.typed, method.letters(), step);
+  if (const auto frequency = frequency_of(source, system); frequency && system.is_frequency_seen()) {
+    const std::string text = fmt::format(
+        "methods that are fitted to a frequency take {}; --frequency gives another", in_words(*frequency));
+    if (std::ranges::count(warnings, text) == 0) warnings.push_back(text);
+  }
   return method;
 }
 

@@ -35,6 +35,10 @@ method_source find_method(const std::string& text, const held_methods& held = {}
 /// What a step costs with a system: differences of a black box call it twice for each f'(q) v.
 void charge(method_source& source, const prepared_problem& system);
 
+/// The frequency that the coefficients follow from, on a system; nothing of other methods, and where none is
+/// known.
+std::optional<fitted_frequency> frequency_of(const method_source& source, const prepared_problem& system);
+
 /// Whether the step is the scheme's own, to 1e-9 relative, as steps are typed in decimals.
 bool is_at(const scheme& learned, double step);
 

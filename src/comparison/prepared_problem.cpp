@@ -10,10 +10,12 @@
 #include <limits>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "json.hpp"
+#include "nysalt/derivatives/frequencies_at.hpp"
 #include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensembles/gibbs.hpp"
@@ -50,7 +52,8 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
     : made_(std::move(definition)),
       parameters_(std::move(parameters)),
       source_of_kind_(std::move(source)),
-      start_(conditions.start) {
+      start_(conditions.start),
+      frequency_asked_(conditions.frequency) {
   for (const auto& one : made_.letters) letters_.push_back(one.named);
   require_square_of_frequency(description(), made_.frequency);
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
@@ -101,9 +104,29 @@ std::vector<frequency_band> prepared_problem::frequency_bands() const {
   return made_.system.frequency_bands();
 }
 
-std::optional<double> prepared_problem::frequency_to_fit() const {
-  if (!has_modes(made_.system) && !has_frequency_bands(made_.system)) return std::nullopt;
-  return detail::frequency_to_fit(made_.system);
+std::string in_words(const fitted_frequency& frequency) {
+  return fmt::format("the frequency {:.6g}, {}", frequency.value, frequency.source);
+}
+
+std::optional<fitted_frequency> prepared_problem::frequency_to_fit() const {
+  if (frequency_asked_) return fitted_frequency{*frequency_asked_, "as given"};
+  if (has_modes(made_.system) || has_frequency_bands(made_.system))
+    return fitted_frequency{detail::frequency_to_fit(made_.system), "declared"};
+  const seen_frequencies& seen = highest_seen();
+  if (!(seen.median > 0.0)) return std::nullopt;
+  return fitted_frequency{seen.median, "the median of the highest " + seen.source};
+}
+
+bool prepared_problem::is_frequency_seen() const {
+  return !frequency_asked_ && !has_modes(made_.system) && !has_frequency_bands(made_.system);
+}
+
+std::optional<fitted_frequency> prepared_problem::frequency_to_cover() const {
+  if (frequency_asked_) return fitted_frequency{*frequency_asked_, "as given"};
+  if (const auto declared = highest_frequency(*this)) return fitted_frequency{*declared, "declared"};
+  const seen_frequencies& seen = highest_seen();
+  if (!(seen.largest > 0.0)) return std::nullopt;
+  return fitted_frequency{seen.largest, "the highest " + seen.source};
 }
 
 std::vector<std::string> prepared_problem::observables() const { return observable_names(made_); }
@@ -278,18 +301,22 @@ std::optional<double> prepared_problem::frequency_along_starts(std::uint64_t see
   }
 }
 
-const std::vector<frequency_band>& prepared_problem::bands_along_motion() const {
-  if (bands_along_motion_) return *bands_along_motion_;
+bool prepared_problem::is_followed() const {
+  return size(made_.system) <= most_for_all_frequencies && !is_black_box(made_.system) &&
+         made_.frequency > 0.0 && std::isfinite(made_.frequency);
+}
+
+states_in_double prepared_problem::states_along_motion() const {
   const model system = made_.system.base();
-  auto& bands = bands_along_motion_.emplace();
-  if (has_frequency_bands(system) || size(system) > most_for_all_frequencies || is_black_box(system))
-    return bands;
+  constexpr std::int64_t some = 64;
+  const auto begun = typical_and_energetic_starts(system, made_.starts, 1, 0, some);
+  if (!is_followed()) return begun;
   constexpr double angle = 0.1;  // of the fastest motion in a step
   constexpr std::int64_t steps = 500;
   constexpr int samples = 4;
   const auto stepper = make_stepper(system, tabulated(verlet()), angle / made_.frequency);
   states_in_double states;
-  for (const auto& start : typical_and_energetic_starts(system, made_.starts, 1, 0, 64)) {
+  for (const auto& start : begun) {
     auto run = stepper.open(start);
     for (int n = 0; n < samples; ++n) {
       stepper.advance(run, steps);
@@ -297,6 +324,33 @@ const std::vector<frequency_band>& prepared_problem::bands_along_motion() const 
       if (state.q.allFinite() && state.p.allFinite()) states.push_back(state);
     }
   }
+  return states;
+}
+
+const prepared_problem::seen_frequencies& prepared_problem::highest_seen() const {
+  if (highest_seen_) return *highest_seen_;
+  auto& seen = highest_seen_.emplace();
+  std::vector<double> highest;
+  try {
+    const model system = made_.system.base();
+    for (const auto& of_state : frequencies_of_states(system, states_along_motion()).of_state) {
+      if (!of_state.empty()) highest.push_back(of_state.back());
+    }
+  } catch (const std::invalid_argument&) {  // the force has no derivative there
+  }
+  if (highest.empty()) return seen;
+  std::ranges::sort(highest);
+  seen = {highest[highest.size() / 2], highest.back(), is_followed() ? "along the motion" : "of the starts"};
+  return seen;
+}
+
+const std::vector<frequency_band>& prepared_problem::bands_along_motion() const {
+  if (bands_along_motion_) return *bands_along_motion_;
+  const model system = made_.system.base();
+  auto& bands = bands_along_motion_.emplace();
+  if (has_frequency_bands(system) || size(system) > most_for_all_frequencies || is_black_box(system))
+    return bands;
+  const states_in_double states = states_along_motion();
   try {
     if (!states.empty()) bands = stability_guard(system, states, false).frequencies();
   } catch (const std::invalid_argument&) {  // the force has no derivative there: the run will show it

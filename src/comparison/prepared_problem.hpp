@@ -46,8 +46,17 @@ std::string to_string(start where);
 struct surroundings {
   nysalt::bath bath;
   program::start start;
-  double spread = 1.0;  // factor of the standard deviations of the initial distribution
+  double spread = 1.0;                   // factor of the standard deviations of the initial distribution
+  std::optional<double> frequency = {};  // to which methods are fitted; nothing: declared, or seen
 };
+
+/// The angular frequency that a method is fitted to, and where it is known from.
+struct fitted_frequency {
+  double value;
+  std::string source;
+};
+/// "the frequency 20.1, seen along the motion".
+std::string in_words(const fitted_frequency& frequency);
 
 class prepared_problem {
  public:
@@ -75,9 +84,16 @@ class prepared_problem {
   nlohmann::ordered_json parameters() const;
   /// Empty if there is no bound.
   std::vector<frequency_band> frequency_bands() const;
-  /// The frequency whose phase is kept by phase-fitted methods; nothing if neither modes nor bands are
-  /// declared.
-  std::optional<double> frequency_to_fit() const;
+  /// The frequency whose phase is kept by phase-fitted methods: the one that was given; else the highest of
+  /// the modes, or of the bands, that are declared; else the median, over states along the motion, of the
+  /// highest at a state, as a phase is gained at the mean rate and not at the largest; nothing if there is
+  /// none. Cost: at the first call, where none is given or declared, that of bands_along_motion().
+  std::optional<fitted_frequency> frequency_to_fit() const;
+  /// The frequency up to which s-AIA methods are made to err little: the one that was given; else the end of
+  /// the declared bands, or the highest that was seen along the motion.
+  std::optional<fitted_frequency> frequency_to_cover() const;
+  /// Whether they are estimates: neither given nor declared.
+  bool is_frequency_seen() const;
   std::vector<std::string> observables() const;
   /// Throws refusal for one that there is not, before any work is done.
   void require_observable(const std::string& name) const;
@@ -180,12 +196,25 @@ class prepared_problem {
   /// In which noise is wanted to learn with.
   int noise_parts(const run_time_family& family) const;
   const initial_states& starts_or_law() const { return starts_ ? *starts_ : made_.starts; }
+  /// States along some 200 rad of the fastest motion from some starts; only the starts of a black box, of a
+  /// system of many coordinates and of one whose fastest motion is not known.
+  std::vector<phase_point<double, Eigen::Dynamic>> states_along_motion() const;
+  bool is_followed() const;
+  /// Of the highest frequencies at these states: the median, and the largest.
+  struct seen_frequencies {
+    double median;  // 0: none is known
+    double largest;
+    std::string source;
+  };
+  const seen_frequencies& highest_seen() const;
 
   initial_value_problem made_;
   std::vector<named_value> parameters_;
   std::string source_of_kind_;
   start start_;
+  std::optional<double> frequency_asked_;
   std::optional<initial_states> starts_;
+  mutable std::optional<seen_frequencies> highest_seen_;
   mutable std::optional<std::vector<frequency_band>> bands_along_motion_;
   detail::named_letters letters_;
   mutable std::map<double, step_judge> judges_;      // by step

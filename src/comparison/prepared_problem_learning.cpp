@@ -62,6 +62,7 @@ learnable prepared_problem::make_learnable(const learn_plan& plan, const counter
   const int parts = noise_parts(family);
   fit_options options = options_for(family, plan.how, plan.threads);
   options.seed = plan.seed;
+  options.frequency = frequency_asked_;
   if (!plan.from.empty()) {
     const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(plan.from.data(), std::ssize(plan.from));
     if (plan.only_from_there) {

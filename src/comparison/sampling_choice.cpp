@@ -94,7 +94,7 @@ void sampling_choice::consider(const std::string& name) {
     } else if (candidate.source.fixed) {
       system_->require_served(candidate.source.fixed->letters());
     } else if (!candidate.source.adaptive->frequency(*system_)) {
-      return leave_out(fmt::format("{} declares no highest frequency", system_->description()));
+      return leave_out(fmt::format("{} has no frequency that is known", system_->description()));
     }
     all_.push_back(std::move(candidate));
   } catch (const refusal& problem) {
@@ -181,7 +181,7 @@ std::optional<acceptance_step> sampling_choice::step_of(const sampling_candidate
   const auto method_at = [&](double step) -> tabulated {
     if (candidate.learned) return candidate.learned->method;
     if (candidate.source.fixed) return *candidate.source.fixed;
-    return candidate.source.adaptive->at(step * *candidate.source.adaptive->frequency(*system_));
+    return candidate.source.adaptive->at(step * candidate.source.adaptive->frequency(*system_)->value);
   };
   try {
     return step_at_acceptance(system_->definition().system, method_at, options_.acceptance, guess, *states_,

@@ -52,6 +52,9 @@ json document_of(const learned_scheme& learned, const prepared_problem& system,
   result["guard"] = fit.guard;
   result["held_by_guard"] = fit.is_held_by_guard;
   result["unguarded"] = fit.unguarded.empty() ? json(nullptr) : json(fit.unguarded);
+  result["frequency"] = nullptr;
+  if (fit.fitted_frequency > 0.0)
+    result["frequency"] = {{"value", fit.fitted_frequency}, {"source", fit.source_of_frequency}};
   result["gaps"] = json::array();
   for (const auto& [low, high] : fit.gaps) result["gaps"].push_back({low, high});
   result["starts"] = fit.ensemble;

@@ -34,6 +34,7 @@ struct system_settings {
   std::map<std::string, std::string> parameters{};  // by name, as typed
   typed_potential potential{};                      // instead of a name
   std::optional<double> spread;
+  std::optional<double> frequency;  // to which methods are fitted
   bath_settings bath;
   std::string start;  // law, gibbs, trajectory; empty: gibbs if a bath has a temperature, else law
 };

@@ -90,7 +90,10 @@ surroundings surroundings_of(const system_settings& settings) {
     refuse("--spread must come with --start law, got the positions in {}; leave --spread out",
            settings.start);
   }
-  return {heat_bath, where, spread_of(settings.spread, where)};
+  if (settings.frequency && !(*settings.frequency > 0.0 && std::isfinite(*settings.frequency))) {
+    refuse("--frequency must be positive and finite, got {}", *settings.frequency);
+  }
+  return {heat_bath, where, spread_of(settings.spread, where), settings.frequency};
 }
 
 /// The typed value of a parameter, as its declaration has it.

@@ -38,6 +38,8 @@ json row_json(const comparison& all, std::size_t m, const row& line) {
               {"judgement", line.judged ? to_json(*line.judged) : json(nullptr)},
               {"reference_error", metric.is_of_law() ? json(nullptr) : number(against.reference_error)},
               {"marks", marks}};
+  if (line.frequency)
+    result["frequency"] = {{"value", line.frequency->value}, {"source", line.frequency->source}};
   if (!one.reason.empty()) result["reason"] = one.reason;
   if (one.spread) {
     json quantiles = json::object();
@@ -155,6 +157,9 @@ json document_of(const comparison& all) {
   }
   json fits = json::array();
   for (const learned_row& fit : all.fits()) fits.push_back(fit.document);
+  json left_out = json::array();
+  for (const auto& [name, reason] : all.left_out())
+    left_out.push_back({{"method", name}, {"reason", reason}});
   json result{{"system", all.system().description()},
               {"starts", all.system().starts()},
               {"metrics", metrics},
@@ -166,6 +171,7 @@ json document_of(const comparison& all) {
               {"rows", rows},
               {"rankings", rankings_json(all)},
               {"fits", fits},
+              {"left_out", left_out},
               {"warnings", all.warnings()},
               {"peak_memory", peak_memory()}};
   if (!options.prices.empty()) result["prices"] = options.prices;

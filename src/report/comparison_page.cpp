@@ -317,6 +317,7 @@ page report_of(const comparison& all) {
       fmt::format("peak memory {} MB", (peak_memory() + 500'000) / 1'000'000),
       fmt::format("nysalt {}, {}, {}, {:%Y-%m-%d}", version, compiler, machine(),
                   fmt::gmtime(std::time(nullptr)))};
+  for (const auto& text : sentences_of_methods(all)) notes.push_back(text);
   for (const auto& text : all.warnings()) notes.push_back(fmt::format("warning: {}", text));
   report.list(notes);
   return report;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "comparison/refusal.hpp"
@@ -214,6 +215,28 @@ std::vector<std::string> reasons_of(const comparison& all, std::size_t m) {
   return result;
 }
 
+std::vector<std::string> sentences_of_methods(const comparison& all) {
+  std::map<std::string, std::vector<std::string>> by_frequency;
+  for (const row& line : all.rows()) {
+    if (!line.frequency) continue;
+    auto& names = by_frequency[in_words(*line.frequency)];
+    if (std::ranges::count(names, line.method) == 0) names.push_back(line.method);
+  }
+  std::vector<std::string> result;
+  for (const auto& [frequency, names] : by_frequency) {
+    result.push_back(fmt::format("fitted to {}: {}", frequency, listed(names)));
+  }
+  std::map<std::string, std::vector<std::string>> by_reason;
+  for (const auto& [name, reason] : all.left_out()) {
+    auto& names = by_reason[reason];
+    if (std::ranges::count(names, name) == 0) names.push_back(name);
+  }
+  for (const auto& [reason, names] : by_reason) {
+    result.push_back(fmt::format("left out: {}: {}", listed(names), reason));
+  }
+  return result;
+}
+
 std::string readable(const comparison& all) {
   const comparison_options& options = all.options();
   std::string text = fmt::format("{}, {} trajectories over {:g}", all.system().description(),
@@ -232,6 +255,8 @@ std::string readable(const comparison& all) {
       text += fmt::format("\n{}", beside.text());
     }
   }
+  for (const auto& sentence : sentences_of_methods(all)) text += "\n" + sentence;
+  if (!sentences_of_methods(all).empty()) text += "\n";
   return text + fmt::format("\npeak memory: {} MB\n", (peak_memory() + 500'000) / 1'000'000);
 }
 

@@ -40,4 +40,7 @@ std::string sentence_of_prices(const std::vector<double>& prices);
 /// One sentence for each mark that is there, and for each row without a value.
 std::vector<std::string> meanings_of_marks(const comparison& all, std::size_t metric);
 std::vector<std::string> reasons_of(const comparison& all, std::size_t metric);
+/// One sentence for each frequency that methods are fitted to, and for each reason why methods of the list
+/// are left out.
+std::vector<std::string> sentences_of_methods(const comparison& all);
 }  // namespace nysalt::program

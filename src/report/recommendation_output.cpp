@@ -179,6 +179,8 @@ json recommendation::row_json(const contest& among, const candidate& contender) 
     row["confirmed"] = {{"error", among.statistic(contender.confirmed->scores)},
                         {"upper_bound", among.statistic.upper_bound(contender.confirmed->scores)}};
   }
+  if (const auto frequency = frequency_of(contender.source, *system_))
+    row["frequency"] = {{"value", frequency->value}, {"source", frequency->source}};
   if (!contender.reason.empty()) row["reason"] = contender.reason;
   return row;
 }

@@ -251,8 +251,9 @@ BOOST_AUTO_TEST_CASE(where_learning_gains_nothing_the_classical_method_is_named)
   BOOST_TEST_CONTEXT(own.full() << large.full()) {
     BOOST_TEST((own.verdict() == verdict::nothing_gained));
     BOOST_TEST(own.rival == "mclachlan2");
+    BOOST_TEST(own.rival_step == 0.5);
     BOOST_TEST(own.usable);
-    BOOST_TEST(says(own.brief(), "nothing gained over mclachlan2: take mclachlan2"));
+    BOOST_TEST(says(own.brief(), "nothing gained over mclachlan2: take mclachlan2 at step 0.5"));
     BOOST_TEST((large.verdict() == verdict::usable));
     BOOST_TEST(large.gain() > 1.0);
     BOOST_TEST(says(large.full(), "judgement"));

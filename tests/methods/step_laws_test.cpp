@@ -388,14 +388,6 @@ BOOST_AUTO_TEST_CASE(a_repeated_method_is_its_steps_one_after_the_other) {
       refuses<std::invalid_argument>([] { repeated(nysalt::classical_methods().front(), 0); }, {"0 steps"}));
 }
 
-BOOST_AUTO_TEST_CASE(methods_of_a_cost_take_as_many_evaluations) {
-  for (const int evaluations : {1, 2, 3, 4, 5, 6}) {
-    const auto all = classical_methods_of_cost(evaluations);
-    BOOST_TEST(all.size() >= 3U);
-    for (const auto& method : all) BOOST_TEST(method.letters().evaluations_per_step == evaluations);
-  }
-}
-
 BOOST_AUTO_TEST_CASE(tables_that_cannot_be_are_refused) {
   const method_properties nothing{1, false, false};
   const auto made = [&](const std::string& letters, const std::vector<double>& c) {

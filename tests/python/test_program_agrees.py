@@ -56,6 +56,20 @@ def test_a_comparison_is_the_document_of_the_program(program):
     assert len(found["rows"]) == 2 * 3 * 2
 
 
+def test_without_methods_all_that_apply_are_compared(program):
+    asked = dict(steps=0.02, equal_cost=True, horizon=3, trajectories=4, metric="state")
+    found = nysalt.compare(nysalt.system("pendulum", frequency=0.9), **asked)
+    of_program = program("compare", "--system", "pendulum", "--frequency", "0.9", "--steps", "0.02", "--equal-cost",
+                         "--horizon", "3", "--trajectories", "4", "--metric", "state")
+    assert without_times(found) == without_times(of_program)
+    methods = {row["method"] for row in found["rows"]}
+    left_out = {one["method"] for one in found["left_out"]}
+    assert methods | left_out == set(nysalt.methods()) and not methods & left_out
+    assert {"pefrl", "phase_fitted_pefrl"} <= methods and "baoab" in left_out
+    taken = {row["frequency"]["value"] for row in found["rows"] if "frequency" in row}
+    assert taken == {0.9}
+
+
 def test_a_recommendation_is_the_document_of_the_program(program):
     found, scheme = nysalt.recommend(nysalt.system("pendulum"), 2, budget=4, families="nystrom",
                                      trajectories=8, learn_trajectories=5)

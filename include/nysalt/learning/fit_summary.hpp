@@ -95,12 +95,26 @@ struct fit_summary {
   nysalt::judgement judgement{};  ///< judgement of the returned parameters at the step
   double highest_frequency =
       0.0;  ///< highest frequency along the states that the guard examined; 0: not known
-  /// The classical method of the same cost with the least held-out loss, of those that the system serves; if
-  /// nothing is gained over it, it holds at the step. Empty if there is none.
+  double fitted_frequency = 0.0;    ///< frequency of the phase-fitted member that was tried; 0: there is none
+  std::string source_of_frequency;  ///< where it is known from, in words
+  /// The classical method of the same cost per unit time with the least held-out loss, of those that the
+  /// system serves; if nothing is gained over it, it holds at its step. Empty if there is none.
   std::string rival;
-  double rival_loss = 0.0;     ///< held-out loss of the rival
-  double rival_noise = 0.0;    ///< standard error of the difference to held_out_loss
-  bool gains_nothing = false;  ///< the rival's loss is not larger by two of these
+  double rival_step = 0.0;         ///< step of the rival; 0: it is a member of the family
+  double rival_loss = 0.0;         ///< held-out loss of the rival
+  double loss_beside_rival = 0.0;  ///< held-out loss by the times that both have: all, or some
+  double rival_noise = 0.0;        ///< standard error of the difference of these two
+  bool gains_nothing = false;      ///< the loss is not smaller than the rival's, by means or by ranks
+  /// A classical method.
+  struct failing_method {
+    std::string name;         ///< name of the method; empty: there is none
+    double step = 0.0;        ///< step at which it costs as much
+    double times_less = 0.0;  ///< factor by which its error is smaller, in the median over trajectories
+    std::string reason;       ///< what its trial run showed
+  };
+  /// The classical method of the same cost that errs less than what is to be taken, or as little as the fit,
+  /// and fails a trial run.
+  failing_method failing_rival{};
 
   double data_seconds = 0.0;              ///< wall time of making the data
   double fit_seconds = 0.0;               ///< wall time that the fit took
@@ -120,7 +134,9 @@ struct fit_summary {
   /// The method to take where nothing is gained, in words: a method with its step, or what the rival is.
   std::string what_to_take() const;
   /// Ratio of the held-out losses of the rival and of the fit.
-  double gain() const { return rival_loss / held_out_loss; }
+  double gain() const { return rival_loss / loss_beside_rival; }
+  /// What a classical method that fails the trial would do, in words; empty: there is none.
+  std::string of_failing_rival() const;
 
   /// expected_excess over the loss; 0 where that is rounding, errors of 1e-12 of an increment.
   double excess_share() const { return loss <= 1e-24 ? 0.0 : expected_excess / loss; }

@@ -41,17 +41,25 @@ struct fit_options {
   /// The largest number of steps of a run with the method: the length of its trial, and the steps, up to
   /// 10,000, over which the guard examines growth. A proposal of Hybrid Monte Carlo takes few.
   std::int64_t planned_steps = 20'000;
-  bool check_force = true;   ///< whether learn() checks the force first
+  bool check_force = true;  ///< whether learn() checks the force first
+  /// The frequency that the phase-fitted member of the family keeps, a start of the search and a rival; none:
+  /// the highest of the modes, or of what is met often.
+  std::optional<double> frequency{};
   std::uint64_t seed = 1;    ///< seed of the random starts
   int max_iterations = 200;  ///< largest number of iterations of the search from each start
   int threads = 1;           ///< changes no bit of what is learned
 };
 
-/// Another method at the step of the data.
+/// Another method, at the step at which it costs as much per unit time as the family.
 struct rival_method {
   std::string name;                     ///< name of the rival
+  double step = 0.0;                    ///< its step
   std::vector<double> held_out_losses;  ///< contribution of each held-out trajectory of this rank to the loss
-  tabulated method;                     ///< word and coefficients
+  tabulated method;                     ///< word and coefficients that are judged
+  double judged_step = 0.0;             ///< step at which they are; in a bath that of several steps as one
+  /// The same of a member of the family, by the times that both have; empty where these are all times of the
+  /// loss.
+  std::function<std::vector<double>(const Eigen::VectorXd&)> losses_beside{};
 };
 
 /// The problem that learn() makes of system and data, and solve() solves. Refers to the system. Where ranks
@@ -83,15 +91,17 @@ struct learning_problem {
   /// is not one of trajectories.
   std::function<bool(const Eigen::VectorXd&)> follows{};
   std::shared_ptr<learning_problem> shorter{};  ///< problem over a quarter of the steps; null: none
-  /// Judges the family's word with these coefficients, or another, at the step; made when first asked.
-  std::function<judgement(const tabulated&)> judged;
-  /// The contribution of each held-out trajectory of this rank to the loss of another method, with the
-  /// letters O of the family's word; nothing if the system does not serve its letters.
+  /// Judges a method at a step; the judges of steps are made when they are first asked.
+  std::function<judgement(const tabulated&, double step)> judged;
+  /// Another method at equal cost, by the loss on held-out data, with the letters O of the family's word.
+  /// Where its step does not divide that of the data, the loss is that at the times nearest to its own which
+  /// are multiples of both steps. Nothing if the system does not serve its letters, if there are no such
+  /// times, or if the word has letters O or a processor and the step does not divide.
   std::function<std::optional<rival_method>(const tabulated&)> rival;
   stability_guard guard;          ///< knows the frequencies of the system
   bool is_of_black_box = false;   ///< whether the force is a black box, over double only
   bool is_in_bath = false;        ///< whether the system is in a bath that acts
-  double frequency_to_fit = 0.0;  ///< the highest of the modes; 0: none are declared
+  double frequency_to_fit = 0.0;  ///< as given, or the highest of the modes; 0: neither
   fit_summary facts;              ///< facts that are known before a search
 };
 

@@ -24,7 +24,8 @@ std::string fit_summary::verdict_in_words() const {
     case nysalt::verdict::usable:
       return "usable";
     case nysalt::verdict::nothing_gained:
-      return fmt::format("nothing gained over {}: {}", rival, what_to_take());
+      return fmt::format("nothing gained over {}: {}{}", rival, what_to_take(),
+                         failing_rival.name.empty() ? "" : "; " + of_failing_rival());
     case nysalt::verdict::not_usable:
       break;
   }
@@ -36,11 +37,16 @@ std::string fit_summary::what_to_take() const {
   if (rival == "phase_fitted") {
     return "the member of this family that follows from only the highest frequency is as good";
   }
-  if (const auto times = rival.find(" x "); times != std::string::npos) {
-    const double n = std::stod(rival.substr(0, times));
-    return fmt::format("take {} at step {:.4g}", rival.substr(times + 3), step / n);
-  }
+  if (rival_step > 0.0) return fmt::format("take {} at step {:.4g}", rival, rival_step);
   return fmt::format("take {}", rival);
+}
+
+std::string fit_summary::of_failing_rival() const {
+  if (failing_rival.name.empty()) return {};
+  const auto& [name, of_name, times, why] = failing_rival;
+  const std::string errs = times > 1.0 ? fmt::format("errs {:.2g} times less", times)
+                                       : fmt::format("errs {:.2g} times as much", 1.0 / times);
+  return fmt::format("{} at step {:.4g} {} in the median, and fails: {}", name, of_name, errs, why);
 }
 
 std::string fit_summary::uncertainty() const {
@@ -100,12 +106,17 @@ std::string fit_summary::full() const {
   }
   if (!rival.empty()) {
     line("best classical",
-         fmt::format("{} of the same cost, held-out loss {:.6e} ({:.3g} times this, +- {})", rival,
+         fmt::format("{}{} of the same cost, held-out loss {:.6e} ({:.3g} times {}, +- {})", rival,
+                     rival_step > 0.0 ? fmt::format(" at step {:.4g}", rival_step) : std::string(),
                      rival_loss, gain(),
-                     std::isfinite(rival_noise) ? fmt::format("{:.2g}", rival_noise / held_out_loss)
+                     loss_beside_rival == held_out_loss
+                         ? std::string("this")
+                         : fmt::format("{:.6e}, by times that both have", loss_beside_rival),
+                     std::isfinite(rival_noise) ? fmt::format("{:.2g}", rival_noise / loss_beside_rival)
                                                 : std::string("unknown")));
   }
   if (!errors_withheld.empty()) line("standard errors", "not known: " + errors_withheld);
+  if (!failing_rival.name.empty()) line("fails its trial", of_failing_rival());
   if (is_of_data) line("uncertainty", uncertainty());
   line("search", fmt::format("{} starts; this is from '{}'{}", starts_tried, from,
                              is_held_by_guard ? ", held by the guard"
@@ -114,6 +125,8 @@ std::string fit_summary::full() const {
   line("stability", guard);
   line("judgement", judgement.in_words());
   line("trial", judgement.report());
+  if (fitted_frequency > 0.0)
+    line("phase-fitted", fmt::format("the frequency {:.6g}, {}", fitted_frequency, source_of_frequency));
   if (!unguarded.empty()) line("without the guard", unguarded);
   for (const auto& [low, high] : gaps) {
     line("gap",

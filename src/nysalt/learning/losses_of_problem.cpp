@@ -2,7 +2,10 @@
 #include "losses_of_problem.hpp"
 
 #include <algorithm>
+#include <map>
 #include <vector>
+
+#include "coarser_data.hpp"
 
 namespace nysalt::detail {
 
@@ -25,6 +28,33 @@ std::function<bool(const Eigen::VectorXd&)> follows_over(const source_of_losses&
 }
 
 }  // namespace
+
+loss_by_times losses_by_times(const source_of_losses& from, const data_loss& held,
+                              const after_steps_options& how) {
+  struct lasting {
+    run_time_family family;
+    model system;
+    std::optional<other_loss> other;
+    std::map<int, std::shared_ptr<const data_loss>> known;
+  };
+  const auto kept = std::make_shared<lasting>(lasting{from.family, from.system, {}, {}});
+  if (from.other != nullptr) kept->other = *from.other;
+  kept->known[1] = std::make_shared<const data_loss>(held);
+  return [kept, how, data = from.kept_held_out, chosen = from.chosen, which = from.which,
+          measure = from.measure, threads = from.threads, in_lanes = from.in_lanes](int times) {
+    if (const auto found = kept->known.find(times); found != kept->known.end()) return found->second;
+    auto& result = kept->known[times];
+    if (data == nullptr) return result;
+    const auto longer = in_longer_steps(how, times, shortest_of(*data));
+    if (longer.steps.empty()) return result;
+    const flow_map_data pairs = coarser(*data, times);
+    const source_of_losses again{
+        kept->family, kept->system, pairs,   pairs,   chosen, kept->other ? &*kept->other : nullptr,
+        which,        measure,      threads, in_lanes};
+    result = std::make_shared<const data_loss>(again.over(pairs, longer));
+    return result;
+  };
+}
 
 void put_losses(learning_problem& problem, const source_of_losses& from, const rivals_by& rival,
                 const data_loss& at_end, int most_steps, const std::function<std::int64_t()>& before) {
@@ -81,7 +111,9 @@ void put_losses(learning_problem& problem, const source_of_losses& from, const r
   problem.evaluations = [&ranks = data.share().ranks(), of_data, passes] {
     return of_data + ranks.sum(passes());
   };
-  problem.rival = [rival, held](const tabulated& method) { return rival(method, held); };
+  problem.rival = [rival, by_times = losses_by_times(from, held, stages.back())](const tabulated& method) {
+    return rival(method, by_times);
+  };
   problem.facts.loss_steps = stages.back().steps.back();
   for (std::size_t n = 0; from.asks_data() && n < stages.size(); ++n) {
     problem.stages.push_back({.loss = losses_of_stages[n].of_theta, .steps = stages[n].steps.back()});

@@ -14,6 +14,9 @@
 
 namespace nysalt::detail {
 
+/// A loss of held-out data by times that are multiples of so many steps; null if there are none.
+using loss_by_times = std::function<std::shared_ptr<const data_loss>(int times)>;
+
 /// From what the losses of a problem are made.
 struct source_of_losses {
   const run_time_family& family;
@@ -26,6 +29,7 @@ struct source_of_losses {
   std::shared_ptr<const metric> measure;  // in them
   int threads;
   bool in_lanes;
+  std::shared_ptr<const flow_map_data> kept_held_out = {};  // null: rivals need none beyond the problem
 
   loss_inputs inputs(const flow_map_data& pairs, after_steps_options how) const {
     how.threads = threads;
@@ -43,8 +47,13 @@ struct source_of_losses {
   bool asks_data() const { return other != nullptr || chosen.kind->asks_data(); }
 };
 
-/// Other methods at the step of the data, by a loss of held-out data.
-using rivals_by = std::function<std::optional<rival_method>(const tabulated&, const data_loss&)>;
+/// The loss over the kept held-out data by these times and by their multiples, made where it is first asked
+/// for. Refers to nothing of `from`.
+loss_by_times losses_by_times(const source_of_losses& from, const data_loss& held,
+                              const after_steps_options& how);
+
+/// Other methods at the cost of the family, by a loss of held-out data.
+using rivals_by = std::function<std::optional<rival_method>(const tabulated&, const loss_by_times&)>;
 
 /// Sets the members of `problem` that depend on the horizon of the loss, which is at most `most_steps` steps,
 /// and `problem.shorter`, the same problem over a quarter of that horizon. `before` counts the evaluations of

@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -27,6 +29,7 @@
 #include "nysalt/learning/some_states.hpp"
 #include "nysalt/learning/sound_force.hpp"
 #include "nysalt/methods/frequency_to_fit.hpp"
+#include "nysalt/methods/repeated.hpp"
 
 namespace nysalt {
 
@@ -91,7 +94,7 @@ void require_served_with_slopes(const run_time_word& letters, const model& syste
 
 /// A problem of data that are as they should be.
 learning_problem make_problem(const detail::source_of_losses& from, fit_options options) {
-  const auto& [family, system, data, held_out, chosen, other, which, measure, threads, in_lanes] = from;
+  const auto& [family, system, data, held_out, chosen, other, which, measure, threads, in_lanes, kept] = from;
   const loss_kind& kind = *chosen.kind;
   if (other == nullptr && kind.is_of_proposals) {
     const int shortest = std::min(detail::shortest_of(data), detail::shortest_of(held_out));
@@ -117,22 +120,39 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
                            .facts = {}};
   problem.is_of_black_box = is_black_box(system);
   problem.is_in_bath = system.bath().acts();
-  if (has_modes(system)) problem.frequency_to_fit = detail::frequency_to_fit(system);
-  problem.judged = [system = system, starts = judged_starts_of(system, data, held_out), step = data.step,
+  if (options.frequency) {
+    problem.frequency_to_fit = *options.frequency;
+  } else if (has_modes(system)) {
+    problem.frequency_to_fit = detail::frequency_to_fit(system);
+  }
+  problem.judged = [system = system, starts = judged_starts_of(system, data, held_out),
                     how = judging_options{.steps = options.planned_steps,
                                           .threads = options.threads,
                                           .watches_energy = other != nullptr || !kind.is_of_proposals},
-                    made = std::make_shared<std::optional<step_judge>>()](const tabulated& method) {
-    if (!*made) made->emplace(system, starts, step, how);
-    return (*made)->of(method);
+                    judges = std::make_shared<std::map<double, step_judge>>()](const tabulated& method,
+                                                                               double step) {
+    auto judge = judges->find(step);
+    if (judge == judges->end()) judge = judges->emplace(step, step_judge(system, starts, step, how)).first;
+    return judge->second.of(method);
   };
   const auto place = placement_in(family.letters);
-  const detail::rivals_by rival = [system = system, family = family, place, in_lanes = in_lanes](
-                                      const tabulated& method,
-                                      const detail::data_loss& held) -> std::optional<rival_method> {
+  const detail::rivals_by rival =
+      [system = system, family = family, place, in_lanes = in_lanes, step = data.step](
+          const tabulated& method, const detail::loss_by_times& held) -> std::optional<rival_method> {
     if (method.requires_quadratic_kinetic && !has_quadratic_kinetic(system)) return std::nullopt;
-    run_time_family as_family(method.name(), method.letters(), method.coefficients());
-    if (family.letters.stochastic_letters > 0) {
+    const run_time_word& word = method.letters();
+    const int ours = family.letters.evaluations_per_step;
+    const int theirs = word.evaluations_per_step;
+    if (ours < 1 || theirs < 1) return std::nullopt;
+    // `steps` steps of the family last as long, and cost as much, as `times` of the method.
+    const int steps = theirs / std::gcd(ours, theirs);
+    const int times = ours / std::gcd(ours, theirs);
+    const bool is_in_bath = family.letters.stochastic_letters > 0;
+    if (steps > 1 && (is_in_bath || family.letters.is_processed())) return std::nullopt;
+    if ((steps > 1 || times > 1) && word.is_processed()) return std::nullopt;
+    const tabulated over = repeated(method, times);
+    run_time_family as_family(over.name(), over.letters(), over.coefficients());
+    if (is_in_bath) {
       if (!place || as_family.letters.is_processed()) return std::nullopt;
       if (*place == placement::middle && as_family.letters.length % 2 == 0) return std::nullopt;
       as_family = thermostatted(as_family, *place);
@@ -142,8 +162,24 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
     } catch (const std::invalid_argument&) {
       return std::nullopt;
     }
-    return rival_method{method.name(), held.by_trajectory_of(as_family),
-                        {method.name(), as_family.letters, as_family.coefficients({}), method}};
+    const auto losses = held(steps);
+    if (losses == nullptr) return std::nullopt;
+    rival_method result{
+        .name = method.name(),
+        .held_out_losses = losses->by_trajectory_of(as_family),
+        .method = is_in_bath
+                      ? tabulated(method.name(), as_family.letters, as_family.coefficients({}), method)
+                      : method};
+    result.step = step * theirs / ours;
+    result.judged_step = is_in_bath ? step : result.step;
+    if (steps > 1) {
+      result.losses_beside = [losses, family, steps](const Eigen::VectorXd& theta) {
+        const tabulated member(family.name, family.letters, family.coefficients(theta), {1, false, false});
+        const tabulated all = repeated(member, steps);
+        return losses->by_trajectory_of({all.name(), all.letters(), all.coefficients()});
+      };
+    }
+    return result;
   };
   fit_summary& facts = problem.facts;
   facts.family = family.name;
@@ -208,8 +244,13 @@ learning_problem make_learning_problem(const run_time_family& family, const mode
   }
   const coordinates which = coordinates_of(system, options, other == nullptr && kind.is_of_energy_norm);
   const auto measure = std::make_shared<const metric>(system, data, which);
+  // What rivals of other steps are compared on, which are none in a bath and of words with a processor.
+  const bool has_other_steps = family.letters.stochastic_letters == 0 && !family.letters.is_processed() &&
+                               !family.letters.has_own_letters();
+  const auto kept = has_other_steps ? std::make_shared<const flow_map_data>(held_out) : nullptr;
   return make_problem(
-      {family, system, data, held_out, chosen, other, which, measure, options.threads, in_lanes}, options);
+      {family, system, data, held_out, chosen, other, which, measure, options.threads, in_lanes, kept},
+      options);
 }
 
 fit learn(const run_time_family& family, const model& system, const flow_map_data& data,

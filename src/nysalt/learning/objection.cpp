@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "nysalt/losses/loss_choice.hpp"
@@ -20,6 +21,47 @@ double noise_of_difference(const std::vector<double>& a, const std::vector<doubl
   const double mean = share.sum(terms) / count;
   for (double& term : terms) term = (term - mean) * (term - mean);
   return std::sqrt(share.sum(terms) * count / (count - 1.0));
+}
+
+std::vector<double> gathered(const std::vector<double>& numbers, const shard& share) {
+  std::vector<double> all(static_cast<std::size_t>(share.total()));
+  std::ranges::copy(numbers, all.begin() + share.first());
+  share.gather(all);
+  return all;
+}
+
+double signed_rank(const std::vector<double>& a, const std::vector<double>& b, const shard& share) {
+  const std::vector<double> of_a = gathered(a, share);
+  const std::vector<double> of_b = gathered(b, share);
+  std::vector<double> gains;  // ln(b/a)
+  for (std::size_t m = 0; m < of_a.size(); ++m) {
+    const double gain = std::log(of_b[m] / of_a[m]);
+    constexpr double rounding = 1e-9;
+    if (std::abs(gain) > rounding) gains.push_back(gain);  // nor NaN, where both are 0
+  }
+  std::ranges::sort(gains, {}, [](double x) { return std::abs(x); });
+  const auto n = static_cast<double>(gains.size());
+  if (gains.empty()) return 0.0;
+  double sum = 0.0;  // of the ranks where a is better
+  double variance = n * (n + 1.0) * (2.0 * n + 1.0) / 24.0;
+  for (auto first = gains.begin(); first != gains.end();) {
+    const auto last =
+        std::find_if(first, gains.end(), [size = std::abs(*first)](double x) { return std::abs(x) != size; });
+    const auto ties = static_cast<double>(last - first);
+    const double rank = static_cast<double>(first - gains.begin()) + (ties + 1.0) / 2.0;
+    sum += rank * static_cast<double>(std::count_if(first, last, [](double x) { return x > 0.0; }));
+    variance -= (ties * ties * ties - ties) / 48.0;
+    first = last;
+  }
+  return (sum - n * (n + 1.0) / 4.0) / std::sqrt(variance);
+}
+
+bool is_better(const std::vector<double>& a, const std::vector<double>& b, const shard& share) {
+  constexpr double of_two = 2.28;  // standard deviations that a normal variable exceeds in 1.1 % of all cases
+  const double loss = share.sum(a);
+  const double other = share.sum(b);
+  if (!(other > 1e-24 && loss < other * (1.0 - 1e-9))) return false;
+  return loss < other - of_two * noise_of_difference(a, b, share) || signed_rank(a, b, share) > of_two;
 }
 
 std::string objection(const fit_summary& fit, bool settled, const std::string& instability) {

@@ -37,15 +37,20 @@ using detail::within;
 
 namespace {
 
-/// The member of the family whose step is exact on an oscillator of the highest mode's frequency, or, where
-/// no modes are declared, of the highest frequency that is met often; nothing if there is none.
+/// The frequency that was given, or that of the highest mode; where neither is, the highest that is met
+/// often.
+double frequency_to_fit(const learning_problem& problem) {
+  double highest = problem.frequency_to_fit;
+  if (highest > 0.0) return highest;
+  for (const auto& band : problem.guard.frequencies(met::often)) highest = std::max(highest, band.high);
+  return highest;
+}
+
+/// The member of the family whose step is exact on an oscillator of the frequency to fit; nothing if there is
+/// none.
 std::optional<named_parameters> phase_fitted_member(const learning_problem& problem) {
   if (problem.family.letters.has_own_letters()) return std::nullopt;
-  double highest = problem.frequency_to_fit;
-  if (highest == 0.0) {
-    for (const auto& band : problem.guard.frequencies(met::often)) highest = std::max(highest, band.high);
-  }
-  const double z = problem.step * highest;
+  const double z = problem.step * frequency_to_fit(problem);
   if (!(z > 0.0) || !std::isfinite(z)) return std::nullopt;
   return phase_fitted_start(problem.family, z);
 }
@@ -127,7 +132,7 @@ attempt solve_as_it_is(const learning_problem& problem) {
   const auto judged_at = [&](const Eigen::VectorXd& theta) {
     const auto known = std::ranges::find_if(tried, [&](const auto& one) { return one.first == theta; });
     if (known != tried.end()) return known->second;
-    tried.emplace_back(theta, problem.judged(method_at(theta)));
+    tried.emplace_back(theta, problem.judged(method_at(theta), problem.step));
     return tried.back().second;
   };
   const auto withstands = [&](const Eigen::VectorXd& theta) { return judged_at(theta).holds(); };
@@ -167,7 +172,10 @@ attempt solve_as_it_is(const learning_problem& problem) {
     contender result{name, problem.held_out_losses(theta)};
     result.loss = share.sum(result.losses);
     result.theta = theta;
-    result.withstands = [&, theta] { return task.admits(theta) && withstands(theta); };
+    result.objection = [&, theta] {
+      const judgement found = judged_at(theta);
+      return found.holds() ? std::string() : found.in_words();
+    };
     return result;
   };
   contender chosen = member_at(found.best.from, found.best.theta);
@@ -219,6 +227,12 @@ attempt solve_as_it_is(const learning_problem& problem) {
   summary.is_held_by_guard = best.is_held;
   summary.follows = !problem.follows || problem.follows(theta);
   summary.highest_frequency = problem.guard.highest_along();
+  if (fitted) {
+    summary.fitted_frequency = frequency_to_fit(problem);
+    summary.source_of_frequency = options.frequency                ? "as given"
+                                  : problem.frequency_to_fit > 0.0 ? "declared"
+                                                                   : "the highest that the data meet often";
+  }
   if (found.unguarded) {
     summary.unguarded = objection_of_guard(found.unguarded->theta, met::often);
     if (summary.unguarded.empty()) {

@@ -18,16 +18,23 @@ struct contender {
   std::string name;
   std::vector<double> losses;  // of each held-out trajectory of this rank
   double loss = 0.0;           // of all
-  std::function<bool()> withstands{};
+  /// Why it does not hold at its step; empty if it does.
+  std::function<std::string()> objection{};
   Eigen::VectorXd theta{};  // of members of the family
+  double step = 0.0;        // of a method that is no member; 0: that of the data
+  // Of the chosen one at the times that both have, where these are not all.
+  std::vector<double> losses_beside{};
+  double loss_beside = 0.0;
+
+  bool withstands() const { return objection().empty(); }
 };
 
-/// Whether the loss of a is smaller than that of b by two standard errors of their difference, and by more
-/// than rounding: losses below 1e-24 are errors of 1e-12 of an increment.
+/// See is_better() of losses.
 bool is_better(const contender& a, const contender& b, const shard& share);
 
-/// The strongest rival of the same cost, of `rivals` and the classical methods that hold at the step:
-/// puts into the summary who it is, and whether `chosen` beats it.
+/// The strongest rival of the same cost per unit time, of `rivals` and the classical methods of any number of
+/// evaluations a step that hold at their steps: puts into the summary who it is, whether `chosen` beats it,
+/// and who is as good by the loss and fails the trial.
 void summarise_rival(const learning_problem& problem, const contender& chosen, std::vector<contender> rivals,
                      fit_summary& summary);
 

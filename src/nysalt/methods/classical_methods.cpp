@@ -4,8 +4,6 @@
 
 #include <string>
 
-#include "nysalt/methods/repeated.hpp"
-
 namespace nysalt {
 
 tabulated as_data(const classical_row& row) {
@@ -22,17 +20,6 @@ std::vector<tabulated> classical_methods() {
     if (!is_for_baths && !row.repeats) result.push_back(as_data(row));
   }
   for (const auto& row : processed_table) result.push_back(as_data(row));
-  return result;
-}
-
-std::vector<tabulated> classical_methods_of_cost(int evaluations) {
-  std::vector<tabulated> result;
-  for (const auto& method : classical_methods()) {
-    const int each = method.letters().evaluations_per_step;
-    if (evaluations % each != 0) continue;
-    if (evaluations != each && method.letters().is_processed()) continue;
-    result.push_back(repeated(method, evaluations / each));
-  }
   return result;
 }
 

@@ -194,6 +194,8 @@ int run(const run_command& asked, const common_settings& common) {
                   {"sample_every", command.sample_every},
                   {"starts", system.starts()},
                   {"diverged", diverged}};
+    const auto frequency = frequency_of(planned.source, system);
+    if (frequency) document["frequency"] = {{"value", frequency->value}, {"source", frequency->source}};
     output->describe(document);
     document["steps"] = plan.steps;
     document["seed"] = common.seed;

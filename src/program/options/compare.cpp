@@ -23,9 +23,9 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
   auto& command = *app.add_subcommand("compare", "errors of methods beside their cost");
   add_system(command, asked.system);
   add_placement(command, asked.placement);
-  command
-      .add_option("--methods", typed->methods, "names, word:LETTERS, learned:FAMILY, files; joined by commas")
-      ->required();
+  command.add_option("--methods", typed->methods,
+                     "names, word:LETTERS, learned:FAMILY, files, or all of nysalt list that apply; joined "
+                     "by commas [all]");
   command.add_option("--steps", typed->steps, "joined by commas")->required();
   command.add_flag("--equal-cost", asked.equal_cost, "steps are per force evaluation");
   command.add_option(
@@ -56,7 +56,7 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
       "Examples:\n"
       "  nysalt compare --system fpu --methods verlet,bcss2,learned:nystrom --steps 0.02,0.03 "
       "--trajectories 100\n"
-      "  nysalt compare --system fpu --methods verlet,mclachlan2,srkn6b --steps 0.005,0.01 --equal-cost "
+      "  nysalt compare --system fpu --methods all,learned:bab6 --steps 0.005,0.01 --equal-cost "
       "--metric state --json\n"
       "  nysalt compare --system fpu --friction 0.01 --sigma 0.05 --steps 0.019 --horizon 1 "
       "--methods baoab,baoab_2x,learned:nystrom@end,learned:nystrom@symmetric\n"
@@ -65,7 +65,7 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
       "--horizon 10 --learn-horizon 20 --trajectories 48 --metric state,energy --output report");
   const auto run_it = [typed, &asked, &command, &common] {
     const auto given = [&](const char* option) { return command.count(option) > 0; };
-    asked.methods = entries_of(typed->methods, "--methods");
+    if (given("--methods")) asked.methods = entries_of(typed->methods, "--methods");
     asked.steps = numbers_of(typed->steps, "--steps");
     asked.range = numbers_of(typed->range, "--range");
     asked.prices = numbers_of(typed->prices, "--prices");

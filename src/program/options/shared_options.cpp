@@ -119,6 +119,10 @@ std::vector<CLI::Option*> add_system(CLI::App& command, system_settings& system,
   add_number(command, "--temperature", system.bath.temperature, "kT = sigma^2/(2 gamma), an energy");
   add_number(command, "--spread", system.spread,
              "multiplies the standard deviations of the initial distribution [1]");
+  add_number(
+      command, "--frequency", system.frequency,
+      "angular frequency that phase_fitted_... and s_aia... are fitted to [declared, or seen along the "
+      "motion]");
   command.add_option("--start", system.start, start);
   std::vector<CLI::Option*> added = command.get_options([](CLI::Option*) { return true; });
   added.erase(added.begin(), added.begin() + static_cast<std::ptrdiff_t>(before));
