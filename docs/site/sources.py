@@ -8,7 +8,11 @@ import markdown
 from api import group_of, page_of_group, title, write
 
 languages = {".cpp": "cpp", ".hpp": "cpp", ".c": "c", ".h": "c", ".py": "python", ".sh": "sh", ".cmake": "cmake",
-             ".txt": "cmake", ".toml": "toml", ".bib": "bibtex", ".cff": "yaml", "": "text"}
+             ".txt": "text", ".toml": "toml", ".bib": "bibtex", ".cff": "yaml", "": "text"}
+
+
+def language_of(path):
+    return "cmake" if path.name == "CMakeLists.txt" else languages[path.suffix]
 
 
 def page_of(root, path):
@@ -36,7 +40,7 @@ def shown(root, path):
     inside = path.relative_to(root)
     text = ":orphan:\n\n" + title(str(inside))
     if path.is_file():
-        return f"{text}.. literalinclude:: /{inside}\n   :language: {languages[path.suffix]}\n"
+        return f"{text}.. literalinclude:: /{inside}\n   :language: {language_of(path)}\n"
     for file in sorted(path.iterdir()):
         if file.suffix == ".md":
             text += f"- :doc:`/{inside / file.stem}`\n"
