@@ -332,9 +332,20 @@ def _held_by_name(given: Iterable[Method]) -> Tuple[List[Any], Dict[str, str]]:
     return [one.name if isinstance(one, _FromFile) else one for one in given], held
 
 
-def _warn(texts: Sequence[str]) -> None:
+def _warn(texts: Sequence[str], stacklevel: int = 3) -> None:
     for text in texts:
-        _warnings.warn(_nysalt.in_words_of_python(text), stacklevel=3)
+        _warnings.warn(_nysalt.in_words_of_python(text), stacklevel=stacklevel)
+
+
+def _chosen(found: Tuple[str, Optional[str], Optional[str]]) -> Tuple[Dict[str, Any], Union[Scheme, Table, None]]:
+    text, file, name = found
+    document = _json.loads(text)
+    _warn(document["warnings"], stacklevel=4)
+    if file is None or name is None:
+        return document, None
+    if _nysalt.method(file, name, None)["is_learned"]:
+        return document, Scheme(file, f"scheme:{_json.loads(file)['family']}")
+    return document, Table(file, f"table:{name}")
 
 
 # ---- What is done with them.
@@ -460,20 +471,21 @@ def recommend(system: System, horizon: float, *, budget: Optional[float] = None,
               learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
               learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
               learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None,
-              threads: Optional[int] = None) -> Tuple[Dict[str, Any], Optional[Scheme]]:
+              output: Union[str, "_os.PathLike[str]", None] = None,
+              threads: Optional[int] = None) -> Tuple[Dict[str, Any], Union[Scheme, Table, None]]:
     """The best method at `budget` evaluations per unit time, or at `budget_seconds` per unit time of one
     trajectory, or the cheapest that errs less than `error`.
 
-    Returns the document that `nysalt recommend --json` prints, and the winner where it was learned: two
-    results, `document, scheme = nysalt.recommend(...)`.
+    Returns the document that `nysalt recommend --json` prints, and the method to take, `document, method =
+    nysalt.recommend(...)`: a Scheme where it was learned, else a Table of its coefficients at the step that the
+    document says; None if no method is accepted. The file `output` has the best so far, also where the work is
+    interrupted.
     """
     asked = dict(locals())
     asked.pop("system")
     asked["fix"] = _fixed(fix)
-    document, text = _nysalt.recommend(_held_by(system), asked)
-    found = _json.loads(document)
-    _warn(found["warnings"])
-    return found, None if text is None else Scheme(text, f"scheme:{_json.loads(text)['family']}")
+    asked["output"] = _path(output)
+    return _chosen(_nysalt.recommend(_held_by(system), asked))
 
 
 def recommend_for_sampling(system: System, length: float, *, acceptance: Optional[float] = None,
@@ -483,17 +495,16 @@ def recommend_for_sampling(system: System, length: float, *, acceptance: Optiona
                            learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
                            learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None,
                            fix: Optional[Mapping[str, float]] = None,
-                           threads: Optional[int] = None) -> Tuple[Dict[str, Any], Optional[Scheme]]:
+                           output: Union[str, "_os.PathLike[str]", None] = None,
+                           threads: Optional[int] = None) -> Tuple[Dict[str, Any], Union[Scheme, Table, None]]:
     """The word with which Hybrid Monte Carlo takes the largest step per evaluation at an acceptance, with
     trajectories of mean duration `length`, on a system `times_larger` than this one.
 
-    Returns the document that `nysalt recommend --for sampling --json` prints, and the winner where it was
-    learned.
+    Returns the document that `nysalt recommend --for sampling --json` prints, and the word to take, and keeps it
+    in `output`, as `recommend` does.
     """
     asked = dict(locals())
     asked.pop("system")
     asked["fix"] = _fixed(fix)
-    document, text = _nysalt.recommend_for_sampling(_held_by(system), asked)
-    found = _json.loads(document)
-    _warn(found["warnings"])
-    return found, None if text is None else Scheme(text, f"scheme:{_json.loads(text)['family']}")
+    asked["output"] = _path(output)
+    return _chosen(_nysalt.recommend_for_sampling(_held_by(system), asked))

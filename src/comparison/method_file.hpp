@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,19 @@ std::string source_of_system(const nlohmann::ordered_json& parameters);
 /// the machine or the hour, so that equal runs write equal bytes. The plan is that of one of the steps.
 std::string scheme_text(const std::vector<learned_scheme>& learned, const prepared_problem& system,
                         const learn_plan& plan);
+
+/// The text of a table: the coefficients of any method, with the step and the system that they were chosen for,
+/// which say what the table is of and are not checked when it is used.
+std::string table_text(const tabulated& method, double step, const prepared_problem& system);
+
+/// A method that was chosen, as the file that `--method` takes: a scheme of what was learned, else a table.
+struct chosen_method {
+  std::string name;  // as it was typed, or would be
+  double step;
+  std::string text;  // of the file
+};
+/// Called with the best so far, each time that another is the best.
+using choice_observer = std::function<void(const chosen_method&)>;
 
 struct method_file {
   std::optional<scheme> learned;   // one of the two

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Schemes as they are written.
+// Schemes and tables as they are written.
 
 #include <algorithm>
 
@@ -85,6 +85,16 @@ std::string scheme_text(const std::vector<learned_scheme>& learned, const prepar
   if (plan.where) document["placement"] = to_string(*plan.where);
   document["checksum"] = checksum(document);
   return text_of(document);
+}
+
+std::string table_text(const tabulated& method, double step, const prepared_problem& system) {
+  return text_of(json{{"format", table_format},
+                      {"version", known_version},
+                      {"name", method.name()},
+                      {"letters", method.letters().letters()},
+                      {"coefficients", method.coefficients()},
+                      {"step", step},
+                      {"system", system.description()}});
 }
 
 }  // namespace nysalt::program
