@@ -48,12 +48,17 @@ std::string source_of_system(const nlohmann::ordered_json& parameters);
 
 /// The file's text: what was learned at each step, how well, and from what; with a checksum, and nothing of
 /// the machine or the hour, so that equal runs write equal bytes. The plan is that of one of the steps.
-std::string scheme_text(const std::vector<learned_scheme>& learned, const prepared_problem& system,
-                        const learn_plan& plan);
+json scheme_document(const std::vector<learned_scheme>& learned, const prepared_problem& system,
+                     const learn_plan& plan);
+inline std::string scheme_text(const std::vector<learned_scheme>& learned, const prepared_problem& system,
+                               const learn_plan& plan) {
+  return text_of(scheme_document(learned, system, plan));
+}
 
-/// The text of a table: the coefficients of any method, with the step and the system that they were chosen for,
-/// which say what the table is of and are not checked when it is used.
-std::string table_text(const tabulated& method, double step, const prepared_problem& system);
+/// The text of a table: the coefficients of any method under a name, with the step and the system that they were
+/// chosen for, which say what the table is of and are not checked when it is used.
+std::string table_text(const std::string& name, const tabulated& method, double step,
+                       const prepared_problem& system);
 
 /// A method that was chosen, as the file that `--method` takes: a scheme of what was learned, else a table.
 struct chosen_method {

@@ -53,7 +53,7 @@ void recommendation::learn_and_rank(const choice_observer& keep) {
 
 namespace {
 
-candidate& named(contest& among, const std::string& name) {
+candidate& candidate_named(contest& among, const std::string& name) {
   return *std::ranges::find_if(among.all,
                                [&](const candidate& contender) { return contender.source.typed == name; });
 }
@@ -82,7 +82,7 @@ void recommendation::rank_at_one_error() {
     if (searches_by_quantiles_ || !(is_heavy(*by_evaluations_) || is_heavy(*by_seconds_))) return;
     searches_by_quantiles_ = true;
     for (auto& contender : all_) {
-      contender.search.thetas = named(*by_evaluations_, contender.source.typed).search.thetas;
+      contender.search.thetas = candidate_named(*by_evaluations_, contender.source.typed).search.thetas;
       prepare_search(contender);
     }
   }
@@ -106,13 +106,13 @@ std::vector<std::vector<std::string>> recommendation::parts_of(const contest& am
 void recommendation::run(contest& among) {
   for (const auto& part : parts_of(among)) {
     std::vector<candidate*> fresh;
-    for (const auto& name : part) fresh.push_back(&named(among, name));
+    for (const auto& name : part) fresh.push_back(&candidate_named(among, name));
     if (options_.error) find_steps(fresh);
     for (candidate* contender : fresh) {
       if (contender->method || !contender->reason.empty()) continue;
       std::vector<double> from;
       if (by_evaluations_ && &among != &*by_evaluations_) {
-        const auto& other = named(*by_evaluations_, contender->source.typed).learned;
+        const auto& other = candidate_named(*by_evaluations_, contender->source.typed).learned;
         if (other && other->fit.usable) from = theta_of(other->fit);
       }
       prepare(*contender, from);

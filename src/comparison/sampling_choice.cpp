@@ -12,6 +12,7 @@
 #include "learning.hpp"
 #include "nysalt/ensembles/thermal_positions.hpp"
 #include "nysalt/hmc.hpp"
+#include "purpose.hpp"
 #include "seeds.hpp"
 
 namespace nysalt::program {
@@ -67,9 +68,10 @@ void sampling_choice::require_sound_options() {
   }
   if (options_.families.empty()) options_.families = {"bab3", "bab4", "bab5", "bab6", "fd_chin"};
   learning_options& how = options_.learning;
-  if (how.loss.empty()) how.loss = "acceptance";
   if (!how.horizon) how.horizon = 2.0 * options_.length;
-  how.planned_horizon = 2.0 * options_.length;
+  if (!how.purpose.empty() && how.purpose != for_sampling)
+    refuse("--for must be sampling for Hybrid Monte Carlo, got {}; leave --for away", how.purpose);
+  settle_purpose(how, target.bath(), "--learn-", for_sampling);
   require_sound(how, "--learn-");
 }
 

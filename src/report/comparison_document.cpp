@@ -154,6 +154,7 @@ json document_of(const comparison& all) {
   }
   json fits = json::array();
   for (const learned_row& fit : all.fits()) fits.push_back(fit.document);
+  const std::string& purpose = options.learning.purpose;
   json result{{"system", all.system().description()},
               {"starts", all.system().starts()},
               {"metrics", metrics},
@@ -161,6 +162,7 @@ json document_of(const comparison& all) {
               {"trajectories", options.trajectories},
               {"equal_cost", options.equal_cost},
               {"seed", all.common().seed},
+              {"purpose", purpose.empty() ? json(nullptr) : json(purpose)},
               {"references", references_json(all)},
               {"rows", rows},
               {"rankings", rankings_json(all)},

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "comparison/purpose.hpp"
 #include "comparison/refusal.hpp"
 #include "comparison_report.hpp"
 #include "comparison_tables.hpp"
@@ -235,6 +236,11 @@ std::string readable(const comparison& all) {
     if (const table beside = equal_cost_table(all, m); !beside.empty()) {
       text += fmt::format("\n{}", beside.text());
     }
+  }
+  if (!all.fits().empty()) {
+    text += fmt::format("\n{}\n", report_of_purpose(options.learning));
+    const auto advice = advice_on_purpose(all.metrics(), options.learning.purpose);
+    if (!advice.empty()) text += advice + "\n";
   }
   return text + fmt::format("\npeak memory: {} MB\n", (peak_memory() + 500'000) / 1'000'000);
 }

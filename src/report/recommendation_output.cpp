@@ -5,6 +5,7 @@
 
 #include "comparison/learning.hpp"
 #include "comparison/method_file.hpp"
+#include "comparison/purpose.hpp"
 #include "comparison/recommendation.hpp"
 #include "table.hpp"
 
@@ -144,7 +145,7 @@ std::optional<chosen_method> recommendation::chosen() const {
     const auto plan = plan_for(*best->source.family, best->where, best->step, options_.learning, common_);
     result.text = scheme_text({*best->learned}, *system_, plan);
   } else {
-    result.text = table_text(*best->method, best->step, *system_);
+    result.text = table_text(best->source.typed, *best->method, best->step, *system_);
   }
   return result;
 }
@@ -221,6 +222,7 @@ json recommendation::document() const {
   json left_out = json::array();
   for (const auto& [name, reason] : left_out_) left_out.push_back({{"method", name}, {"reason", reason}});
   const auto number = [](const std::optional<double>& value) { return value ? json(*value) : json(nullptr); };
+  const std::string& purpose = options_.learning.purpose;
   json result{{"system", system_->description()},
               {"starts", system_->starts()},
               {"metric", options_.metric},
@@ -230,7 +232,8 @@ json recommendation::document() const {
               {"error", number(options_.error)},
               {"horizon", options_.horizon},
               {"trajectories", options_.trajectories},
-              {"seed", common_.seed}};
+              {"seed", common_.seed},
+              {"purpose", purpose.empty() ? json(nullptr) : json(purpose)}};
   result.update(contest_json(asked()));
   result["advice"] = advice();
   result["by_seconds"] = contest_json(*by_seconds_);
@@ -251,7 +254,12 @@ std::string recommendation::readable() const {
   if (options_.budget) text += fmt::format(", {:g} evaluations per unit time", *options_.budget);
   if (options_.budget_seconds) text += fmt::format(", {:g} ns per unit time", 1e9 * *options_.budget_seconds);
   if (options_.error) text += fmt::format(" below {:g}", *options_.error);
-  text += fmt::format("\nstarts: {}\n\n", system_->starts());
+  text += fmt::format("\nstarts: {}\n{}\n", system_->starts(), report_of_purpose(options_.learning));
+  const asked_metric judged_by = metric();
+  if (const auto note = advice_on_purpose({&judged_by, 1}, options_.learning.purpose); !note.empty()) {
+    text += note + "\n";
+  }
+  text += "\n";
   table ranking({"method", "order", "step", "evaluations/time", "ns/time", "error", "standard error",
                  "95 % err below", "diverged"});
   const auto number = [](const char* format, double x) {

@@ -75,7 +75,7 @@ std::optional<chosen_method> sampling_choice::chosen() const {
   return chosen_method{.name = best->source.typed,
                        .step = step,
                        .text = best->is_learned() ? scheme_text({*best->learned}, *system_, *best->plan)
-                                                  : table_text(method_at(*best, step), step, *system_)};
+                                                  : table_text(best->source.typed, method_at(*best, step), step, *system_)};
 }
 
 json sampling_choice::document() const {

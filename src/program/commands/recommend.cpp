@@ -11,6 +11,7 @@
 #include "../output.hpp"
 #include "comparison/all_ranks.hpp"
 #include "comparison/interruption.hpp"
+#include "comparison/purpose.hpp"
 #include "nysalt/detail/collectively.hpp"
 
 namespace nysalt::program {
@@ -67,7 +68,7 @@ int print_result(auto& all, const std::string& output, const common_settings& co
 
 int recommend(const recommend_command& command, const common_settings& common) {
   auto system = make_system(command.system);
-  if (command.purpose == "sampling") {
+  if (command.learning.purpose == for_sampling) {
     sampling_choice all(std::move(system), command.sampling, common);
     return print_result(all, command.output, common);
   }
