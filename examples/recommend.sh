@@ -17,6 +17,7 @@ nysalt recommend --system pendulum --budget 4 --horizon 20 --trajectories 50 --f
 # Expected output:
 # henon_heiles(), 100 fresh trajectories over 20, state error, 5 evaluations per unit time
 # starts: normal_around(0.1, 0.1)
+# learned for state, by the loss trajectory
 #
 # method                     order    step  evaluations/time  ns/time     error  standard error  95 % err below  diverged
 # -------------------------  -----  ------  ----------------  -------  --------  --------------  --------------  --------

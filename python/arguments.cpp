@@ -73,6 +73,7 @@ std::vector<T> each(const py::object& value, const auto& thing) {
 
 void take_learning(const argument_reader& arguments, const std::string& prefix, learning_options& how) {
   const auto named = [&](const char* name) { return prefix + name; };
+  arguments.take("purpose", how.purpose);
   arguments.take(named("trajectories").c_str(), how.trajectories);
   arguments.take(named("horizon").c_str(), how.horizon);
   arguments.take(named("loss").c_str(), how.loss);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "commands.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,26 +62,44 @@ std::string compare(const held_system& system, const py::dict& arguments) {
   return document;
 }
 
-/// The document of a choice, and the scheme of its winner; make() makes the choice.
-py::tuple chosen(const held_system& system, const auto& make) {
+/// The document of a choice, and the file and the name of the method to take, which is in `output` from the
+/// moment on that it is the best so far; make() makes the choice.
+py::tuple chosen(const held_system& system, const std::string& output, const auto& make) {
   std::string document;
   py::object file = py::none();
-  std::optional<std::string> scheme;
+  std::optional<program::chosen_method> best;
+  bool is_kept = false;
   compute(system.calls_python(), [&] {
     auto all = make();
-    all->learn_and_rank();
+    all->learn_and_rank([&](const program::chosen_method& so_far) {
+      if (output.empty()) return;
+      write_file(output, so_far.text);
+      is_kept = true;
+    });
     document = dumped(all->document());
-    scheme = all->scheme();
+    best = all->chosen();
+    if (!output.empty() && best) write_file(output, best->text);
+    if (is_kept && !best) std::filesystem::remove(output);
   });
-  if (scheme) file = py::str(*scheme);
-  return py::make_tuple(document, file);
+  py::object name = py::none();
+  if (best) {
+    file = py::str(best->text);
+    name = py::str(best->name);
+  }
+  return py::make_tuple(document, file, name);
+}
+
+std::string output_of(const argument_reader& asked) {
+  std::string output;
+  asked.take("output", output);
+  return output;
 }
 
 py::tuple recommend(const held_system& system, const py::dict& arguments) {
   const argument_reader asked(arguments);
   const auto common = common_of(asked, system.calls_python());
   const auto command = recommend_of(asked, system.settings);
-  return chosen(system, [&] {
+  return chosen(system, output_of(asked), [&] {
     return std::make_unique<program::recommendation>(program::make_system(command.system), command, common);
   });
 }
@@ -89,7 +108,7 @@ py::tuple recommend_for_sampling(const held_system& system, const py::dict& argu
   const argument_reader asked(arguments);
   const auto common = common_of(asked, system.calls_python());
   const auto options = sampling_of(asked, system.settings);
-  return chosen(system, [&] {
+  return chosen(system, output_of(asked), [&] {
     return std::make_unique<program::sampling_choice>(program::make_system(system.settings), options, common);
   });
 }

@@ -20,22 +20,23 @@ struct execution_options {
 
 /// Options of learning at a step that is given elsewhere.
 struct learning_options {
+  /// Purpose of the runs to come, which sets the loss where none is named: state (the state along trajectories),
+  /// energy (energies, which errors of the phase do not change), distribution (of long runs), or sampling
+  /// (proposals of Hybrid Monte Carlo). Empty: state, and sampling in sampling_options.
+  std::string purpose{};
   std::optional<double>
       fine_step{};  ///< fine step of the reference; must divide the step. None: by the frequency
   std::int64_t trajectories = 100;  ///< trajectories to learn from, and as many to judge by
   std::optional<double> horizon{};  ///< horizon of each trajectory. None: see horizon_at()
-  std::optional<double>
-      planned_horizon{};  ///< planned horizon of the runs to come, if known: to learn from no more is needed
   std::string coordinates{};  ///< coordinates of the errors: qp, modes or energy. Empty: as suits the loss
   std::vector<std::string> fix{};  ///< parameters of the family that are not learned: "name=value"
-  std::string loss{};              ///< as of loss_named(). Empty: trajectory, but
-                       ///< state:1 in a bath, and where neither states nor coordinates are measured
+  std::string loss{};  ///< as of loss_named(). Empty: by the purpose. Of state trajectory, in a bath state:1;
+                       ///< of energy and distribution state:1; of sampling acceptance
   std::string effort = "normal";  ///< effort of the search by trajectories: quick, normal or thorough
   std::optional<std::int64_t> random_starts{};  ///< random starts of the search. None: by the effort
 
-  /// The horizon at a step. Where none is asked for it is that of the runs to come, but from 16 to 200 steps,
-  /// and 200 where nothing is known of them; of losses after K steps it is 0.5, or ten steps if that is
-  /// longer.
+  /// The horizon at a step. Where none is asked for it is 200 steps; of losses after K steps it is 0.5, or ten
+  /// steps if that is longer.
   double horizon_at(double step) const;
 };
 
@@ -96,8 +97,8 @@ struct sampling_options {
                                     ///< energy errors add up, so that a small lattice predicts a large one
   std::int64_t trajectories = 100;  ///< trajectories to judge words by
   std::vector<std::string> families{};           ///< families to learn. Empty: bab3 to bab6, and fd_chin
-  learning_options learning{.effort = "quick"};  ///< options of the families that are learned. Their loss is
-                                                 ///< acceptance where none is named
+  learning_options learning{.effort = "quick"};  ///< options of the families that are learned; their horizon
+                                                 ///< is twice the length where none is named
   bool starts_are_thermal = false;  ///< starts are draws of exp(-H/kT); else pilot chains make some from them
 };
 

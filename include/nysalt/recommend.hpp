@@ -25,17 +25,18 @@ class recommendation {
   /// "learned" or "classical", whose best errs or costs less than the other by more than chance can make;
   /// "tie"; or "none".
   std::string verdict() const;
-  /// The name of the best method, for comparison_options::methods; empty if there is none.
+  /// The name of the method to take, for comparison_options::methods; of a tie the one that needs no
+  /// learning. Empty if there is none.
   std::string method() const;
-  /// The step of the best method; NaN if there is none.
+  /// The step of that method; NaN if there is none.
   double step() const;
   /// Ranking and advice, the text of the program.
   std::string text() const;
   /// A JSON document of all that was found: what `nysalt recommend --json` prints.
   std::string json() const;
-  /// The winner's scheme, the text of a scheme file, for comparison_options::held; nothing if none that
-  /// is learned wins.
-  std::optional<std::string> scheme() const;
+  /// That method as the text of a file, for comparison_options::held: a scheme of what was learned, else a
+  /// table of the coefficients at the step. Nothing if there is none.
+  std::optional<std::string> method_file() const;
   /// Warnings to read before the advice is taken, a sentence each.
   std::vector<std::string> warnings() const;
 

@@ -291,15 +291,17 @@ def _fixed(fix: Optional[Mapping[str, float]]) -> Optional[List[str]]:
 
 def learn(system: System, family: str = "bab6", *, step: Optional[float] = None,
           steps: Optional[Sequence[float]] = None, trajectories: Optional[int] = None,
-          horizon: Optional[float] = None, seed: int = 1, loss: Optional[str] = None,
+          horizon: Optional[float] = None, seed: int = 1, purpose: Optional[str] = None, loss: Optional[str] = None,
           coordinates: Optional[str] = None, placement: Optional[str] = None,
           fix: Optional[Mapping[str, float]] = None, fine_step: Optional[float] = None,
           effort: Optional[str] = None, random_starts: Optional[int] = None, enough: Optional[float] = None,
           threads: Optional[int] = None) -> Scheme:
     """Fits a family to the flow of a system at a step, or at several for a curve of parameters.
 
-    It learns from trajectories [100] of a length `horizon` [200 steps], and is judged on as many others. loss:
-    "trajectory" [it], the state's error at 16 times; "state:K", "energy:K" after K steps; or "covariance";
+    It learns from trajectories [100] of a length `horizon` [200 steps], and is judged on as many others. purpose:
+    what the runs are for, "state" [it], "energy", "distribution" or "sampling", sets the loss, as in `compare` and
+    `recommend`. loss: "trajectory", the state's error at 16 times; "state:K", "energy:K" after K steps;
+    "acceptance"; or "covariance";
     effort: "quick", "normal" [it] or "thorough"; coordinates: "qp", "modes" or "energy" [the last for
     "trajectory" where there are modes, else the first]; placement of the letters O in a bath: "end", "symmetric" [it] or "middle"; fix: values of
     parameters that are not learned; fine_step of the reference; enough: as many trajectories as it takes.
@@ -335,9 +337,20 @@ def _held_by_name(given: Iterable[Method]) -> Tuple[List[Any], Dict[str, str]]:
     return [one.name if isinstance(one, _FromFile) else one for one in given], held
 
 
-def _warn(texts: Sequence[str]) -> None:
+def _warn(texts: Sequence[str], stacklevel: int = 3) -> None:
     for text in texts:
-        _warnings.warn(_nysalt.in_words_of_python(text), stacklevel=3)
+        _warnings.warn(_nysalt.in_words_of_python(text), stacklevel=stacklevel)
+
+
+def _chosen(found: Tuple[str, Optional[str], Optional[str]]) -> Tuple[Dict[str, Any], Union[Scheme, Table, None]]:
+    text, file, name = found
+    document = _json.loads(text)
+    _warn(document["warnings"], stacklevel=4)
+    if file is None or name is None:
+        return document, None
+    if _nysalt.method(file, name, None)["is_learned"]:
+        return document, Scheme(file, f"scheme:{_json.loads(file)['family']}")
+    return document, Table(file, f"table:{name}")
 
 
 # ---- What is done with them.
@@ -432,6 +445,7 @@ def compare(system: System, methods: Union[Method, Iterable[Method]] = "all", st
             range: Optional[Tuple[float, float]] = None, bins: Optional[int] = None,
             longest_lag: Optional[float] = None, hmc_temperature: Optional[float] = None, seed: int = 1,
             placement: Optional[str] = None, fine_step: Optional[float] = None,
+            purpose: Optional[str] = None,
             learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
             learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
             learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None, force: bool = False,
@@ -441,7 +455,8 @@ def compare(system: System, methods: Union[Method, Iterable[Method]] = "all", st
     "all" stands for every method of methods() that applies to the system, its bath and the metrics; `left_out` of
     the document says which do not, and why.
     Returns the document that `nysalt compare --json` prints: `rows`, the `references` that they are seen
-    against, `rankings`, `fits` of "learned:FAMILY". metrics() lists the metrics [path].
+    against, `rankings`, `fits` of "learned:FAMILY", which are learned for a `purpose` ["state"] as `learn` does it;
+    `scheme` of a fit is the document of the scheme. metrics() lists the metrics [path].
     equal_cost=True: steps are per force evaluation. prices: of the forces of parts 0, 1, ..., in any unit; a kick
     with a part then counts as the share of the part in an evaluation.
     """
@@ -462,23 +477,26 @@ def recommend(system: System, horizon: float, *, budget: Optional[float] = None,
               trajectories: Optional[int] = None, metric: Optional[str] = None, observable: Optional[str] = None,
               hmc_temperature: Optional[float] = None, looks: Optional[int] = None, reversible: bool = False,
               families: Optional[Texts] = None, seed: int = 1, placement: Optional[str] = None,
+              purpose: Optional[str] = None,
               learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
               learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
               learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None,
-              threads: Optional[int] = None) -> Tuple[Dict[str, Any], Optional[Scheme]]:
+              output: Union[str, "_os.PathLike[str]", None] = None,
+              threads: Optional[int] = None) -> Tuple[Dict[str, Any], Union[Scheme, Table, None]]:
     """The best method at `budget` evaluations per unit time, or at `budget_seconds` per unit time of one
-    trajectory, or the cheapest that errs less than `error`.
+    trajectory, or the cheapest that errs less than `error`. Families are learned for a `purpose` ["state"], as by
+    `learn`.
 
-    Returns the document that `nysalt recommend --json` prints, and the winner where it was learned: two
-    results, `document, scheme = nysalt.recommend(...)`.
+    Returns the document that `nysalt recommend --json` prints, and the method to take, `document, method =
+    nysalt.recommend(...)`: a Scheme where it was learned, else a Table of its coefficients at the step that the
+    document says; None if no method is accepted. The file `output` has the best so far, also where the work is
+    interrupted.
     """
     asked = dict(locals())
     asked.pop("system")
     asked["fix"] = _fixed(fix)
-    document, text = _nysalt.recommend(_held_by(system), asked)
-    found = _json.loads(document)
-    _warn(found["warnings"])
-    return found, None if text is None else Scheme(text, f"scheme:{_json.loads(text)['family']}")
+    asked["output"] = _path(output)
+    return _chosen(_nysalt.recommend(_held_by(system), asked))
 
 
 def recommend_for_sampling(system: System, length: float, *, acceptance: Optional[float] = None,
@@ -488,17 +506,16 @@ def recommend_for_sampling(system: System, length: float, *, acceptance: Optiona
                            learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
                            learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None,
                            fix: Optional[Mapping[str, float]] = None,
-                           threads: Optional[int] = None) -> Tuple[Dict[str, Any], Optional[Scheme]]:
+                           output: Union[str, "_os.PathLike[str]", None] = None,
+                           threads: Optional[int] = None) -> Tuple[Dict[str, Any], Union[Scheme, Table, None]]:
     """The word with which Hybrid Monte Carlo takes the largest step per evaluation at an acceptance, with
     trajectories of mean duration `length`, on a system `times_larger` than this one.
 
-    Returns the document that `nysalt recommend --for sampling --json` prints, and the winner where it was
-    learned.
+    Returns the document that `nysalt recommend --for sampling --json` prints, and the word to take, and keeps it
+    in `output`, as `recommend` does.
     """
     asked = dict(locals())
     asked.pop("system")
     asked["fix"] = _fixed(fix)
-    document, text = _nysalt.recommend_for_sampling(_held_by(system), asked)
-    found = _json.loads(document)
-    _warn(found["warnings"])
-    return found, None if text is None else Scheme(text, f"scheme:{_json.loads(text)['family']}")
+    asked["output"] = _path(output)
+    return _chosen(_nysalt.recommend_for_sampling(_held_by(system), asked))

@@ -36,6 +36,7 @@ std::string with_arguments(const std::string& text, const argument_spelling& spe
     std::string name = text.substr(at + 2, length - 2);
     std::ranges::replace(name, '-', '_');
     at += length;
+    if (name == "for") name = "purpose";
     const bool is_flag = name == "force" || name == "equal_cost" || name == "reversible";
     if (name.starts_with(learning)) name.replace(0, learning.size(), spelling.learning);
     result += name;

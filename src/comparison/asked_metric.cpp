@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "did_you_mean.hpp"
-#include "nysalt/losses/loss_choice.hpp"
+#include "purpose.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -37,9 +37,10 @@ bool asked_metric::sees_phases() const {
   return (name == "path" || name == "relative") && is_coordinate;
 }
 
-std::string loss_for(std::span<const asked_metric> metrics, const bath& around) {
-  const bool is_usual = std::ranges::any_of(metrics, &asked_metric::sees_phases);
-  return is_usual ? usual_loss(around).description() : "state:1";
+std::string advice_on_purpose(std::span<const asked_metric> metrics, const std::string& purpose) {
+  if (purpose != for_state || std::ranges::any_of(metrics, &asked_metric::sees_phases)) return {};
+  return "what is measured does not see the phases of the state, which methods are learned for: --for energy "
+         "leaves these out";
 }
 
 }  // namespace nysalt::program

@@ -6,8 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "nysalt/bath.hpp"
-
 namespace nysalt::program {
 
 /// A metric, and of which observable, if it is of one.
@@ -38,8 +36,7 @@ struct asked_metric {
 /// where a metric takes no observable.
 asked_metric metric_named(std::string_view text, const std::string& otherwise);
 
-/// The loss to learn with where none is asked for: the usual one, but state:1 where all metrics are of
-/// energies, which errors of the phase do not change.
-std::string loss_for(std::span<const asked_metric> metrics, const bath& around);
+/// A sentence where all that is measured is of energies and methods are learned for states; else empty.
+std::string advice_on_purpose(std::span<const asked_metric> metrics, const std::string& purpose);
 
 }  // namespace nysalt::program

@@ -12,6 +12,7 @@
 #include "declared_prices.hpp"
 #include "learning.hpp"
 #include "nysalt/detail/served_letters.hpp"
+#include "purpose.hpp"
 #include "refusal.hpp"
 #include "seeds.hpp"
 
@@ -54,12 +55,20 @@ bool comparison::has_result() const {
   });
 }
 
+std::vector<std::string> comparison::scheme_files() const {
+  std::vector<std::string> names;
+  for (const row& line : rows_) {
+    if (families_.contains(line.method)) names.push_back(scheme_file(line.method, line.step));
+  }
+  return names;
+}
+
 void comparison::name_metrics() {
   const std::string otherwise =
       options_.observable.empty() ? system_->default_observable() : options_.observable;
   for (const auto& text : options_.metrics) metrics_.push_back(metric_named(text, otherwise));
   bins_.resize(metrics_.size());
-  if (options_.learning.loss.empty()) options_.learning.loss = loss_for(metrics_, system_->heat_bath());
+  settle_purpose(options_.learning, system_->heat_bath(), "--learn-");
 }
 
 void comparison::name_methods() {
@@ -133,7 +142,6 @@ void comparison::plan_rows() {
     }
   }
   horizon_ = options_.horizon.value_or(usual_horizon(sources));
-  options_.learning.planned_horizon = horizon_;
   for (const double nominal : options_.steps) {
     for (const auto& source : sources) {
       if (!is_of_all(source.typed)) {
@@ -268,7 +276,8 @@ void comparison::require_enough_samples() const {
 namespace {
 
 json as_json(const learning_options& how) {
-  return {{"fine_step", how.fine_step ? json(*how.fine_step) : json(nullptr)},
+  return {{"purpose", how.purpose},
+          {"fine_step", how.fine_step ? json(*how.fine_step) : json(nullptr)},
           {"trajectories", how.trajectories},
           {"horizon", how.horizon ? json(*how.horizon) : json(nullptr)},
           {"coordinates", how.coordinates},

@@ -73,6 +73,8 @@ class comparison {
   const std::optional<equal_bins>& bins(std::size_t metric) const { return bins_[metric]; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   bool has_result() const;
+  /// Names of the scheme files of what is learned, usable or not.
+  std::vector<std::string> scheme_files() const;
 
  private:
   using group = std::vector<row*>;  // of one step size

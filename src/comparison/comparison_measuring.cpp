@@ -7,6 +7,7 @@
 #include "catalogue.hpp"
 #include "comparison.hpp"
 #include "learning.hpp"
+#include "method_file.hpp"
 #include "nysalt/learning/fit_summary.hpp"
 #include "ranking.hpp"
 #include "refusal.hpp"
@@ -124,7 +125,9 @@ void comparison::learn(row& line, journal& kept) {
   const auto read = [&](const json& document) { return learned_row_from(document, line.method, family); };
   const learned_row found = kept.once(part, read, [&] {
     const learn_plan plan = plan_for(*source.family, where, line.step, options_.learning, common_);
-    return learned_row_of(line.method, learn_with(*system_, plan, shown_, work_of_learning(line)).fit);
+    const learned_scheme learned = learn_with(*system_, plan, shown_, work_of_learning(line));
+    return learned_row_of(line.method, learned.fit,
+                          learned.fit.usable ? scheme_document({learned}, *system_, plan) : json(nullptr));
   });
   fits_.push_back(found);
   const auto theta = found.theta();

@@ -50,6 +50,11 @@ const candidate* contest::winner() const {
   return ratio < 1.0 / cost_ratio ? classical : nullptr;
 }
 
+const candidate* contest::taken() const {
+  const candidate* leader = winner();
+  return leader != nullptr ? leader : best_of(false);
+}
+
 std::string contest::verdict() const {
   if (!has_result()) return "none";
   const candidate* leader = winner();

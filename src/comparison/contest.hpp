@@ -55,8 +55,8 @@ struct candidate {
   std::string reference{};
 
   bool is_learned() const { return source.family.has_value(); }
-  /// The candidate stayed with the reference on every trajectory.
-  bool is_eligible() const { return reason.empty() && error.diverged == 0; }
+  /// The candidate was measured, and stayed with the reference on every trajectory.
+  bool is_eligible() const { return reason.empty() && !error.scores.empty() && error.diverged == 0; }
 };
 
 enum class cost_unit { evaluations, seconds };
@@ -83,6 +83,8 @@ struct contest {
   bool has_result() const { return best() != nullptr; }
   /// The winner, or null where the best of both kinds do not differ significantly.
   const candidate* winner() const;
+  /// The candidate to take: the winner, and of a tie the one that needs no learning; null if there is none.
+  const candidate* taken() const;
   /// The error of one over that of the other, on the trajectories that confirm both, or else on those of the
   /// ranking.
   ratio_estimate error_ratio(const candidate& a, const candidate& b) const;

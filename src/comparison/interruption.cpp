@@ -3,10 +3,14 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <initializer_list>
+#include <string_view>
+#include <utility>
 
+#include "all_ranks.hpp"
 #include "child_process.hpp"
 #include "nysalt/detail/held_signals.hpp"
 #include "nysalt/detail/unfinished_names.hpp"
@@ -16,7 +20,21 @@ namespace nysalt::program {
 namespace {
 
 std::atomic<int> noted = 0;
+std::string words;  // changed while signals are held back
 std::atomic<bool> is_noting = false;
+
+/// Async-signal-safe.
+void say_last_words(int number) {
+  if (words.empty()) return;
+  constexpr std::string_view before = "nysalt: signal ";
+  constexpr std::string_view after = " ended the search; ";
+  const std::array<char, 2> digits{static_cast<char>('0' + number / 10 % 10),
+                                   static_cast<char>('0' + number % 10)};
+  const std::string_view of_number(digits.data() + (number < 10 ? 1 : 0), number < 10 ? 1 : 2);
+  for (const std::string_view part : {before, of_number, after, std::string_view(words)}) {
+    if (::write(STDERR_FILENO, part.data(), part.size()) < 0) return;
+  }
+}
 
 extern "C" void end_by_signal(int number) {
   int none = 0;
@@ -24,6 +42,7 @@ extern "C" void end_by_signal(int number) {
   nysalt::detail::wait_for_held_signals();
   end_child();
   nysalt::detail::remove_unfinished_files();
+  say_last_words(number);
   ::_exit(128 + number);
 }
 
@@ -53,6 +72,17 @@ void handle_signals() {
 
 signals_are_noted::signals_are_noted() noexcept { is_noting = true; }
 signals_are_noted::~signals_are_noted() { is_noting = false; }
+
+last_words::last_words(std::string text) { set(std::move(text)); }
+last_words::~last_words() { set({}); }
+
+void last_words::set(std::string text, const std::function<void()>& done) {
+  if (!text.empty()) text += '\n';
+  if (!speaks_for_all()) text.clear();
+  const nysalt::detail::held_signals held;
+  if (done) done();
+  words = std::move(text);
+}
 
 int noted_signal() noexcept { return noted; }
 

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <exception>
+#include <functional>
+#include <string>
 
 namespace nysalt::program {
 
@@ -30,6 +32,18 @@ class signals_are_noted {
   ~signals_are_noted();
   signals_are_noted(const signals_are_noted&) = delete;
   signals_are_noted& operator=(const signals_are_noted&) = delete;
+};
+
+/// While one lives, a process that a signal ends says a sentence of it on standard error: "signal 15 ended the
+/// search; ..." with the text. One at a time; rank 0 speaks.
+class last_words {
+ public:
+  explicit last_words(std::string text);
+  ~last_words();
+  last_words(const last_words&) = delete;
+  last_words& operator=(const last_words&) = delete;
+  /// Other words, once `done` has been done: no signal comes between the two.
+  void set(std::string text, const std::function<void()>& done = {});
 };
 
 /// The number of the signal that was noted; 0 if there was none.

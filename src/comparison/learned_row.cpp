@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "learned_row.hpp"
 
+#include <cctype>
 #include <limits>
 #include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "judging.hpp"
+#include "method_file.hpp"
 
 namespace nysalt::program {
 
@@ -27,7 +32,20 @@ std::vector<double> learned_row::theta() const {
   return result;
 }
 
-learned_row learned_row_of(const std::string& method, const fit_summary& fit) {
+std::string learned_row::scheme() const {
+  const json& scheme = document.at("scheme");
+  return scheme.is_null() ? std::string() : text_of(scheme);
+}
+
+std::string scheme_file(const std::string& method, double step) {
+  std::string name = method.substr(method.find(':') + 1);
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '+') c = '_';
+  }
+  return fmt::format("{}_{}.json", name, step);
+}
+
+learned_row learned_row_of(const std::string& method, const fit_summary& fit, json scheme) {
   learned_row row{.method = method,
                   .step = fit.step,
                   .one_step_error = fit.one_step_error,
@@ -40,6 +58,7 @@ learned_row learned_row_of(const std::string& method, const fit_summary& fit) {
                   .document = {{"method", method}}};
   for (const auto& parameter : fit.parameters) row.parameters.emplace_back(parameter.name, parameter.value);
   row.document.update(fit_json(fit));
+  row.document["scheme"] = std::move(scheme);
   return row;
 }
 
@@ -54,6 +73,11 @@ learned_row learned_row_from(const json& document, const std::string& method, co
                   .rival = text_at(document, "rival"),
                   .reason = text_at(document, "reason"),
                   .document = document};
+  if (const json& scheme = document.at("scheme"); row.usable) {
+    method_file_in(text_of(scheme), "scheme");  // whole, by its own checksum
+  } else if (!scheme.is_null()) {
+    throw std::out_of_range("scheme");
+  }
   const json& parameters = document.at("parameters");
   if (row.method != method || std::ssize(parameters) != family.parameters()) {
     throw std::out_of_range("parameters");

@@ -26,9 +26,15 @@ struct learned_row {
   json document{};       // all that results and journals hold of the fit
 
   std::vector<double> theta() const;
+  /// The text of the scheme file; empty of a fit that is not usable.
+  std::string scheme() const;
 };
 
-learned_row learned_row_of(const std::string& method, const fit_summary& fit);
+/// The name of the scheme file of a method that is learned at a step: "bab3_0.045.json".
+std::string scheme_file(const std::string& method, double step);
+
+/// `scheme` is the document of the scheme file; null of a fit that is not usable.
+learned_row learned_row_of(const std::string& method, const fit_summary& fit, json scheme);
 /// Of what a journal holds of the method, which people may have edited. Throws std::exception for what is not
 /// whole, of another method, or not of the family.
 learned_row learned_row_from(const json& document, const std::string& method, const run_time_family& family);

@@ -21,9 +21,8 @@ double learning_options::horizon_at(double step) const {
   if (horizon) return *horizon;
   const loss_choice chosen = loss.empty() ? loss_choice{} : loss_named(loss);
   if (chosen.kind->stages == after_each_step) return std::max(0.5, 10.0 * step);
-  constexpr double least = 16.0;  // over which errors of the phase add up
-  constexpr double most = 200.0;  // of more the mean error says no more, and in chaos less
-  return std::clamp(planned_horizon.value_or(most * step), least * step, most * step);
+  constexpr double steps = 200.0;  // of more the mean error says no more, and in chaos less
+  return steps * step;
 }
 
 }  // namespace nysalt

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,8 +48,26 @@ std::string source_of_system(const nlohmann::ordered_json& parameters);
 
 /// The file's text: what was learned at each step, how well, and from what; with a checksum, and nothing of
 /// the machine or the hour, so that equal runs write equal bytes. The plan is that of one of the steps.
-std::string scheme_text(const std::vector<learned_scheme>& learned, const prepared_problem& system,
-                        const learn_plan& plan);
+json scheme_document(const std::vector<learned_scheme>& learned, const prepared_problem& system,
+                     const learn_plan& plan);
+inline std::string scheme_text(const std::vector<learned_scheme>& learned, const prepared_problem& system,
+                               const learn_plan& plan) {
+  return text_of(scheme_document(learned, system, plan));
+}
+
+/// The text of a table: the coefficients of any method under a name, with the step and the system that they were
+/// chosen for, which say what the table is of and are not checked when it is used.
+std::string table_text(const std::string& name, const tabulated& method, double step,
+                       const prepared_problem& system);
+
+/// A method that was chosen, as the file that `--method` takes: a scheme of what was learned, else a table.
+struct chosen_method {
+  std::string name;  // as it was typed, or would be
+  double step;
+  std::string text;  // of the file
+};
+/// Called with the best so far, each time that another is the best.
+using choice_observer = std::function<void(const chosen_method&)>;
 
 struct method_file {
   std::optional<scheme> learned;   // one of the two

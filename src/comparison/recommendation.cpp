@@ -25,7 +25,8 @@ recommendation::recommendation(std::unique_ptr<prepared_problem> system, recomme
   }
 }
 
-void recommendation::learn_and_rank() {
+void recommendation::learn_and_rank(const choice_observer& keep) {
+  keep_ = keep;
   prepare_starts(*system_, common_, shown_);
   time_steps();
   if (options_.budget) {
@@ -49,11 +50,19 @@ void recommendation::learn_and_rank() {
   warn_of_reference(asked());
 }
 
+namespace {
+
+candidate& candidate_named(contest& among, const std::string& name) {
+  return *std::ranges::find_if(among.all,
+                               [&](const candidate& contender) { return contender.source.typed == name; });
+}
+
+}  // namespace
+
 /// Where a mean turns out to rest on few trajectories, all of it again by quantiles, from the optima found.
 void recommendation::rank_at_one_error() {
   for (auto& contender : all_) prepare_search(contender);
   while (true) {
-    find_steps(all_);
     constexpr double start_up = 1.01;  // a run of n steps may cost one evaluation more
     by_evaluations_ = {.unit = cost_unit::evaluations,
                        .budget = {},
@@ -71,27 +80,54 @@ void recommendation::rank_at_one_error() {
     run(*by_seconds_);
     if (searches_by_quantiles_ || !(is_heavy(*by_evaluations_) || is_heavy(*by_seconds_))) return;
     searches_by_quantiles_ = true;
-    for (auto& contender : all_) prepare_search(contender);
+    for (auto& contender : all_) {
+      contender.search.thetas = candidate_named(*by_evaluations_, contender.source.typed).search.thetas;
+      prepare_search(contender);
+    }
   }
 }
 
-/// What has no error yet is prepared and measured; then the best are examined until they are confirmed.
-void recommendation::run(contest& among) {
-  std::vector<candidate*> fresh;
-  for (auto& contender : among.all) {
+std::vector<std::vector<std::string>> recommendation::parts_of(const contest& among) {
+  std::vector<std::vector<std::string>> parts(1);
+  for (const auto& contender : among.all) {
     if (!contender.reason.empty() || !contender.error.scores.empty()) continue;
-    const auto known = [&](const candidate& other) { return other.source.typed == contender.source.typed; };
-    std::vector<double> from;
-    if (by_evaluations_ && &among != &*by_evaluations_) {
-      const auto other = std::ranges::find_if(by_evaluations_->all, known);
-      const bool is_fit = other != by_evaluations_->all.end() && other->learned;
-      if (is_fit && other->learned->fit.usable) from = theta_of(other->learned->fit);
+    if (contender.is_learned()) {
+      parts.push_back({contender.source.typed});
+    } else {
+      parts.front().push_back(contender.source.typed);
     }
-    if (!contender.method) prepare(contender, from);
-    fresh.push_back(&contender);
   }
-  measure_on_test(std::move(fresh));
-  settle(among);
+  return parts;
+}
+
+/// Part by part what has no error yet is prepared and measured, and the best are examined until they are
+/// confirmed: so there is a method to take from the first part on, whenever the work ends.
+void recommendation::run(contest& among) {
+  for (const auto& part : parts_of(among)) {
+    std::vector<candidate*> fresh;
+    for (const auto& name : part) fresh.push_back(&candidate_named(among, name));
+    if (options_.error) find_steps(fresh);
+    for (candidate* contender : fresh) {
+      if (contender->method || !contender->reason.empty()) continue;
+      std::vector<double> from;
+      if (by_evaluations_ && &among != &*by_evaluations_) {
+        const auto& other = candidate_named(*by_evaluations_, contender->source.typed).learned;
+        if (other && other->fit.usable) from = theta_of(other->fit);
+      }
+      prepare(*contender, from);
+    }
+    measure_on_test(std::move(fresh));
+    settle(among);
+    if (&among == &asked()) tell_of_best();
+  }
+}
+
+void recommendation::tell_of_best() {
+  if (!keep_) return;
+  const auto best = chosen();
+  if (!best || best->text == kept_) return;
+  kept_ = best->text;
+  keep_(*best);
 }
 
 bool recommendation::is_heavy(const contest& among) const {

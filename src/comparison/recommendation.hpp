@@ -11,6 +11,7 @@
 
 #include "contest.hpp"
 #include "json.hpp"
+#include "method_file.hpp"
 #include "nysalt/analysis/timing.hpp"
 #include "nysalt/run_time_family.hpp"
 #include "prepared_problem.hpp"
@@ -24,7 +25,7 @@ class recommendation {
   recommendation(std::unique_ptr<prepared_problem> system, recommendation_options asked,
                  common_settings common);
 
-  void learn_and_rank();
+  void learn_and_rank(const choice_observer& keep = {});
 
   /// The contest at the cost or the error that was asked for, once it is ranked.
   const contest& asked() const { return by_evaluations_ ? *by_evaluations_ : *by_seconds_; }
@@ -32,8 +33,8 @@ class recommendation {
   const std::vector<std::string>& warnings() const { return warnings_; }
   json document() const;
   std::string readable() const;
-  /// The winner's scheme; nothing if none that is learned wins.
-  std::optional<std::string> scheme() const;
+  /// The method to take; nothing if none is accepted.
+  std::optional<chosen_method> chosen() const;
 
  private:
   void require_sound_command();
@@ -44,7 +45,7 @@ class recommendation {
 
   // At one error.
   void rank_at_one_error();
-  void find_steps(std::vector<candidate>& all);
+  void find_steps(const std::vector<candidate*>& all);
   static const double grid_ratio;
   double grid_step(const candidate& contender, int k) const;
   void prepare_search(candidate& contender) const;
@@ -83,6 +84,10 @@ class recommendation {
 
   void settle(contest& among);
   void run(contest& among);
+  /// Names of what has no error yet, in the order of the work: classical methods at once, then each family.
+  static std::vector<std::vector<std::string>> parts_of(const contest& among);
+  /// Tells the observer of the candidate to take, if it is another than before.
+  void tell_of_best();
   /// Judges one of the best on trajectories that it was not chosen on, and as `run` would warn of it.
   /// Where there is an objection, the contender takes a smaller step (at one error) or gets a reason.
   void confirm(contest& among, candidate& contender);
@@ -113,6 +118,8 @@ class recommendation {
   std::optional<contest> by_evaluations_;                      // nothing: only seconds are asked for
   std::optional<contest> by_seconds_;
   std::vector<std::string> warnings_;
+  choice_observer keep_;
+  std::string kept_;  // the text of the best so far
   progress shown_;
 };
 

@@ -7,6 +7,7 @@
 #include "checks.hpp"
 #include "learning.hpp"
 #include "nysalt/detail/served_letters.hpp"
+#include "purpose.hpp"
 #include "recommendation.hpp"
 #include "seeds.hpp"
 
@@ -25,11 +26,10 @@ void recommendation::require_sound_command() {
   if (options_.budget_seconds) require_positive("--budget-seconds", *options_.budget_seconds);
   if (options_.error) require_positive("--error", *options_.error);
   require_positive("--horizon", options_.horizon);
-  options_.learning.planned_horizon = options_.horizon;
-  const asked_metric judged_by = metric();
-  if (options_.learning.loss.empty()) {
-    options_.learning.loss = loss_for({&judged_by, 1}, system_->heat_bath());
+  if (options_.learning.purpose == for_sampling) {
+    refuse("--for must be state, energy or distribution for runs, got sampling; call recommend_for_sampling()");
   }
+  settle_purpose(options_.learning, system_->heat_bath(), "--learn-");
   require_at_least_one("--trajectories", options_.trajectories);
   require_sound(options_.learning, "--learn-");
   if (options_.error && options_.trajectories < 2) {

@@ -46,19 +46,19 @@ std::optional<int> recommendation::next_of(const bracket& search) {
   return *search.below + (search.above - *search.below) / 2;
 }
 
-void recommendation::find_steps(std::vector<candidate>& all) {
+void recommendation::find_steps(const std::vector<candidate*>& all) {
   constexpr std::int64_t few = 24;
   while (true) {
     std::vector<candidate*> on_few;
     std::vector<candidate*> on_all;
     std::vector<std::pair<candidate*, int>> tried;
-    for (auto& contender : all) {
-      const auto k = next_of(contender.search);
+    for (candidate* contender : all) {
+      const auto k = next_of(contender->search);
       if (!k) continue;
-      contender.search.is_fine = contender.search.is_fine || contender.search.below == k;
-      probe(contender, *k);
-      tried.emplace_back(&contender, *k);
-      (contender.search.is_fine ? on_all : on_few).push_back(&contender);
+      contender->search.is_fine = contender->search.is_fine || contender->search.below == k;
+      probe(*contender, *k);
+      tried.emplace_back(contender, *k);
+      (contender->search.is_fine ? on_all : on_few).push_back(contender);
     }
     if (tried.empty()) break;
     const auto seed = seed_for(role::held_out, common_.seed);
@@ -66,16 +66,17 @@ void recommendation::find_steps(std::vector<candidate>& all) {
     measure(on_all, options_.trajectories, seed);
     for (const auto& [contender, k] : tried) judge(*contender, k);
   }
-  for (auto& contender : all) {
-    if (contender.search.is_found) {
-      contender.error = {};  // of the trajectories on which the step was chosen
+  for (candidate* contender : all) {
+    if (contender->search.is_found) {
+      contender->error = {};  // of the trajectories on which the step was chosen
       continue;
     }
-    if (contender.search.is_given_up) continue;
-    contender.search.is_given_up = true;
-    contender.reason = fmt::format("no step down to {:.2g} has an error below {:g}{}", contender.step,
-                                   *options_.error, contender.reason.empty() ? "" : ": " + contender.reason);
-    contender.error = {};
+    if (contender->search.is_given_up) continue;
+    contender->search.is_given_up = true;
+    contender->reason =
+        fmt::format("no step down to {:.2g} has an error below {:g}{}", contender->step, *options_.error,
+                    contender->reason.empty() ? "" : ": " + contender->reason);
+    contender->error = {};
   }
 }
 
@@ -86,9 +87,7 @@ void recommendation::step_down(candidate& contender) {
   contender.search.has_failed = true;
   contender.search.is_found = false;
   contender.confirmed.reset();
-  std::vector<candidate> single{contender};
-  find_steps(single);
-  contender = std::move(single.front());
+  find_steps({&contender});
   if (!contender.reason.empty()) return;
   measure_on_test({&contender});
 }

@@ -12,6 +12,7 @@
 #include "learning.hpp"
 #include "nysalt/ensembles/thermal_positions.hpp"
 #include "nysalt/hmc.hpp"
+#include "purpose.hpp"
 #include "seeds.hpp"
 
 namespace nysalt::program {
@@ -67,9 +68,10 @@ void sampling_choice::require_sound_options() {
   }
   if (options_.families.empty()) options_.families = {"bab3", "bab4", "bab5", "bab6", "fd_chin"};
   learning_options& how = options_.learning;
-  if (how.loss.empty()) how.loss = "acceptance";
   if (!how.horizon) how.horizon = 2.0 * options_.length;
-  how.planned_horizon = 2.0 * options_.length;
+  if (!how.purpose.empty() && how.purpose != for_sampling)
+    refuse("--for must be sampling for Hybrid Monte Carlo, got {}; leave --for away", how.purpose);
+  settle_purpose(how, target.bath(), "--learn-", for_sampling);
   require_sound(how, "--learn-");
 }
 
@@ -176,15 +178,17 @@ proposal_options sampling_choice::proposals(std::uint64_t seed) const {
           .ranks = &all_ranks()};
 }
 
+tabulated sampling_choice::method_at(const sampling_candidate& candidate, double step) const {
+  if (candidate.learned) return candidate.learned->method;
+  if (candidate.source.fixed) return *candidate.source.fixed;
+  return candidate.source.adaptive->at(step * *candidate.source.adaptive->frequency(*system_));
+}
+
 std::optional<acceptance_step> sampling_choice::step_of(const sampling_candidate& candidate, double guess,
                                                         std::uint64_t seed, std::string& reason) const {
-  const auto method_at = [&](double step) -> tabulated {
-    if (candidate.learned) return candidate.learned->method;
-    if (candidate.source.fixed) return *candidate.source.fixed;
-    return candidate.source.adaptive->at(step * candidate.source.adaptive->frequency(*system_)->value);
-  };
   try {
-    return step_at_acceptance(system_->definition().system, method_at, options_.acceptance, guess, *states_,
+    const auto at = [&](double step) { return method_at(candidate, step); };
+    return step_at_acceptance(system_->definition().system, at, options_.acceptance, guess, *states_,
                               proposals(seed));
   } catch (const std::invalid_argument& problem) {
     reason = problem.what();
@@ -239,7 +243,11 @@ void sampling_choice::learn(sampling_candidate& candidate, double first_step) {
 }
 
 /// Steps are searched, and words learned, on some momenta, and all words are judged on others.
-void sampling_choice::learn_and_rank() {
+void sampling_choice::learn_and_rank(const choice_observer& keep) {
+  const auto tell_of_best = [&] {
+    sort_by_step();
+    if (const auto best = chosen(); keep && best) keep(*best);
+  };
   prepare_starts(*system_, common_, shown_);
   run_pilot();
   shown_.part("steps of classical words");
@@ -253,8 +261,16 @@ void sampling_choice::learn_and_rank() {
   }
   if (!(best > 0.0)) best = guess_;
   constexpr double farther = 1.1;  // than what is known
-  for (auto& candidate : all_) {
-    if (candidate.is_learned()) learn(candidate, farther * best * candidate.source.evaluations_per_step);
+  std::vector<std::string> to_learn;
+  for (const auto& candidate : all_) {
+    if (candidate.is_learned()) to_learn.push_back(candidate.source.typed);
+  }
+  tell_of_best();
+  for (const auto& name : to_learn) {
+    auto& candidate =
+        *std::ranges::find_if(all_, [&](const auto& one) { return one.source.typed == name; });
+    learn(candidate, farther * best * candidate.source.evaluations_per_step);
+    tell_of_best();
   }
   shown_.part("steps of all words");
   for (auto& candidate : all_) {
@@ -262,11 +278,15 @@ void sampling_choice::learn_and_rank() {
     candidate.found =
         step_of(candidate, candidate.found->step, seed_for(role::test, common_.seed), candidate.reason);
   }
+  sort_by_step();
+  shown_.clear();
+}
+
+void sampling_choice::sort_by_step() {
   std::ranges::stable_sort(all_, [](const sampling_candidate& a, const sampling_candidate& b) {
     if (a.is_eligible() != b.is_eligible()) return a.is_eligible();
     return a.is_eligible() && a.step_of_evaluation() > b.step_of_evaluation();
   });
-  shown_.clear();
 }
 
 const sampling_candidate* sampling_choice::best_of(bool learned) const {

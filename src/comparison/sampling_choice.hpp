@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "json.hpp"
+#include "method_file.hpp"
 #include "method_source.hpp"
 #include "nysalt/analysis/acceptance_step.hpp"
 #include "prepared_problem.hpp"
@@ -42,7 +43,7 @@ class sampling_choice {
   /// Plans who takes part. Throws refusal for bad options, before any work is done.
   sampling_choice(std::unique_ptr<prepared_problem> system, sampling_options asked, common_settings common);
 
-  void learn_and_rank();
+  void learn_and_rank(const choice_observer& keep = {});
 
   bool has_result() const { return best_of(true) != nullptr || best_of(false) != nullptr; }
   /// The candidate to take: the best, and of a tie the one that needs no learning; null if there is none.
@@ -52,8 +53,8 @@ class sampling_choice {
   const std::vector<std::string>& warnings() const { return warnings_; }
   json document() const;
   std::string readable() const;
-  /// The winner's scheme; nothing if none that is learned wins.
-  std::optional<std::string> scheme() const;
+  /// The word to take; nothing if there is none.
+  std::optional<chosen_method> chosen() const;
 
  private:
   void require_sound_options();
@@ -61,9 +62,12 @@ class sampling_choice {
   void consider(const std::string& name);
 
   void run_pilot();
+  void sort_by_step();
   proposal_options proposals(std::uint64_t seed) const;
   std::optional<acceptance_step> step_of(const sampling_candidate& candidate, double guess,
                                          std::uint64_t seed, std::string& reason) const;
+  /// The coefficients of a word at a step; of one that was learned, those of its own step.
+  tabulated method_at(const sampling_candidate& candidate, double step) const;
   void learn(sampling_candidate& candidate, double first_step);
 
   const sampling_candidate* best_of(bool learned) const;

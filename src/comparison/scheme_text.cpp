@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Schemes as they are written.
+// Schemes and tables as they are written.
 
 #include <algorithm>
 
@@ -11,8 +11,8 @@
 
 namespace nysalt::program {
 
-std::string scheme_text(const std::vector<learned_scheme>& learned, const prepared_problem& system,
-                        const learn_plan& plan) {
+json scheme_document(const std::vector<learned_scheme>& learned, const prepared_problem& system,
+                     const learn_plan& plan) {
   const fit_summary& fit = learned.front().fit;
   const bool is_curve = learned.size() > 1;
   json of_system = system.parameters();
@@ -84,7 +84,18 @@ std::string scheme_text(const std::vector<learned_scheme>& learned, const prepar
   }
   if (plan.where) document["placement"] = to_string(*plan.where);
   document["checksum"] = checksum(document);
-  return text_of(document);
+  return document;
+}
+
+std::string table_text(const std::string& name, const tabulated& method, double step,
+                       const prepared_problem& system) {
+  return text_of(json{{"format", table_format},
+                      {"version", known_version},
+                      {"name", name},
+                      {"letters", method.letters().letters()},
+                      {"coefficients", method.coefficients()},
+                      {"step", step},
+                      {"system", system.description()}});
 }
 
 }  // namespace nysalt::program

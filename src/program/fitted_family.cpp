@@ -10,6 +10,7 @@
 #include "comparison/method_file.hpp"
 #include "comparison/method_source.hpp"
 #include "comparison/progress.hpp"
+#include "comparison/purpose.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 
 namespace nysalt::program {
@@ -34,7 +35,7 @@ std::vector<double> steps_of(const learn_command& command) {
 }
 
 json document_of(const learned_scheme& learned, const prepared_problem& system,
-                 std::optional<placement> where) {
+                 std::optional<placement> where, const std::string& purpose) {
   const fit_summary& fit = learned.fit;
   json result = fit_json(fit);
   result["system"] = system.description();
@@ -71,6 +72,7 @@ json document_of(const learned_scheme& learned, const prepared_problem& system,
       learned.energies ? json{learned.energies->low, learned.energies->high} : json(nullptr);
   result["seed"] = fit.seed;
   result["placement"] = where ? json(to_string(*where)) : json(nullptr);
+  result["purpose"] = purpose.empty() ? json(nullptr) : json(purpose);
   return result;
 }
 
@@ -78,13 +80,12 @@ json document_of(const learned_scheme& learned, const prepared_problem& system,
 
 fitted_family::fitted_family(const learn_command& command, const common_settings& common)
     : command_(command), common_(common), system_(make_system(command.system)) {
-  std::string& loss_asked = command_.learning.loss;
-  if (loss_asked.empty()) loss_asked = usual_loss(system_->heat_bath()).description();
+  settle_purpose(command_.learning, system_->heat_bath(), "--");
   require_sound(command_.learning, "--");
   steps_ = steps_of(command_);
   if (command.enough) {
     require_positive("--enough", *command.enough);
-    const loss_kind& loss = *loss_named(loss_asked).kind;
+    const loss_kind& loss = *loss_named(command_.learning.loss).kind;
     if (!loss.asks_data()) {
       refuse("--enough must come with a loss that learns from trajectories, got {}; leave --enough out",
              loss.name);
@@ -113,10 +114,10 @@ const learned_scheme* fitted_family::unusable() const {
 }
 
 json fitted_family::document() const {
-  if (command_.step) return document_of(learned_.front(), *system_, plan_.where);
+  if (command_.step) return document_of(learned_.front(), *system_, plan_.where, purpose());
   json result;
   result["fits"] = json::array();
-  for (const auto& one : learned_) result["fits"].push_back(document_of(one, *system_, plan_.where));
+  for (const auto& one : learned_) result["fits"].push_back(document_of(one, *system_, plan_.where, purpose()));
   return result;
 }
 

@@ -23,6 +23,8 @@ class fitted_family {
   const prepared_problem& system() const { return *system_; }
   /// Where the letters O are; nothing without a bath.
   const std::optional<placement>& where() const { return plan_.where; }
+  /// The purpose that set the loss; empty if a loss was asked for.
+  const std::string& purpose() const { return command_.learning.purpose; }
   /// At each of the steps, in their order; one if no curve is asked for.
   const std::vector<learned_scheme>& learned() const { return learned_; }
   /// The first that is not usable; null if all are.

@@ -199,13 +199,17 @@ void require_folder(const std::filesystem::path& folder) {
     refuse("cannot write into {}: {}", folder.string(), why);
 }
 
+void require_files_in(const std::filesystem::path& folder, const std::vector<std::string>& files) {
+  require_folder(folder);
+  require_manifest(folder / files.front());
+  for (const auto& file : files) require_replaceable(folder / file);
+}
+
 void require_report(const std::filesystem::path& folder, const std::vector<std::string>& files) {
   const auto pictures = folder / folder_of_pictures;
-  for (const auto& of_results : {folder, pictures}) {
-    require_folder(of_results);
-    require_manifest(of_results / files.front());
-  }
-  for (const auto& file : files) require_replaceable(folder / file);
+  require_files_in(folder, files);
+  require_folder(pictures);
+  require_manifest(pictures / files.front());
   require_pictures(pictures);
 }
 

@@ -43,6 +43,9 @@ std::string picture_name(const std::filesystem::path& table);
 /// Throws refusal now if a folder could not be made there later, or not be written into.
 void require_folder(const std::filesystem::path& folder);
 
+/// The same of files in a folder, which are recorded.
+void require_files_in(const std::filesystem::path& folder, const std::vector<std::string>& files);
+
 /// The same of a report: files in a folder, the first of which is recorded, and pictures in one below.
 void require_report(const std::filesystem::path& folder, const std::vector<std::string>& files);
 

@@ -79,8 +79,7 @@ struct compare_command : comparison_options {
 
 struct recommend_command : recommendation_options {
   system_settings system;
-  std::string purpose = "runs";  // or sampling, by these options:
-  sampling_options sampling{};
+  sampling_options sampling{};  // of the purpose sampling
   std::string output;
 };
 

@@ -160,6 +160,7 @@ json document_of(const comparison& all) {
   json left_out = json::array();
   for (const auto& [name, reason] : all.left_out())
     left_out.push_back({{"method", name}, {"reason", reason}});
+  const std::string& purpose = options.learning.purpose;
   json result{{"system", all.system().description()},
               {"starts", all.system().starts()},
               {"metrics", metrics},
@@ -167,6 +168,7 @@ json document_of(const comparison& all) {
               {"trajectories", options.trajectories},
               {"equal_cost", options.equal_cost},
               {"seed", all.common().seed},
+              {"purpose", purpose.empty() ? json(nullptr) : json(purpose)},
               {"references", references_json(all)},
               {"rows", rows},
               {"rankings", rankings_json(all)},

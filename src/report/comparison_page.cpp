@@ -239,7 +239,8 @@ void add_fits(page& report, const comparison& all) {
   if (all.fits().empty()) return;
   report.heading("What was learned");
   table fits(
-      {"method", "step size", "parameters", "held-out error of a step", "evaluations", "seconds", "verdict"});
+      {"method", "step size", "parameters", "held-out error of a step", "evaluations", "seconds", "verdict",
+       "scheme"});
   for (const auto& fit : all.fits()) {
     std::string parameters;
     for (const auto& [name, value] : fit.parameters) {
@@ -249,7 +250,8 @@ void add_fits(page& report, const comparison& all) {
       return std::isfinite(x) ? fmt::format("{:.3g}", x) : std::string("-");
     };
     fits.add({fit.method, number(fit.step), parameters, number(fit.one_step_error), number(fit.evaluations),
-              number(fit.seconds), verdict_of(fit)});
+              number(fit.seconds), verdict_of(fit),
+              fit.usable ? fmt::format("{}/{}", folder_of_schemes, scheme_file(fit.method, fit.step)) : "-"});
   }
   report.table(std::move(fits));
 }
@@ -325,6 +327,22 @@ page report_of(const comparison& all) {
 
 }  // namespace
 
+namespace {
+
+void write_schemes(const comparison& all, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& fit : all.fits()) {
+    const std::string text = fit.scheme();
+    if (text.empty()) continue;
+    make_folders(folder);
+    files.push_back(folder / scheme_file(fit.method, fit.step));
+    write_unrecorded(files.back(), text);
+  }
+  if (!files.empty()) record_results(files, all.common());
+}
+
+}  // namespace
+
 std::vector<std::string> write_report(const comparison& all, const std::filesystem::path& folder) {
   std::vector<std::string> warnings;
   const page report = report_of(all);
@@ -349,6 +367,7 @@ std::vector<std::string> write_report(const comparison& all, const std::filesyst
     write_unrecorded(files.back(), text);
   }
   record_results(files, all.common());
+  write_schemes(all, folder / folder_of_schemes);
   return warnings;
 }
 

@@ -15,7 +15,8 @@ json document_of(const comparison& all);
 std::string readable(const comparison& all);
 /// In the folder of a report.
 constexpr const char* folder_of_pictures = "pictures";
-/// Report and tables in a folder, and pictures in one below. Returns warnings of pictures that could not be
+constexpr const char* folder_of_schemes = "schemes";
+/// Report and tables in a folder, and pictures and the schemes of learned rows in folders below. Returns warnings of pictures that could not be
 /// drawn.
 std::vector<std::string> write_report(const comparison& all, const std::filesystem::path& folder);
 /// Every row by every metric.

@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "comparison/purpose.hpp"
 #include "comparison/refusal.hpp"
 #include "comparison_report.hpp"
 #include "comparison_tables.hpp"
@@ -257,6 +258,11 @@ std::string readable(const comparison& all) {
   }
   for (const auto& sentence : sentences_of_methods(all)) text += "\n" + sentence;
   if (!sentences_of_methods(all).empty()) text += "\n";
+  if (!all.fits().empty()) {
+    text += fmt::format("\n{}\n", report_of_purpose(options.learning));
+    const auto advice = advice_on_purpose(all.metrics(), options.learning.purpose);
+    if (!advice.empty()) text += advice + "\n";
+  }
   return text + fmt::format("\npeak memory: {} MB\n", (peak_memory() + 500'000) / 1'000'000);
 }
 

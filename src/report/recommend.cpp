@@ -2,6 +2,7 @@
 #include "nysalt/recommend.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "comparison/recommendation.hpp"
 #include "comparison/sampling_choice.hpp"
@@ -15,17 +16,13 @@ class recommendation::contest_result {
   virtual ~contest_result() = default;
   virtual bool has_result() const = 0;
   virtual std::string verdict() const = 0;
-  virtual std::string method() const = 0;
-  virtual double step() const = 0;
   virtual std::string readable() const = 0;
   virtual program::json document() const = 0;
-  virtual std::optional<std::string> scheme() const = 0;
+  virtual std::optional<program::chosen_method> chosen() const = 0;
   virtual std::vector<std::string> warnings() const = 0;
 };
 
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 template <class Work>
 class result_of : public recommendation::contest_result {
@@ -38,7 +35,7 @@ class result_of : public recommendation::contest_result {
   bool has_result() const override { return all_.has_result(); }
   std::string readable() const override { return all_.readable(); }
   program::json document() const override { return all_.document(); }
-  std::optional<std::string> scheme() const override { return all_.scheme(); }
+  std::optional<program::chosen_method> chosen() const override { return all_.chosen(); }
   std::vector<std::string> warnings() const override { return all_.warnings(); }
 
  protected:
@@ -49,28 +46,12 @@ class best_for_runs : public result_of<program::recommendation> {
  public:
   using result_of::result_of;
   std::string verdict() const override { return all_.asked().verdict(); }
-  std::string method() const override {
-    const auto* best = all_.asked().best();
-    return best == nullptr ? std::string() : best->source.typed;
-  }
-  double step() const override {
-    const auto* best = all_.asked().best();
-    return best == nullptr ? not_a_number : best->step;
-  }
 };
 
 class best_for_sampling : public result_of<program::sampling_choice> {
  public:
   using result_of::result_of;
   std::string verdict() const override { return all_.verdict(); }
-  std::string method() const override {
-    const auto* best = all_.taken();
-    return best == nullptr ? std::string() : best->source.typed;
-  }
-  double step() const override {
-    const auto* best = all_.taken();
-    return best == nullptr ? not_a_number : best->found->step;
-  }
 };
 
 }  // namespace
@@ -79,9 +60,15 @@ bool recommendation::has_result() const { return found_->has_result(); }
 
 std::string recommendation::verdict() const { return found_->verdict(); }
 
-std::string recommendation::method() const { return found_->method(); }
+std::string recommendation::method() const {
+  const auto best = found_->chosen();
+  return best ? best->name : std::string();
+}
 
-double recommendation::step() const { return found_->step(); }
+double recommendation::step() const {
+  const auto best = found_->chosen();
+  return best ? best->step : std::numeric_limits<double>::quiet_NaN();
+}
 
 std::string recommendation::text() const {
   return program::with_arguments(found_->readable(), program::in_cpp);
@@ -89,7 +76,11 @@ std::string recommendation::text() const {
 
 std::string recommendation::json() const { return program::text_of(found_->document()); }
 
-std::optional<std::string> recommendation::scheme() const { return found_->scheme(); }
+std::optional<std::string> recommendation::method_file() const {
+  auto best = found_->chosen();
+  if (!best) return std::nullopt;
+  return std::move(best->text);
+}
 
 std::vector<std::string> recommendation::warnings() const {
   return program::with_cpp_terms(found_->warnings());

@@ -5,18 +5,13 @@
 
 #include "comparison/learning.hpp"
 #include "comparison/method_file.hpp"
+#include "comparison/purpose.hpp"
 #include "comparison/recommendation.hpp"
 #include "table.hpp"
 
 namespace nysalt::program {
 
 namespace {
-
-/// The candidate to take; of a tie the one that needs no learning.
-const candidate* taken(const contest& among) {
-  const candidate* winner = among.winner();
-  return winner != nullptr ? winner : among.best_of(false);
-}
 
 std::string in_words(const ratio_estimate& ratio) {
   if (std::isinf(ratio.value)) return "zero, and so smaller";
@@ -66,7 +61,7 @@ std::string recommendation::advice_of(const contest& among) const {
   }
   if (learned == nullptr) {
     return fmt::format(
-        "A classical method wins: {}{}. No learned method is accepted; there is no scheme to write.",
+        "A classical method wins: {}{}. No learned method is accepted.",
         as_options(*classical), bound_of(among, *classical));
   }
   if (classical == nullptr) {
@@ -94,14 +89,14 @@ std::string recommendation::advice_of(const contest& among) const {
                                  in_words(is_learned ? ratio : ratio.inverse()), rival, costs(*best, other))
                    : fmt::format("it takes {} of {}{}", costs(*best, other), rival, bound_of(among, *best));
   if (is_learned) return fmt::format("Take {} at step {:.12g}: {}.", best->source.typed, best->step, why);
-  return fmt::format("A classical method wins: {}; {}. There is no scheme to write.", as_options(*best), why);
+  return fmt::format("A classical method wins: {}; {}.", as_options(*best), why);
 }
 
 /// Whether seconds say the same as evaluations, and if not, who wins by them.
 std::string recommendation::advice_on_seconds() const {
   if (!by_evaluations_ || !by_evaluations_->has_result() || !by_seconds_->has_result()) return {};
-  const candidate* first = taken(*by_evaluations_);
-  const candidate* fast = taken(*by_seconds_);
+  const candidate* first = by_evaluations_->taken();
+  const candidate* fast = by_seconds_->taken();
   if (first == nullptr || fast == nullptr) return {};
   std::string same = fmt::format(" By seconds {} is the choice too.", first->source.typed);
   if (fast->source.typed == first->source.typed) return same;
@@ -129,7 +124,7 @@ std::string recommendation::advice_on_seconds() const {
 
 /// The cost of observations of a processed method, where one is advised.
 std::string recommendation::advice_on_observations() const {
-  const candidate* best = taken(asked());
+  const candidate* best = asked().taken();
   if (best == nullptr || best->source.evaluations_to_observe == 0) return {};
   return fmt::format(
       " {} is counted with {} observation{} of each trajectory (--looks): every further one takes {} "
@@ -142,12 +137,17 @@ std::string recommendation::advice() const {
   return advice_of(asked()) + advice_on_seconds() + advice_on_observations();
 }
 
-std::optional<std::string> recommendation::scheme() const {
-  const candidate* winner = asked().winner();
-  if (winner == nullptr || !winner->is_learned()) return std::nullopt;
-  const learn_plan plan =
-      plan_for(*winner->source.family, winner->where, winner->step, options_.learning, common_);
-  return scheme_text({*winner->learned}, *system_, plan);
+std::optional<chosen_method> recommendation::chosen() const {
+  const candidate* best = asked().taken();
+  if (best == nullptr) return std::nullopt;
+  chosen_method result{.name = best->source.typed, .step = best->step, .text = {}};
+  if (best->is_learned()) {
+    const auto plan = plan_for(*best->source.family, best->where, best->step, options_.learning, common_);
+    result.text = scheme_text({*best->learned}, *system_, plan);
+  } else {
+    result.text = table_text(best->source.typed, *best->method, best->step, *system_);
+  }
+  return result;
 }
 
 std::string recommendation::quantity() const {
@@ -224,6 +224,7 @@ json recommendation::document() const {
   json left_out = json::array();
   for (const auto& [name, reason] : left_out_) left_out.push_back({{"method", name}, {"reason", reason}});
   const auto number = [](const std::optional<double>& value) { return value ? json(*value) : json(nullptr); };
+  const std::string& purpose = options_.learning.purpose;
   json result{{"system", system_->description()},
               {"starts", system_->starts()},
               {"metric", options_.metric},
@@ -233,7 +234,8 @@ json recommendation::document() const {
               {"error", number(options_.error)},
               {"horizon", options_.horizon},
               {"trajectories", options_.trajectories},
-              {"seed", common_.seed}};
+              {"seed", common_.seed},
+              {"purpose", purpose.empty() ? json(nullptr) : json(purpose)}};
   result.update(contest_json(asked()));
   result["advice"] = advice();
   result["by_seconds"] = contest_json(*by_seconds_);
@@ -254,14 +256,19 @@ std::string recommendation::readable() const {
   if (options_.budget) text += fmt::format(", {:g} evaluations per unit time", *options_.budget);
   if (options_.budget_seconds) text += fmt::format(", {:g} ns per unit time", 1e9 * *options_.budget_seconds);
   if (options_.error) text += fmt::format(" below {:g}", *options_.error);
-  text += fmt::format("\nstarts: {}\n\n", system_->starts());
+  text += fmt::format("\nstarts: {}\n{}\n", system_->starts(), report_of_purpose(options_.learning));
+  const asked_metric judged_by = metric();
+  if (const auto note = advice_on_purpose({&judged_by, 1}, options_.learning.purpose); !note.empty()) {
+    text += note + "\n";
+  }
+  text += "\n";
   table ranking({"method", "order", "step", "evaluations/time", "ns/time", "error", "standard error",
                  "95 % err below", "diverged"});
   const auto number = [](const char* format, double x) {
     return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : std::string("-");
   };
   for (const auto& contender : among.all) {
-    const bool has_quantile = contender.is_eligible() && !contender.error.scores.empty();
+    const bool has_quantile = contender.is_eligible();
     const double quantile = has_quantile ? quantile_of(contender.error) : std::nan("");
     ranking.add(
         {contender.source.typed, fmt::format("{}", contender.order), number("{:.4g}", contender.step),

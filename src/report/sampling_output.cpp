@@ -68,10 +68,14 @@ std::string sampling_choice::advice() const {
       what, in_words(ratio), classical->source.typed, beside, best->plan->step);
 }
 
-std::optional<std::string> sampling_choice::scheme() const {
+std::optional<chosen_method> sampling_choice::chosen() const {
   const auto* best = taken();
-  if (best == nullptr || !best->is_learned()) return std::nullopt;
-  return scheme_text({*best->learned}, *system_, *best->plan);
+  if (best == nullptr) return std::nullopt;
+  const double step = best->found->step;
+  return chosen_method{.name = best->source.typed,
+                       .step = step,
+                       .text = best->is_learned() ? scheme_text({*best->learned}, *system_, *best->plan)
+                                                  : table_text(best->source.typed, method_at(*best, step), step, *system_)};
 }
 
 json sampling_choice::document() const {

@@ -53,7 +53,7 @@ std::string both(const both_laws& all, const std::function<std::string(const swe
 std::string compare_command(const both_laws& all, double horizon) {
   return fmt::format(
       "nysalt compare --system fpu --methods verlet,verlet_2x,mclachlan2,learned:nystrom --steps {} "
-      "--horizon {:g} --trajectories 400",
+      "--horizon {:g} --trajectories 400 --for energy",
       steps_text(all.gaps), horizon);
 }
 

@@ -137,13 +137,13 @@ exhibit energies_at_400(const setting& setup) {
        {"at delta = 2/omega NySALT remains stable to time 150", "trajectories that diverge",
         fmt::format("{} of {}", lost, count), verdict_of(lost == 0), "none must",
         "nysalt compare --system fpu --methods verlet,learned:nystrom --steps 0.04 --horizon 150 "
-        "--trajectories 200"},
+        "--trajectories 200 --for energy"},
        {"it captures the main patterns of the energy transfer up to time 150",
         "mean over times of sum |I_j - I_j^ref|/I^ref, against energies that are frozen at their start", ours,
         verdict_of("the time", readings),
         summary_of(readings) + "; it must be below the frozen ones by two standard errors",
         "nysalt compare --system fpu --methods learned:nystrom --steps 0.04 --horizon 150 --trajectories 200 "
-        "--metric exchange"}},
+        "--metric exchange --for energy"}},
       {},
       {{"Error of the exchange:", rows}},
       {{{"energies_at_400",

@@ -70,16 +70,34 @@ def test_without_methods_all_that_apply_are_compared(program):
     assert taken == {0.9}
 
 
-def test_a_recommendation_is_the_document_of_the_program(program):
-    found, scheme = nysalt.recommend(nysalt.system("pendulum"), 2, budget=4, families="nystrom",
-                                     trajectories=8, learn_trajectories=5)
+def test_a_recommendation_is_the_document_of_the_program(program, tmp_path):
+    pendulum = nysalt.system("pendulum")
+    found, method = nysalt.recommend(pendulum, 2, budget=4, families="nystrom", trajectories=8, learn_trajectories=5,
+                                     output=tmp_path / "best.json")
     of_program = program("recommend", "--system", "pendulum", "--horizon", "2", "--budget", "4", "--families",
                          "nystrom", "--trajectories", "8", "--learn-trajectories", "5")
     of_program.pop("output")
     for one in (found, of_program):
         one.pop("advice")  # it tells of seconds
     assert without_times(found) == without_times(of_program)
-    assert (scheme is not None) == (found["verdict"] == "learned")
+    assert isinstance(method, nysalt.Scheme if found["verdict"] == "learned" else nysalt.Table)
+    kept = nysalt.load(tmp_path / "best.json")
+    assert kept.document == method.document
+    step = next(row["step_size"] for row in found["rows"] if row["method"] == found["best_classical"])
+    assert found["verdict"] == "learned" or kept.document["step"] == step
+    (row,) = nysalt.compare(pendulum, kept, step, horizon=2, trajectories=4)["rows"]
+    assert row["error"] > 0.0
+
+
+def test_a_fit_of_a_comparison_is_a_scheme(program):
+    pendulum = nysalt.system("pendulum")
+    few = dict(horizon=4, trajectories=4)
+    found = nysalt.compare(pendulum, "learned:bab2", 0.4, learn_trajectories=4, learn_effort="quick", **few)
+    scheme = nysalt.learn(pendulum, "bab2", step=0.4, trajectories=4, effort="quick")
+    assert found["fits"][0]["scheme"] == scheme.document
+    assert nysalt.compare(pendulum, scheme, 0.4, **few)["rows"][0]["error"] == found["rows"][0]["error"]
+    other = nysalt.learn(pendulum, "bab2", step=0.4, trajectories=4, effort="quick", purpose="energy")
+    assert nysalt.compare(pendulum, other, 0.4, **few)["rows"][0]["error"] != found["rows"][0]["error"]
 
 
 RUNS = [

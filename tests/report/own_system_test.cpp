@@ -143,6 +143,17 @@ BOOST_AUTO_TEST_CASE(a_recommendation_names_a_method_and_its_step) {
   // A budget of 10 evaluations: a word of s evaluations takes steps of s/10.
   BOOST_TEST(std::abs(10.0 * found.step() - std::round(10.0 * found.step())) < 1e-9);
   BOOST_TEST(has(found.text(), found.method()));
-  BOOST_TEST((found.verdict() == "learned") == found.scheme().has_value());
+  // Whoever wins is a file, by which it is compared.
+  const auto file = found.method_file();
+  BOOST_TEST_REQUIRE(file.has_value());
+  BOOST_TEST((file->find("nysalt scheme") != std::string::npos) == (found.verdict() == "learned"));
+  const auto rows = compare(morse(), {.methods = {"best.json"},
+                                      .steps = {found.step()},
+                                      .horizon = 4.0,
+                                      .trajectories = 4,
+                                      .metrics = {"state"},
+                                      .held = {{"best.json", *file}}})
+                        .rows();
+  BOOST_TEST(rows.front().reason == "");
   BOOST_CHECK_THROW(recommend(morse(), {.horizon = 4.0}), std::invalid_argument);
 }

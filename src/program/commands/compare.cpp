@@ -90,6 +90,9 @@ int compare(const compare_command& command, const common_settings& common) {
     int code = unfinished;
     on_first(all_ranks(), [&] {
       require_report(folder, {"report.json", "report.md", "report.html", "rows.csv", journal_name});
+      if (const auto schemes = all.scheme_files(); !schemes.empty()) {
+        require_files_in(folder / folder_of_schemes, schemes);
+      }
       if (command.resume) code = print_finished_report(folder, all);
     });
     broadcast(all_ranks(), code);

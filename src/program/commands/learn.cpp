@@ -37,6 +37,7 @@ int learn(const learn_command& command, const common_settings& common) {
       print(in_full ? one.fit.full() : one.fit.brief() + "\n");
       if (one.course && command.step) print(fmt::format("  {:<22}{}\n", "enough", one.course->report()));
     }
+    if (!training.purpose().empty()) print(fmt::format("  {:<22}{}\n", "for", training.purpose()));
     if (training.where())
       print(fmt::format("  {:<22}{}: {}\n", "letters O", to_string(*training.where()),
                         learned.front().method.letters().letters()));

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <filesystem>
+#include <string>
+
 #include "comparison/recommendation.hpp"
 #include "comparison/sampling_choice.hpp"
 #include "program/systems.hpp"
@@ -7,21 +10,43 @@
 #include "../commands.hpp"
 #include "../output.hpp"
 #include "comparison/all_ranks.hpp"
+#include "comparison/interruption.hpp"
+#include "comparison/purpose.hpp"
 #include "nysalt/detail/collectively.hpp"
 
 namespace nysalt::program {
 
 namespace {
 
-/// Does the work, prints what was found, and writes the scheme of a winner that was learned.
+/// Does the work, prints what was found, and writes the method to take. The best so far is in the output from
+/// the moment on that it is known, and stays there if a signal ends the work.
 int print_result(auto& all, const std::string& output, const common_settings& common) {
   if (!output.empty()) on_first(all_ranks(), [&] { require_result(output); });
   warn_of_threads(common);
-  all.learn_and_rank();
-  const auto scheme = all.scheme();
-  const bool writes = scheme && !output.empty();
+  const std::string file = of_letters(output);
+  last_words said(output.empty() ? std::string("no method was accepted so far")
+                                 : fmt::format("no method was accepted so far, and {} was not written", file));
+  const auto write_text = [&](const std::string& text) {
+    on_first(all_ranks(), [&] { write_result(output, text, common); });
+  };
+  bool is_kept = false;
+  all.learn_and_rank([&](const chosen_method& best) {
+    const std::string which = fmt::format("the best so far, {} at step {:.12g}", best.name, best.step);
+    if (output.empty()) return said.set(which + ", was not written; take --output FILE to keep it");
+    try {
+      said.set(fmt::format("{} has {}", file, which), [&] { write_text(best.text); });
+      is_kept = true;
+    } catch (const std::exception&) {  // it is written again at the end, which says why it cannot be
+    }
+  });
+  const auto chosen = all.chosen();
+  const bool writes = chosen && !output.empty();
   const auto write = [&] {
-    if (writes) on_first(all_ranks(), [&] { write_result(output, *scheme, common); });
+    if (writes) write_text(chosen->text);
+    if (chosen || !is_kept) return;
+    said.set({}, [&] {
+      on_first(all_ranks(), [&] { std::filesystem::remove(output); });
+    });
   };
   write_and_print(write, [&](bool written) {
     if (common.json) {
@@ -34,14 +59,16 @@ int print_result(auto& all, const std::string& output, const common_settings& co
     for (const auto& text : all.warnings()) warn(text);
     if (writes && written) print(line_of_written(output));
   });
-  return all.has_result() ? done : no_result;
+  if (chosen) return done;
+  if (!output.empty()) warn(fmt::format("no method is accepted, and {} was not written", file));
+  return no_result;
 }
 
 }  // namespace
 
 int recommend(const recommend_command& command, const common_settings& common) {
   auto system = make_system(command.system);
-  if (command.purpose == "sampling") {
+  if (command.learning.purpose == for_sampling) {
     sampling_choice all(std::move(system), command.sampling, common);
     return print_result(all, command.output, common);
   }

@@ -8,6 +8,7 @@
 #include "../comma_list.hpp"
 #include "../commands.hpp"
 #include "../systems.hpp"
+#include "comparison/purpose.hpp"
 #include "comparison/refusal.hpp"
 #include "number_option.hpp"
 #include "shared_options.hpp"
@@ -23,8 +24,6 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
   auto& asked = typed->asked;
   auto& command = *app.add_subcommand("recommend", "the best method at a cost, or for an error");
   add_system(command, asked.system);
-  command.add_option("--for", asked.purpose, "runs, or sampling by Hybrid Monte Carlo")
-      ->capture_default_str();
   add_placement(command, asked.placement);
   add_number(command, "--budget", asked.budget, "force evaluations per unit time");
   add_number(command, "--budget-seconds", asked.budget_seconds,
@@ -57,11 +56,11 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
       "  nysalt recommend --for sampling --system phi4 --length 1 --families bab5 --times-larger 100");
   const auto run_it = [typed, &asked, &command, &common] {
     asked.families = entries_of(typed->families, "--families");
-    if (asked.purpose == "sampling") {
+    if (asked.learning.purpose == for_sampling) {
       for (const char* option : {"--budget", "--budget-seconds", "--error", "--horizon", "--metric",
                                  "--observable", "--looks", "--reversible", "--placement"}) {
         if (command.count(option) > 0)
-          refuse("{0} must come with --for runs, got sampling; leave {0} out", option);
+          refuse("{0} must come with another purpose than --for sampling; leave {0} out", option);
       }
       if (command.count("--length") == 0) {
         refuse("--length must be given with --for sampling; a quarter of the slowest period is a good start");
@@ -79,10 +78,8 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
       if (sampling.starts_are_thermal) of_momenta = sampling.temperature;
       return recommend(asked, common);
     }
-    if (asked.purpose != "runs")
-      refuse("unknown purpose '{}': --for is one of runs, sampling", asked.purpose);
     for (const char* option : {"--length", "--acceptance", "--times-larger"}) {
-      if (command.count(option) > 0) refuse("{} must come with --for sampling, got runs", option);
+      if (command.count(option) > 0) refuse("{} must come with --for sampling; leave {} out", option, option);
     }
     if (command.count("--horizon") == 0)
       refuse("--horizon must be given; name the length of the runs to come");

@@ -13,6 +13,7 @@
 #include "../comma_list.hpp"
 #include "../options_file.hpp"
 #include "comparison/number.hpp"
+#include "comparison/purpose.hpp"
 #include "number_option.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/version.hpp"
@@ -135,6 +136,8 @@ void add_placement(CLI::App& command, std::string& placement) {
 }
 
 void add_search(CLI::App& command, learning_options& how, const std::string& prefix) {
+  command.add_option("--for", how.purpose,
+                     fmt::format("{}: what the runs are for, which sets the loss [state]", purposes()));
   add_number(command, prefix + "trajectories", how.trajectories, "to learn from");
   command.add_option(
       "--coordinates", how.coordinates,
@@ -142,9 +145,9 @@ void add_search(CLI::App& command, learning_options& how, const std::string& pre
   command.add_option("--fix", how.fix, "keep a parameter: b1=0.5");
   command.add_option(
       prefix + "loss", how.loss,
-      fmt::format("{}, or {} after K steps [{}]", loss_patterns(false), loss_patterns(true),
-                  prefix == "--" ? "trajectory; in a bath state:1"
-                                 : "trajectory; in a bath, and for metrics of energies, state:1"));
+      fmt::format("{}, or {} after K steps [by the purpose: trajectory, and state:1 in a bath; state:1; "
+                  "state:1; acceptance]",
+                  loss_patterns(false), loss_patterns(true)));
   command
       .add_option(prefix + "effort", how.effort, "of the search by trajectories: quick, normal or thorough")
       ->capture_default_str();
@@ -155,7 +158,7 @@ void add_search(CLI::App& command, learning_options& how, const std::string& pre
 void add_horizon(CLI::App& command, learning_options& how, const std::string& prefix) {
   add_number(
       command, prefix + "horizon", how.horizon,
-      "length of each [that of the runs, but 16 to 200 steps; of losses after K steps 0.5 or ten steps]");
+      "length of each [200 steps; of losses after K steps 0.5 or ten steps]");
 }
 
 void add_learning(CLI::App& command, learning_options& how, const std::string& prefix) {
