@@ -181,7 +181,7 @@ proposal_options sampling_choice::proposals(std::uint64_t seed) const {
 tabulated sampling_choice::method_at(const sampling_candidate& candidate, double step) const {
   if (candidate.learned) return candidate.learned->method;
   if (candidate.source.fixed) return *candidate.source.fixed;
-  return candidate.source.adaptive->at(step * *candidate.source.adaptive->frequency(*system_));
+  return candidate.source.adaptive->at(step * candidate.source.adaptive->frequency(*system_)->value);
 }
 
 std::optional<acceptance_step> sampling_choice::step_of(const sampling_candidate& candidate, double guess,
