@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "../src/comparison/checks.hpp"
+#include "../src/comparison/judging.hpp"
 #include "../src/comparison/learning.hpp"
 #include "../src/comparison/method_source.hpp"
 #include "../src/comparison/sampled_run.hpp"
@@ -63,6 +64,7 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
   const auto began = std::chrono::steady_clock::now();
   std::vector<std::string> warnings;
   std::int64_t evaluations = 0;
+  double energy_error = 0.0;
   compute(system.calls_python(), [&] {
     program::progress shown;
     auto& planned_system = *planned->system;
@@ -79,7 +81,8 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
       if (one.diverged_at) lost[m] = *one.diverged_at;
     };
     std::ranges::fill(to, std::numeric_limits<double>::quiet_NaN());
-    program::run(planned_system, *planned->method, sampled, take, shown.counter(1000));
+    energy_error = program::run(planned_system, *planned->method, sampled, take, shown.counter(1000));
+    if (auto text = planned->warning_of_energy(energy_error)) warnings.push_back(std::move(*text));
     evaluations = planned_system.count_evaluations(*planned->method, plan);
   });
   py::dict result;
@@ -91,6 +94,8 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
   result["starts"] = planned->system->starts();
   result["steps"] = plan.steps;
   result["evaluations"] = evaluations;
+  result["energy_error"] = energy_error;
+  result["judgement"] = program::to_json(planned->judged()).dump();
   result["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   result["warnings"] = list_of(warnings);
   return result;
@@ -163,9 +168,29 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
   return py::make_tuple(to_q, to_p, list_of(warnings));
 }
 
+/// The judgement of a method at a step, as the text of a document.
+std::string judge(const held_system& system, const py::dict& arguments) {
+  const argument_reader asked(arguments);
+  const auto common = common_of(asked, system.calls_python());
+  const auto command = run_of(asked, system.settings);
+  program::require_positive("--step", command.step);
+  std::string document;
+  compute(system.calls_python(), [&] {
+    std::vector<std::string> warnings;
+    program::progress shown;
+    prepare_starts(*system.model, common, shown);
+    const auto source = program::find_method(command.method, command.held, system.model->letters());
+    const auto method = coefficients_at(source, *system.model, command.step, common.force,
+                                        program::placement_asked(command.placement), warnings);
+    document = program::to_json(system.model->judged(method, command.step, common.threads)).dump();
+  });
+  return document;
+}
+
 }  // namespace
 
 void add_trajectories(py::module_& module) {
+  module.def("judge", &judge);
   module.def("run", &run);
   module.def("integrate", &integrate);
 }

@@ -42,8 +42,8 @@ def _compiled() -> Any:
 _nysalt = _compiled()
 
 __version__: str = _nysalt.version
-__all__ = ["Run", "Scheme", "System", "Table", "build", "compare", "export", "families", "hamiltonian", "integrate", "learn", "load",
-           "methods", "metrics", "potential", "recommend", "recommend_for_sampling", "run", "system", "systems"]
+__all__ = ["Run", "Scheme", "System", "Table", "build", "compare", "export", "families", "hamiltonian", "integrate", "judge",
+           "learn", "load", "methods", "metrics", "potential", "recommend", "recommend_for_sampling", "run", "system", "systems"]
 
 Texts = Union[str, Sequence[str]]
 Numbers = Union[float, Sequence[float]]
@@ -360,7 +360,8 @@ class Run:
     """Samples of trajectories: values[trajectory, sample, observable] at times t[sample].
 
     From where a trajectory diverged on its values are NaN; `diverged` is that step, or -1. run["energy"] is a
-    view of one observable. `evaluations` are of a trajectory, `seconds` of all.
+    view of one observable. `evaluations` are of a trajectory, `seconds` of all. `energy_error` is the largest
+    |H - H_0| at a check, each 64 steps, of the trajectories that did not diverge; `judgement` is that of `judge`.
     """
 
     t: np.ndarray
@@ -372,6 +373,8 @@ class Run:
     steps: int
     evaluations: int
     seconds: float
+    energy_error: float
+    judgement: Dict[str, Any]
     warnings: List[str]
 
     def __getitem__(self, observable: str) -> np.ndarray:
@@ -399,9 +402,22 @@ def run(system: System, method: Method, step: float, horizon: float, *, trajecto
     for name in ("system", "out"):
         asked.pop(name)
     (asked["method"],), asked["held"] = _held_by_name([method])
-    found = Run(**_nysalt.run(_held_by(system), asked, out))
+    found = _nysalt.run(_held_by(system), asked, out)
+    found = Run(**{**found, "judgement": _json.loads(found["judgement"])})
     _warn(found.warnings)
     return found
+
+
+def judge(system: System, method: Method, step: float, *, placement: Optional[str] = None, force: bool = False,
+          threads: Optional[int] = None) -> Dict[str, Any]:
+    """What happens to a method at a step: the `judgement` of `nysalt stability --json`.
+
+    Its "verdict" is "good", "near an edge", "loses trajectories", "unstable" or "not tried", with a "reason"; beside it
+    stand the trial, the energy error against the kinetic energy, and what linear theory says.
+    """
+    (name,), held = _held_by_name([method])
+    asked = dict(method=name, held=held, step=step, placement=placement, force=force, threads=threads)
+    return _json.loads(_nysalt.judge(_held_by(system), asked))
 
 
 def integrate(system: System, method: Method, step: float, q: Any, p: Any, steps: int, *,

@@ -123,8 +123,7 @@ BOOST_AUTO_TEST_CASE(rivals_of_any_cost_are_compared_at_the_times_that_both_have
   BOOST_TEST(agree(rival->losses_beside(theta), by_hand(member, step, 3)));
   BOOST_TEST(!agree(rival->held_out_losses, by_hand(method, step, 2)));
   BOOST_TEST(!agree(rival->losses_beside(theta), by_hand(member, step, 2)));
-  // A trial is as long in time: 600 steps of the family are 400 of the rival.
-  BOOST_TEST(rival->trial(16, 600).steps == 400);
+  BOOST_TEST(rival->judged_step == 1.5 * step);
   // Where the steps divide all times are shared; eleven evaluations have no time in so short trajectories.
   BOOST_TEST(!problem.rival(method_named("verlet"))->losses_beside);
   BOOST_TEST(problem.rival(method_named("verlet"))->step == 0.5 * step);
@@ -160,19 +159,20 @@ BOOST_AUTO_TEST_CASE(who_errs_less_and_fails_the_trial_is_said_too) {
     problem.rival = [=](const tabulated& method) -> std::optional<rival_method> {
       const bool is_chin = method.name() == "chin4a";
       if (!is_chin && method.name() != "verlet") return std::nullopt;
+      const double h = is_chin ? 0.75 : 0.25;
       rival_method planted{
-          .name = method.name(), .step = is_chin ? 0.75 : 0.25, .held_out_losses = own, .trial = {}};
+          .name = method.name(), .step = h, .held_out_losses = own, .method = method, .judged_step = h};
       for (double& loss : planted.held_out_losses) loss *= is_chin ? of_chin : of_verlet;
-      planted.trial = [=](std::int64_t count, std::int64_t steps) {
-        trial_result result;
-        result.trajectories = count;
-        result.steps = steps;
-        if (!is_chin || !fails) return result;
-        result.diverged = 1;
-        result.lost = diverged_trajectory{3, 2148};
-        return result;
-      };
       return planted;
+    };
+    problem.judged = [=](const tabulated& method, double h) {
+      judgement found;
+      found.step = h;
+      found.verdict = step_verdict::good;
+      if (method.name() != "chin4a" || !fails) return found;
+      found.verdict = step_verdict::unstable;
+      found.reason = "8 of 9 trajectories are lost in 20000 steps, the first at step 2148";
+      return found;
     };
     return solve(problem).summary;
   };
@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(who_errs_less_and_fails_the_trial_is_said_too) {
     BOOST_TEST(
         says(both.brief(),
              "take verlet at step 0.25; chin4a at step 0.75 errs 8 times less in the median, and fails: "
-             "in a trial run of"));
+             "unstable: 8 of 9"));
     BOOST_TEST(says(both.full(), "at step 2148"));
   }
   const fit_summary sound = with(0.01, 0.64, false);

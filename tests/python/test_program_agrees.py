@@ -56,6 +56,18 @@ def test_a_comparison_is_the_document_of_the_program(program):
     assert len(found["rows"]) == 2 * 3 * 2
 
 
+def test_a_judgement_is_that_of_the_program_and_of_a_run(program):
+    pendulum = nysalt.system("pendulum")
+    for step, verdict in ((0.1, "good"), (2.5, "unstable")):
+        found = nysalt.judge(pendulum, "verlet", step)
+        assert found["verdict"] == verdict
+        assert found == program("stability", "--system", "pendulum", "--method", "verlet", "--step", str(step))["judgement"]
+    with pytest.warns(UserWarning, match="unstable"):
+        ran = nysalt.run(pendulum, "verlet", step=2.5, horizon=250)
+    assert ran.judgement == found and ran.energy_error > found["kinetic_energy"]
+    assert nysalt.run(pendulum, "verlet", step=0.1, horizon=1).energy_error < 0.1
+
+
 def test_without_methods_all_that_apply_are_compared(program):
     asked = dict(steps=0.02, equal_cost=True, horizon=3, trajectories=4, metric="state")
     found = nysalt.compare(nysalt.system("pendulum", frequency=0.9), **asked)

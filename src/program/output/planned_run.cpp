@@ -46,7 +46,7 @@ planned_run::planned_run(const run_command& asked, const common_settings& common
 const judgement& planned_run::judged() const { return system->judged(*method, plan.step, plan.threads); }
 
 std::optional<std::string> planned_run::warning_of_energy(double largest) const {
-  constexpr double small = 0.1;  // of the kinetic energy: a temperature of some ten degrees of freedom scatters more
+  constexpr double small = 0.25;  // of the kinetic energy, as of judgements
   const double kinetic = judged().kinetic_energy;
   if (!judged().energy_was_watched || !(largest > small * kinetic)) return std::nullopt;
   return fmt::format("{} at step {:g}: the energy erred by up to {:.2g}, {:.2g} times the median kinetic energy",
