@@ -112,7 +112,7 @@ class ensemble_run {
   }
 
   std::int64_t step() const { return step_; }  ///< steps that every trajectory has done
-  /// The largest |H - H_0| of trajectory m at a check for divergence, since it began or was resumed.
+  /// |H - H_0| of trajectory m where it is, unless it diverged.
   double energy_error(std::int64_t m) const {
     const std::int64_t at = m - first_;
     return blocks_[static_cast<std::size_t>(at / width)]->energy_error(static_cast<int>(at % width));

@@ -361,7 +361,7 @@ class Run:
 
     From where a trajectory diverged on its values are NaN; `diverged` is that step, or -1. run["energy"] is a
     view of one observable. `evaluations` are of a trajectory, `seconds` of all. `energy_error` is the largest
-    |H - H_0| at a check, each 64 steps, of the trajectories that did not diverge; `judgement` is that of `judge`.
+    |H - H_0| at the end of the trajectories that did not diverge; `judgement` is that of `judge`.
     """
 
     t: np.ndarray

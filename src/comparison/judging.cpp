@@ -97,14 +97,15 @@ std::optional<double> safe_step(const tabulated& method, const prepared_problem&
     return std::nullopt;
   }
   constexpr int most_tries = 12;
-  constexpr int below = 3;  // rungs at which it must be good, too
+  constexpr int below = 3;  // rungs at which it must keep all, too
   const auto rung = [&](int n) { return rounded_down(linear_step * std::pow(1.0 - tried_margin, n)); };
-  const auto is_good = [&](int n) {
-    return system.judged(method, rung(n), threads).verdict == step_verdict::good;
+  const auto keeps_all = [&](int n) {
+    const judgement& found = system.judged(method, rung(n), threads);
+    return found.holds() && found.lost == 0 && found.energy_error.largest < 1.0;
   };
   for (int n = 0; n < most_tries; ++n) {
     bool is_safe = true;
-    for (int k = n - 1; is_safe && k <= n + below; ++k) is_safe = is_good(k);
+    for (int k = n - 1; is_safe && k <= n + below; ++k) is_safe = keeps_all(k);
     if (is_safe) return rung(n);
   }
   return std::nullopt;

@@ -62,7 +62,8 @@ double run_in_batches(const initial_value_problem& made, const initial_states& s
   const std::int64_t at_a_time = trajectories_at_a_time(numbers, lanes_in<P>, ranks.sum(all.threads));
   std::int64_t first = plan.from.first;
   std::int64_t under_way = std::ssize(plan.from.batch.diverged_at);
-  double energy_error = 0.0;
+  double energy_error = plan.from.energy_error;
+  broadcast(ranks, energy_error);
   broadcast(ranks, first);
   broadcast(ranks, under_way);
   while (first < all.count) {
@@ -104,17 +105,18 @@ double run_in_batches(const initial_value_problem& made, const initial_states& s
       }
       shared.deliver(records, take);
       if (!plan.segment || end == all.steps) continue;
-      const run_progress at{first, shared.gather(runs ? runs->save() : saved_runs())};
+      const run_progress at{first, shared.gather(runs ? runs->save() : saved_runs()), energy_error};
       report_reached(plan, at, ranks);
     }
     for (std::int64_t m = shared.first(); m < shared.first() + shared.count(); ++m) {
       if (!runs->diverged_at(m)) energy_error = std::max(energy_error, runs->energy_error(m));
     }
+    energy_error = std::ranges::max(all_gather(ranks, energy_error));
     first += count;
     under_way = 0;
-    if (plan.segment) report_reached(plan, {first, {}}, ranks);
+    if (plan.segment) report_reached(plan, {first, {}, energy_error}, ranks);
   }
-  return std::ranges::max(all_gather(ranks, energy_error));
+  return energy_error;
 }
 
 double run_from(const initial_states& starts, const initial_value_problem& made, const tabulated& method,

@@ -31,6 +31,7 @@ using record_taker = std::function<void(std::int64_t, const record&)>;
 struct run_progress {
   std::int64_t first = 0;
   saved_runs batch = {};
+  double energy_error = 0.0;  // the largest |H - H_0| at the end of those before `first` that did not diverge
 
   bool is_new() const { return first == 0 && batch.diverged_at.empty(); }
 };
@@ -71,8 +72,7 @@ inline std::int64_t end_of_segment(std::int64_t step, std::int64_t steps, std::o
 /// segment by segment, and in a segment in the order of the trajectories. A segment ends at the first
 /// multiple of 64 at or beyond each multiple of `segment`: divergence is checked there anyway, so that
 /// cutting changes nothing in the run. Rank 0's plan says where to begin. Progress is reported in
-/// thousandths. Returns the largest |H - H_0| of all trajectories that did not diverge, at checks for divergence
-/// since the run began or was resumed. Collective.
+/// thousandths. Returns the largest |H - H_0| at the end of all trajectories that did not diverge. Collective.
 double run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
            const record_taker& take, const counter& progress);
 

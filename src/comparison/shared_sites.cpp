@@ -105,7 +105,7 @@ class shared_trajectory {
 
   std::int64_t step() const { return run_.step(); }
   std::optional<std::int64_t> diverged_at() const { return diverged_at_; }
-  /// The largest |H - H_0| at a check, as far as ranks can sum it.
+  /// |H - H_0| where it is, as far as ranks can sum it.
   double energy_error() const { return energy_error_; }
 
   /// q, p and f of the open run at rank 0, elsewhere nothing. f is the force at q, which is what words keep
@@ -159,7 +159,7 @@ class shared_trajectory {
   bool has_diverged() {
     if (has_energy_ && run_.is_finite()) {
       const double change = std::abs(run_.energy() - initial_);
-      energy_error_ = std::max(energy_error_, change);
+      energy_error_ = change;
       if (change <= 0.999 * diverged_.largest_change()) return false;
     } else if (!has_energy(*system_)) {
       return !run_.is_finite();
@@ -207,7 +207,8 @@ double run_on_shared_sites(const initial_value_problem& made, const initial_stat
   std::int64_t first = plan.from.first;
   std::int64_t under_way = std::ssize(saved.diverged_at);
   for (std::int64_t* number : {&first, &under_way, &saved.step}) broadcast(ranks, *number);
-  double energy_error = 0.0;
+  double energy_error = plan.from.energy_error;
+  broadcast(ranks, energy_error);
   while (first < all.count) {
     const std::int64_t count = under_way > 0 ? under_way : all.count - first;
     std::vector<shared_trajectory> runs;
@@ -257,14 +258,14 @@ double run_on_shared_sites(const initial_value_problem& made, const initial_stat
         here.numbers.insert(here.numbers.end(), numbers.begin(), numbers.end());
         here.diverged_at.push_back(one.diverged_at());
       }
-      report_reached(plan, {first, std::move(here)}, ranks);
+      report_reached(plan, {first, std::move(here), energy_error}, ranks);
     }
     for (const auto& one : runs) {
       if (!one.diverged_at()) energy_error = std::max(energy_error, one.energy_error());
     }
     first += count;
     under_way = 0;
-    if (plan.segment) report_reached(plan, {first, {}}, ranks);
+    if (plan.segment) report_reached(plan, {first, {}, energy_error}, ranks);
   }
   return energy_error;
 }

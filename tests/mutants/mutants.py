@@ -181,7 +181,7 @@ mutant(124, "a method near an edge does not hold", "include/nysalt/judgement.hpp
 mutant(125, "compare ranks what loses trajectories", "src/comparison/ranking.cpp", "programs",
        ("found == mark::loses ||", "(!MUTANT && found == mark::loses) ||"))
 mutant(126, "the energy error of a run is that of its first trajectories alone", "src/comparison/sampled_run.cpp", "programs",
-       ("return std::ranges::max(all_gather(ranks, energy_error));", "return MUTANT ? 0.0 : std::ranges::max(all_gather(ranks, energy_error));"))
+       ("energy_error = std::ranges::max(all_gather(ranks, energy_error));", "energy_error = MUTANT ? 0.0 : std::ranges::max(all_gather(ranks, energy_error));"))
 
 # ---- Analysis.
 

@@ -55,8 +55,8 @@ class divergence {
   /// The largest |H - H_0| that is no divergence.
   const T& largest_change() const { return most_; }
 
-  /// The largest |H - H_0| of the states that were checked and are finite; 0 without an energy.
-  const T& largest_seen() const { return largest_; }
+  /// |H - H_0| of the state that was checked last; 0 without an energy.
+  const T& last_change() const { return last_; }
 
   /// Whether x has run away: a bool, or a mask of lanes. Cost: one energy.
   condition_of<T> operator()(const state& x) {
@@ -65,8 +65,7 @@ class divergence {
       if (has_energy(*system_)) {
         const T change = energy_in_lanes<T>(*system_, x) - initial_;
         sound = both(sound, both(change <= most_, change >= -most_));
-        const T size = magnitude(change);
-        largest_ = select(size > largest_, size, largest_);
+        last_ = magnitude(change);
       }
     }
     return !sound;
@@ -89,7 +88,7 @@ class divergence {
   const S* system_;
   T initial_{};
   T most_{};
-  T largest_{};
+  T last_{};
 };
 
 }  // namespace nysalt

@@ -91,8 +91,8 @@ class lockstep {
   /// first bad state.
   state synchronous() const { return stepper_->synchronous(run_); }
   const condition& live() const { return live_; }  ///< those that go on
-  /// The largest |H - H_0| that was seen of lane k at a check, since the run began or was resumed.
-  double energy_error(int k) const { return lane(diverged_.largest_seen(), k); }
+  /// |H - H_0| of lane k where it is; of lanes that diverged nothing is known.
+  double energy_error(int k) const { return lane(energy_error_, k); }
   /// The step at which lane k diverged; nothing while it goes on.
   std::optional<std::int64_t> diverged_at(int k) const { return diverged_at_[k]; }
 
@@ -106,6 +106,7 @@ class lockstep {
       advance(next);
       stepper_->of_kernel(run_, checked_);
       const condition failed = both(diverged_(checked_), live_);
+      energy_error_ = diverged_.last_change();
       const bool all_well = !any(failed);
       if (!all_well) drop(failed, next);
       seen(next, all_well);
@@ -145,6 +146,7 @@ class lockstep {
   open_run<T, dimension> good_;
   flow_state<T, dimension> checked_;  // the state at a check: kept, so that no check allocates
   divergence<typename Stepper::system_type, T> diverged_;
+  T energy_error_{};
   condition live_;
   first_in_lanes<T> diverged_at_{};
   std::vector<T> seen_;

@@ -206,7 +206,7 @@ int run(const run_command& asked, const common_settings& common) {
                                 further_observations * planned.method->letters().evaluations_to_observe;
     }
     document["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    document["energy_error"] = was_finished ? json() : json(energy_error);
+    document["energy_error"] = finite(was_finished ? output->energy_error() : energy_error);
     document["judgement"] = to_json(planned.judged());
     document["warnings"] = warnings;
     if (common.json) {

@@ -155,12 +155,12 @@ void add_steps(answer& result, const tabulated& method, const stability_chart& c
   const auto safe = safe_step(method, system, linear, threads);
   document["safe_step"] = safe ? json(*safe) : json();
   if (safe) {
-    result.text += fmt::format("  safe step {:g}: good there, at {:g}, {:g} % more, and at shorter steps\n", *safe,
+    result.text += fmt::format("  safe step {:g}: trials lost nothing there, at {:g}, {:g} % more, and at shorter steps\n", *safe,
                                *safe / (1.0 - tried_margin), 100.0 * (1.0 / (1.0 - tried_margin) - 1.0));
   } else if (system.frequency_bands().empty()) {
     result.text += "  no step is called safe: the frequencies of the system have no bound\n";
   } else {
-    result.text += "  no step is called safe: none was judged good at a range of steps\n";
+    result.text += "  no step is called safe: trials lost trajectories\n";
   }
 }
 

@@ -22,6 +22,7 @@ json head_of(const checkpoint& state) {
           {"first", state.at.first},
           {"step", state.at.batch.step},
           {"wave", batch},
+          {"energy_error", state.at.energy_error},
           {"diverged", diverged},
           {"output", state.output},
           {"length", state.written.length},
@@ -42,6 +43,7 @@ checkpoint state_of(const json& head) {
   for (const auto& one : head.at("diverged")) {
     state.lost.push_back({count_in(one.at("trajectory")), count_in(one.at("step"))});
   }
+  state.at.energy_error = head.at("energy_error").get<double>();
   state.output = head.value("output", std::string());
   state.written.length = static_cast<std::uint64_t>(count_in(head.at("length")));
   state.written.crc = static_cast<std::uint32_t>(count_in(head.at("sum")));

@@ -49,7 +49,7 @@ std::optional<std::string> planned_run::warning_of_energy(double largest) const 
   constexpr double small = 0.25;  // of the kinetic energy, as of judgements
   const double kinetic = judged().kinetic_energy;
   if (!judged().energy_was_watched || !(largest > small * kinetic)) return std::nullopt;
-  return fmt::format("{} at step {:g}: the energy erred by up to {:.2g}, {:.2g} times the median kinetic energy",
+  return fmt::format("{} at step {:g}: at its end the energy errs by up to {:.2g}, {:.2g} times the median kinetic energy",
                      command.method, plan.step, largest, largest / kinetic);
 }
 

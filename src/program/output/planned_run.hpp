@@ -31,7 +31,7 @@ struct planned_run {
   std::vector<std::string> warnings_of_starts() const;
   /// The judgement of the method at the step.
   const judgement& judged() const;
-  /// What is to be said at the end if the largest |H - H_0| of the run is not small.
+  /// What is to be said at the end if the largest |H - H_0| there is not small.
   std::optional<std::string> warning_of_energy(double largest) const;
   /// All that decides the bytes of the output, for a run that may be stopped and gone on with.
   json question() const;

@@ -36,6 +36,8 @@ class run_output {
   /// Whether the output of a finished run is not what the run wrote any more.
   bool was_changed() const { return samples_->sum_in(output_) != state_.written; }
   const std::vector<diverged_trajectory>& lost() const { return state_.lost; }
+  /// Of a finished run the largest |H - H_0| at the end.
+  double energy_error() const { return state_.at.energy_error; }
 
   /// Before the first record is taken: the plan begins where the run is, and makes checkpoints, if there are
   /// any.
