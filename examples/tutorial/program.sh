@@ -20,8 +20,8 @@ nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observ
 
 # Expected output:
 # fg_chin at step 0.045 for fpu_chain(pairs=3, omega=50)
-#   b                     0.18258749533645133  +- 7.53e-06
-#   c                     0.011635454258910922  +- 5.59e-07
+#   b                     0.18258749533645133  +- 6.81e-06
+#   c                     0.011635454258910922  +- 5.05e-07
 #   usable                yes
 #   loss                  6.276150e-06 (trajectory over 200 steps) on 20000 pairs of 100 trajectories
 #   held-out loss         4.950045e-06 on 20000 pairs; at the start 8.045218e+00

@@ -271,6 +271,52 @@ BOOST_AUTO_TEST_CASE(a_problem_takes_a_loss_of_another_form_and_its_judge_decide
   }
 }
 
+// Of 60 trajectories with equal scores, sixty decide; but two may have ten times the curvature of all, with either sign,
+// so that others like them would have another minimum.
+BOOST_AUTO_TEST_CASE(errors_are_withheld_where_single_trajectories_make_the_curvature) {
+  const auto& [data, held_out] = two_sets();
+  const Eigen::Vector2d least(0.5, 0.4);
+  const auto fitted = [&](double curvature_of_two) {
+    auto problem = make_learning_problem(family, galaxy, data, held_out,
+                                         {.start = least + Eigen::Vector2d(0.01, 0.01), .random_starts = 0});
+    problem.loss = [=](const Eigen::VectorXd& at) {
+      const Eigen::Vector2d off = at - least;
+      return squares{1e-3 + off.squaredNorm(), off, Eigen::Matrix2d::Identity()};
+    };
+    problem.judge = [loss = problem.loss](const Eigen::VectorXd& at) { return loss(at).value; };
+    problem.stages.clear();
+    problem.shorter.reset();
+    problem.scores = [=](const Eigen::VectorXd& at) {
+      constexpr int blocks = 60;
+      const Eigen::Vector2d off = at - least;
+      std::vector<Eigen::VectorXd> scores;
+      for (int b = 0; b < blocks; ++b) {
+        const double sign = b % 2 == 0 ? 1.0 : -1.0;
+        const double curvature = 2.0 / blocks + (b < 2 ? sign * curvature_of_two : 0.0);
+        scores.emplace_back(curvature * off + sign * Eigen::Vector2d(1e-5, 1e-5));
+      }
+      return trajectory_scores(std::move(scores));
+    };
+    problem.held_out_scores = {};
+    problem.facts.trajectory_steps = problem.facts.loss_steps;
+    return solve(problem).summary;
+  };
+  const auto equal = fitted(0.0);
+  BOOST_TEST_CONTEXT(equal.full()) {
+    BOOST_TEST(equal.errors_withheld == "");
+    const double expected = 1e-5 * std::sqrt(60.0 * 60.0 / 59.0) / 2.0;
+    for (const auto& one : equal.parameters) {
+      BOOST_TEST(one.standard_error == expected, boost::test_tools::tolerance(1e-6));
+    }
+  }
+  const auto of_two = fitted(20.0);
+  BOOST_TEST_CONTEXT(of_two.full()) {
+    BOOST_TEST(says(of_two.errors_withheld, "single trajectories make the loss's curvature"));
+    BOOST_TEST(std::isnan(of_two.parameters[0].standard_error));
+    BOOST_TEST(says(of_two.full(), "+- not known"));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(where_an_own_loss_is_not_a_number_no_search_ends) {
   const auto& sets = two_sets();
   const metric measure(galaxy, sets.data, coordinates::qp);
