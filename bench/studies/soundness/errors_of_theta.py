@@ -103,8 +103,6 @@ def judged(case, loss, fits):
     low, high = range_of(max(len(printed), 2))
     if 3 * len(printed) < len(fits):
         row["verdict"] = "bad" if worst > FAR_TOO_SMALL else "withheld"
-    elif not ratios:
-        row["verdict"] = "not determined"
     elif all(LOW <= ratio <= HIGH for ratio in ratios):
         row["verdict"] = "true"
     else:

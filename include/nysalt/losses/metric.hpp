@@ -43,8 +43,7 @@ class metric {
   /// The weights are estimates too. Row k, column m: what trajectory m adds to the relative error of the
   /// mean square increment of coordinate k; a row sums to zero.
   const Eigen::MatrixXd& weight_deviations() const { return deviations_; }
-  /// The same of the trajectories of other data, of which no weight was estimated: what each would add to it
-  /// among as many like it. A row does not sum to zero.
+  /// The same of the trajectories of other data among each other, as if they made the weights. Collective.
   Eigen::MatrixXd weight_deviations(const flow_map_data& others) const;
 
   /// r[0..residuals()) of the difference a - b; b is data, a may carry derivatives.

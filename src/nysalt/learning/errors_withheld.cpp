@@ -73,7 +73,8 @@ std::string reason_to_withhold(const learning_problem& problem, const fit_summar
                        fit.loss_steps == 1 ? "" : "s");
   }
   if (fit.trajectories < 2) return "one trajectory has no scatter";
-  if (!spread || !spread->standard_errors.allFinite()) return {};
+  if (!spread) return {};
+  if (!spread->standard_errors.allFinite()) return "the loss is flat along a direction, which no data determine";
   double fewest = spread->deciding[free.front()];
   for (const Eigen::Index k : free) fewest = std::min(fewest, spread->deciding[k]);
   if (!(fewest >= fewest_that_decide)) {

@@ -126,14 +126,17 @@ void metric::weigh(const flow_map_data& data) {
   }
 }
 
-/// In residuals of weight 1 from now on, so that their squares are those over Sigma.
+/// Relative to their own mean square: what a coordinate that moves more in these data adds to the gradient of
+/// their loss, it takes back by its weight.
 Eigen::MatrixXd metric::weight_deviations(const flow_map_data& others) const {
   const auto squares = squares_in(others);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(residuals());
+  const Eigen::ArrayXd sum = others.share().sum(squares, zero).array();
   Eigen::MatrixXd result(residuals(), static_cast<Eigen::Index>(others.trajectories()));
   const auto total = static_cast<double>(others.all_pairs());
   for (std::size_t m = 0; m < others.trajectories(); ++m) {
     const double share = static_cast<double>(others.first_of[m + 1] - others.first_of[m]) / total;
-    result.col(static_cast<Eigen::Index>(m)) = squares[m].array() - share;
+    result.col(static_cast<Eigen::Index>(m)) = (sum > 0.0).select(squares[m].array() / sum, share) - share;
   }
   return result;
 }
