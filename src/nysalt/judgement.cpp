@@ -221,7 +221,24 @@ void leave_out_unconfined(const model& system, const states& starts, double step
   }
 }
 
-/// Runs a method in blocks of trajectories, and stops after one in which most of all are lost.
+/// Whether some trajectories leave nothing to ask: energies err by less than half of what is large, and by no more
+/// in the second half of the trial than growth in proportion to time makes of the first.
+bool are_clear(const std::vector<course>& courses, double kinetic_energy) {
+  if (!(kinetic_energy > 0.0)) return false;
+  double first_half = 0.0;
+  double second_half = 0.0;
+  for (const course& one : courses) {
+    if (one.diverged_at) return false;
+    for (std::size_t w = 0; w < one.largest.size(); ++w) {
+      double& half = 2 * w < one.largest.size() ? first_half : second_half;
+      half = std::max(half, one.largest[w]);
+    }
+  }
+  return std::max(first_half, second_half) < 0.5 * large_error * kinetic_energy && second_half < 2.0 * first_half;
+}
+
+/// Runs a method in blocks of trajectories. Stops after one in which most of all are lost, and after two if these
+/// are clear: of the share lost more is not known then than that it is small.
 template <class T>
 std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
                               const trial_plan& plan, double kinetic_energy, const judging_options& options) {
@@ -274,6 +291,7 @@ std::vector<course> run_trial(const model& system, const tabulated& method, doub
       const course& one = courses[static_cast<std::size_t>(m)];
       if (one.diverged_at && !one.is_left_out) ++lost;
     }
+    if (first == block && are_clear(courses, kinetic_energy)) break;
   }
   return courses;
 }

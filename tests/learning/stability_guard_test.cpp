@@ -408,7 +408,7 @@ BOOST_AUTO_TEST_CASE(an_unstable_optimum_is_not_handed_out) {
     // With the guard it is another, and stable.
     BOOST_TEST(guarded.summary.usable);
     BOOST_TEST(guarded.summary.is_held_by_guard);
-    BOOST_TEST(guarded.summary.unguarded == unguarded.summary.reason);
+    BOOST_TEST(guarded.summary.unguarded == unguarded.summary.judgement.linear_objection);
     BOOST_TEST(says(guarded.summary.full(), "held by the guard"));
     // What the guard calls rounding, and some 20 of entries that nine letters may magnify to some 50.
     BOOST_TEST(largest_half_trace(guarded) <= 1.0 + 1e-10 + 20.0 * 50.0 * eps);

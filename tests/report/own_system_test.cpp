@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(a_recommendation_names_a_method_and_its_step) {
   BOOST_TEST((file->find("nysalt scheme") != std::string::npos) == (found.verdict() == "learned"));
   const auto rows = compare(morse(), {.methods = {"best.json"},
                                       .steps = {found.step()},
-                                      .horizon = 4.0,
+                                      .horizon = 12.0 * found.step(),
                                       .trajectories = 4,
                                       .metrics = {"state"},
                                       .held = {{"best.json", *file}}})

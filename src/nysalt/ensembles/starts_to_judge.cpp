@@ -2,6 +2,7 @@
 #include "nysalt/ensembles/starts_to_judge.hpp"
 
 #include <algorithm>
+#include <exception>
 
 namespace nysalt {
 
@@ -17,7 +18,13 @@ phase_points starts_to_judge(const model& system, const initial_states& ensemble
     phase_points made;
     for (std::int64_t n = 0; n < wanted; n += lanes_in<T>) {
       const auto count = static_cast<int>(std::min<std::int64_t>(lanes_in<T>, wanted - n));
-      const auto block = sound_starts<T>(system, ensemble, seed, n, count);
+      phase_point<T, Eigen::Dynamic> block;
+      try {
+        block = sound_starts<T>(system, ensemble, seed, n, count);
+      } catch (const std::exception&) {
+        if (n == 0) throw;
+        break;  // it has no more
+      }
       for (int k = 0; k < count; ++k) made.push_back(lane(block, k));
     }
     return made;
