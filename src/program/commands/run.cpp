@@ -158,8 +158,10 @@ int run(const run_command& asked, const common_settings& common) {
   shown.clear();
   std::vector<std::string> warnings = planned.warnings;
   double energy_error = 0.0;
-  if (!was_finished) {
+  if (!was_finished || common.json) {
     for (const auto& text : planned.warnings_of_starts()) warnings.push_back(text);
+  }
+  if (!was_finished) {
     if (!common.json) {  // only now: a refusal is one line
       for (const auto& text : warnings) warn(text);
     }
@@ -172,13 +174,14 @@ int run(const run_command& asked, const common_settings& common) {
     if (!command.checkpoint.empty()) noted.emplace();
     energy_error = run(system, *planned.method, sampled, take, shown.counter(1000));
     shown.clear();
-    if (auto text = planned.warning_of_energy(energy_error)) {
-      if (!common.json && all_ranks().is_first()) warn(*text);
-      warnings.push_back(std::move(*text));
-    }
   }
 
   on_first(all_ranks(), [&] {
+    if (was_finished) energy_error = output->energy_error();
+    if (const auto text = planned.warning_of_energy(energy_error); text && (!was_finished || common.json)) {
+      if (!common.json) warn(*text);
+      warnings.push_back(*text);
+    }
     const json diverged = with_times(output->lost(), command.step);
     if (!was_finished) {
       output->commit();
@@ -206,7 +209,7 @@ int run(const run_command& asked, const common_settings& common) {
                                 further_observations * planned.method->letters().evaluations_to_observe;
     }
     document["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    document["energy_error"] = finite(was_finished ? output->energy_error() : energy_error);
+    document["energy_error"] = finite(energy_error);
     document["judgement"] = to_json(planned.judged());
     document["warnings"] = warnings;
     if (common.json) {
