@@ -20,9 +20,9 @@ struct execution_options {
 
 /// Options of learning at a step that is given elsewhere.
 struct learning_options {
-  /// Purpose of the runs to come, which sets the loss where none is named: state (the state along trajectories),
-  /// energy (energies, which errors of the phase do not change), distribution (of long runs), or sampling
-  /// (proposals of Hybrid Monte Carlo). Empty: state, and sampling in sampling_options.
+  /// Purpose of the runs to come, which sets the loss where none is named: state (the state along
+  /// trajectories), energy (energies, which errors of the phase do not change), distribution (of long runs),
+  /// or sampling (proposals of Hybrid Monte Carlo). Empty: state, and sampling in sampling_options.
   std::string purpose{};
   std::optional<double>
       fine_step{};  ///< fine step of the reference; must divide the step. None: by the frequency
@@ -35,8 +35,8 @@ struct learning_options {
   std::string effort = "normal";  ///< effort of the search by trajectories: quick, normal or thorough
   std::optional<std::int64_t> random_starts{};  ///< random starts of the search. None: by the effort
 
-  /// The horizon at a step. Where none is asked for it is 200 steps; of losses after K steps it is 0.5, or ten
-  /// steps if that is longer.
+  /// The horizon at a step. Where none is asked for it is 200 steps; of losses after K steps it is 0.5, or
+  /// ten steps if that is longer.
   double horizon_at(double step) const;
 };
 

@@ -17,14 +17,14 @@
 
 namespace nysalt {
 
-/// Verdict on a method at a step. A trajectory is lost if it diverges, or if in the last sixteenth of the trial
-/// |H - H_0| exceeds the median kinetic energy more often than not.
+/// Verdict on a method at a step. A trajectory is lost if it diverges, or if in the last sixteenth of the
+/// trial |H - H_0| exceeds the median kinetic energy more often than not.
 enum class step_verdict {
-  good,               ///< none is lost, nor will be in a run four times as long, as far as the trial shows
-  near_an_edge,       ///< good, but near to something that reason() names
+  good,                ///< none is lost, nor will be in a run four times as long, as far as the trial shows
+  near_an_edge,        ///< good, but near to something that reason() names
   loses_trajectories,  ///< more than one in fifty is lost
-  unstable,           ///< more than half are lost
-  not_tried           ///< nothing could be tried; reason() says why
+  unstable,            ///< more than half are lost
+  not_tried            ///< nothing could be tried; reason() says why
 };
 
 /// Name of a verdict, in programs and files.
@@ -40,29 +40,31 @@ struct judging_options {
   /// Largest number of force evaluations times coordinates, some tenths of a second in lanes; of a black box,
   /// whose cost is not known, of force evaluations a two-thousandth of it.
   std::int64_t work = 400'000'000;
-  std::uint64_t seed = 1;  ///< seed of the noise, in a bath
-  int threads = 1;         ///< changes no bit
+  std::uint64_t seed = 1;      ///< seed of the noise, in a bath
+  int threads = 1;             ///< changes no bit
   bool watches_energy = true;  ///< false: only divergence counts, as for proposals of Hybrid Monte Carlo
 };
 
 /// Error of the energy of trajectories, each the largest |H - H_0| over the median kinetic energy.
 struct energy_error {
-  double median = 0.0;     ///< of the trajectories
-  double most = 0.0;       ///< 95 % of the trajectories have less
-  double largest = 0.0;    ///< of all trajectories
+  double median = 0.0;   ///< of the trajectories
+  double most = 0.0;     ///< 95 % of the trajectories have less
+  double largest = 0.0;  ///< of all trajectories
 };
 
 /// The judgement of a method at a step.
 struct judgement {
-  double step = 0.0;               ///< h
-  std::int64_t trajectories = 0;   ///< trajectories that count
-  std::int64_t unconfined = 0;     ///< further ones, which diverge by an accurate method, too
-  std::int64_t steps = 0;          ///< steps of each trajectory
-  std::int64_t lost = 0;           ///< number of trajectories that are lost
-  std::int64_t diverged = 0;       ///< number of those that diverged
-  std::optional<diverged_trajectory> first_lost;  ///< lost trajectory with the lowest number, where it is lost
-  double kinetic_energy = 0.0;     ///< median over trajectories and times of an accurate motion; 0: not known
-  bool energy_was_watched = false;  ///< false: in a bath, H or its kinetic part is not known, or not asked for
+  double step = 0.0;              ///< h
+  std::int64_t trajectories = 0;  ///< trajectories that count
+  std::int64_t unconfined = 0;    ///< further ones, which diverge by an accurate method, too
+  std::int64_t steps = 0;         ///< steps of each trajectory
+  std::int64_t lost = 0;          ///< number of trajectories that are lost
+  std::int64_t diverged = 0;      ///< number of those that diverged
+  std::optional<diverged_trajectory>
+      first_lost;               ///< lost trajectory with the lowest number, where it is lost
+  double kinetic_energy = 0.0;  ///< median over trajectories and times of an accurate motion; 0: not known
+  bool energy_was_watched =
+      false;  ///< false: in a bath, H or its kinetic part is not known, or not asked for
   nysalt::energy_error energy_error{};  ///< of the trajectories that did not diverge
   /// Slope by Theil and Sen [sen_1968] of the median energy error over 16 windows, for the whole trial.
   double drift = 0.0;
@@ -71,9 +73,9 @@ struct judgement {
 
   double highest_frequency = 0.0;  ///< highest frequency met along the motion; 0: not known
   std::string frequencies;         ///< the known frequencies, and their origin
-  std::string linear_objection;    ///< of the linear criterion, on frequencies that are met often; empty: none
-  std::optional<double> margin;    ///< of these frequencies, see stability_margin(); nothing: no windows
-  std::string resonance;           ///< resonance near the step; empty: none
+  std::string linear_objection;  ///< of the linear criterion, on frequencies that are met often; empty: none
+  std::optional<double> margin;  ///< of these frequencies, see stability_margin(); nothing: no windows
+  std::string resonance;         ///< resonance near the step; empty: none
 
   step_verdict verdict = step_verdict::not_tried;  ///< by the rules in judgement.cpp
   std::string reason{};                            ///< reason of any verdict but good, a clause; else empty

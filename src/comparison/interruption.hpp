@@ -34,8 +34,8 @@ class signals_are_noted {
   signals_are_noted& operator=(const signals_are_noted&) = delete;
 };
 
-/// While one lives, a process that a signal ends says a sentence of it on standard error: "signal 15 ended the
-/// search; ..." with the text. One at a time; rank 0 speaks.
+/// While one lives, a process that a signal ends says a sentence of it on standard error: "signal 15 ended
+/// the search; ..." with the text. One at a time; rank 0 speaks.
 class last_words {
  public:
   explicit last_words(std::string text);

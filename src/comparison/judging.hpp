@@ -21,8 +21,8 @@ namespace nysalt::program {
 inline constexpr double linear_margin = 0.3;
 inline constexpr double turn_margin = 0.05;
 /// The relative distance of a safe step from the largest step at which a method was tried. The pendulum
-/// under Verlet is the standard map, whose last invariant circle breaks at h = sqrt(.9716) [greene_1979]: just
-/// beyond, momenta diffuse too slowly for a trial to see.
+/// under Verlet is the standard map, whose last invariant circle breaks at h = sqrt(.9716) [greene_1979]:
+/// just beyond, momenta diffuse too slowly for a trial to see.
 inline constexpr double tried_margin = 0.2;
 
 /// A number that a document can hold: null where it is not finite.
@@ -40,10 +40,10 @@ double linear_step(const tabulated& method, const stability_chart& chart, double
 /// "by the linear criterion steps up to 0.0317 have a margin of 30 %"
 std::string advice(double linear_step);
 
-/// A step at which a method keeps all trajectories, as at shorter ones: the largest of linear_step, 4/5 of it and
-/// so on such that at 5/4 of it, at it and at 4/5, 16/25 and 64/125 of it none is lost in a trial, and no energy
-/// errs by as much as the kinetic energy. Nothing if there is none, if
-/// the word has no windows, or if the system's frequencies have no bound. Cost: a trial for each step.
+/// A step at which a method keeps all trajectories, as at shorter ones: the largest of linear_step, 4/5 of it
+/// and so on such that at 5/4 of it, at it and at 4/5, 16/25 and 64/125 of it none is lost in a trial, and no
+/// energy errs by as much as the kinetic energy. Nothing if there is none, if the word has no windows, or if
+/// the system's frequencies have no bound. Cost: a trial for each step.
 std::optional<double> safe_step(const tabulated& method, const prepared_problem& system, double linear_step,
                                 int threads);
 

@@ -9,11 +9,11 @@
 #include "all_ranks.hpp"
 #include "catalogue.hpp"
 #include "checks.hpp"
+#include "judging.hpp"
 #include "learnable.hpp"
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "seeds.hpp"
-#include "judging.hpp"
 
 namespace nysalt {
 

@@ -55,8 +55,8 @@ inline std::string scheme_text(const std::vector<learned_scheme>& learned, const
   return text_of(scheme_document(learned, system, plan));
 }
 
-/// The text of a table: the coefficients of any method under a name, with the step and the system that they were
-/// chosen for, which say what the table is of and are not checked when it is used.
+/// The text of a table: the coefficients of any method under a name, with the step and the system that they
+/// were chosen for, which say what the table is of and are not checked when it is used.
 std::string table_text(const std::string& name, const tabulated& method, double step,
                        const prepared_problem& system);
 

@@ -192,7 +192,8 @@ void take_at_size(const method_source& source, const tabulated& method, const pr
         "smaller step, or take --force",
         source.typed, system.description(), source.learned->system, found.in_words());
   }
-  warnings.push_back(fmt::format("{}; for {} it was judged {}", which, system.description(), found.in_words()));
+  warnings.push_back(
+      fmt::format("{}; for {} it was judged {}", which, system.description(), found.in_words()));
 }
 
 tabulated found_at(const method_source& source, const prepared_problem& system, double step, bool force,

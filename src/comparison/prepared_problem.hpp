@@ -21,7 +21,6 @@
 #include "nysalt/bath.hpp"
 #include "nysalt/judgement.hpp"
 #include "nysalt/system_declaration.hpp"
-#include "nysalt/judgement.hpp"
 #include "plans.hpp"
 
 namespace nysalt {

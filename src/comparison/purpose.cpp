@@ -38,8 +38,7 @@ std::string report_of_purpose(const learning_options& how) {
   return "learned " + (how.purpose.empty() ? "" : "for " + how.purpose + ", ") + "by the loss " + how.loss;
 }
 
-void settle_purpose(learning_options& how, const bath& around, const std::string& prefix,
-                    const char* usual) {
+void settle_purpose(learning_options& how, const bath& around, const std::string& prefix, const char* usual) {
   if (how.purpose.empty()) how.purpose = usual;
   const auto found = std::ranges::find(all_purposes, std::string_view(how.purpose), &purpose::name);
   if (found == all_purposes.end())
@@ -49,8 +48,10 @@ void settle_purpose(learning_options& how, const bath& around, const std::string
     return;
   }
   if (how.purpose == for_sampling && !how.horizon) {
-    refuse("{}horizon must be given with --for sampling; take the longest duration of a proposal, twice the mean",
-           prefix);
+    refuse(
+        "{}horizon must be given with --for sampling; take the longest duration of a proposal, twice the "
+        "mean",
+        prefix);
   }
   how.loss = found->loss.empty() ? usual_loss(around).description() : std::string(found->loss);
 }

@@ -27,7 +27,8 @@ void recommendation::require_sound_command() {
   if (options_.error) require_positive("--error", *options_.error);
   require_positive("--horizon", options_.horizon);
   if (options_.learning.purpose == for_sampling) {
-    refuse("--for must be state, energy or distribution for runs, got sampling; call recommend_for_sampling()");
+    refuse(
+        "--for must be state, energy or distribution for runs, got sampling; call recommend_for_sampling()");
   }
   settle_purpose(options_.learning, system_->heat_bath(), "--learn-");
   require_at_least_one("--trajectories", options_.trajectories);

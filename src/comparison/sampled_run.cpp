@@ -40,9 +40,9 @@ std::int64_t all_trajectories_of_rank(std::int64_t count, const communicator& ra
 
 /// With as many trajectories side by side as P has lanes. Rank 0 takes, and its plan says where to begin.
 template <class P>
-double run_in_batches(const initial_value_problem& made, const initial_states& starts, const tabulated& method,
-                    const sampled_plan& plan, const record_taker& take, const counter& progress,
-                    const communicator& ranks) {
+double run_in_batches(const initial_value_problem& made, const initial_states& starts,
+                      const tabulated& method, const sampled_plan& plan, const record_taker& take,
+                      const counter& progress, const communicator& ranks) {
   using states = phase_point<P, Eigen::Dynamic>;
   // Threads that find no trajectory of their own share the steps of the others, where the system allows it.
   const std::int64_t blocks =
@@ -120,7 +120,7 @@ double run_in_batches(const initial_value_problem& made, const initial_states& s
 }
 
 double run_from(const initial_states& starts, const initial_value_problem& made, const tabulated& method,
-              const sampled_plan& plan, const record_taker& take, const counter& progress) {
+                const sampled_plan& plan, const record_taker& take, const counter& progress) {
   // Where some ranks would have no trajectory, all share the sites of each.
   if (plan.trajectories.count < all_ranks().size() &&
       nysalt::detail::can_be_distributed(made.system, method, all_ranks())) {

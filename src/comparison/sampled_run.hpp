@@ -72,7 +72,8 @@ inline std::int64_t end_of_segment(std::int64_t step, std::int64_t steps, std::o
 /// segment by segment, and in a segment in the order of the trajectories. A segment ends at the first
 /// multiple of 64 at or beyond each multiple of `segment`: divergence is checked there anyway, so that
 /// cutting changes nothing in the run. Rank 0's plan says where to begin. Progress is reported in
-/// thousandths. Returns the largest |H - H_0| at the end of all trajectories that did not diverge. Collective.
+/// thousandths. Returns the largest |H - H_0| at the end of all trajectories that did not diverge.
+/// Collective.
 double run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
            const record_taker& take, const counter& progress);
 

@@ -267,8 +267,7 @@ void sampling_choice::learn_and_rank(const choice_observer& keep) {
   }
   tell_of_best();
   for (const auto& name : to_learn) {
-    auto& candidate =
-        *std::ranges::find_if(all_, [&](const auto& one) { return one.source.typed == name; });
+    auto& candidate = *std::ranges::find_if(all_, [&](const auto& one) { return one.source.typed == name; });
     learn(candidate, farther * best * candidate.source.evaluations_per_step);
     tell_of_best();
   }

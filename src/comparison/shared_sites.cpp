@@ -192,8 +192,8 @@ class shared_trajectory {
 }  // namespace
 
 double run_on_shared_sites(const initial_value_problem& made, const initial_states& starts,
-                         const tabulated& method, const sampled_plan& plan, const record_taker& take,
-                         const counter& progress, const communicator& ranks) {
+                           const tabulated& method, const sampled_plan& plan, const record_taker& take,
+                           const counter& progress, const communicator& ranks) {
   const trajectories_plan& all = plan.trajectories;
   const model system = made.system.on_threads(all.threads);
   std::vector<nysalt::detail::over_scalars<nysalt::detail::of_state>> watched;

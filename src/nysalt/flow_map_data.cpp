@@ -15,8 +15,8 @@
 #include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
-#include "nysalt/ensembles/typical_and_energetic.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
+#include "nysalt/ensembles/typical_and_energetic.hpp"
 
 namespace nysalt {
 

@@ -109,10 +109,10 @@ accurate_motion follow(const model& system, const states& starts, double step, s
   const tabulated accurate(blanes_moan_s6{});
   const auto cost = static_cast<double>(fine * accurate.letters().evaluations_per_step);
   const std::int64_t trajectories = std::min<std::int64_t>(most_trajectories, std::ssize(starts));
-  const auto steps = std::clamp<std::int64_t>(
-      static_cast<std::int64_t>(share * static_cast<double>(evaluations) /
-                                (cost * static_cast<double>(trajectories))),
-      samples, most_steps);
+  const auto steps =
+      std::clamp<std::int64_t>(static_cast<std::int64_t>(share * static_cast<double>(evaluations) /
+                                                         (cost * static_cast<double>(trajectories))),
+                               samples, most_steps);
   const std::int64_t every = steps / samples * fine;
   const bool knows_kinetic = has_energy(system);
   std::vector<std::vector<double>> kinetic(static_cast<std::size_t>(trajectories));
@@ -136,8 +136,8 @@ accurate_motion follow(const model& system, const states& starts, double step, s
     std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(n), n, x.p.begin());
     if (at % every == 0 && is_finite(x)) seen[of].push_back(x);
   };
-  const auto stepper = make_stepper(system, accurate, step / static_cast<double>(fine),
-                                    counter_noise(options.seed));
+  const auto stepper =
+      make_stepper(system, accurate, step / static_cast<double>(fine), counter_noise(options.seed));
   integrate_ensemble<T>(stepper, listed<Eigen::Dynamic>(starts),
                         {.trajectories = trajectories,
                          .steps = steps / samples * samples * fine,
@@ -173,8 +173,8 @@ struct course {
   std::array<double, windows> reads{};
   std::vector<double> last;  // |H - H_0| in the last window
   double largest_of_all = 0.0;
-  double magnitude = 0.0;  // of H
-  std::int64_t at = 0;     // of the largest
+  double magnitude = 0.0;      // of H
+  std::int64_t at = 0;         // of the largest
   std::int64_t large_at = -1;  // first read above the kinetic energy
   std::optional<std::int64_t> diverged_at;
   bool is_left_out = false;
@@ -221,8 +221,8 @@ void leave_out_unconfined(const model& system, const states& starts, double step
   }
 }
 
-/// Whether some trajectories leave nothing to ask: energies err by less than half of what is large, and by no more
-/// in the second half of the trial than growth in proportion to time makes of the first.
+/// Whether some trajectories leave nothing to ask: energies err by less than half of what is large, and by no
+/// more in the second half of the trial than growth in proportion to time makes of the first.
 bool are_clear(const std::vector<course>& courses, double kinetic_energy) {
   if (!(kinetic_energy > 0.0)) return false;
   double first_half = 0.0;
@@ -234,11 +234,12 @@ bool are_clear(const std::vector<course>& courses, double kinetic_energy) {
       half = std::max(half, one.largest[w]);
     }
   }
-  return std::max(first_half, second_half) < 0.5 * large_error * kinetic_energy && second_half < 2.0 * first_half;
+  return std::max(first_half, second_half) < 0.5 * large_error * kinetic_energy &&
+         second_half < 2.0 * first_half;
 }
 
-/// Runs a method in blocks of trajectories. Stops after one in which most of all are lost, and after two if these
-/// are clear: of the share lost more is not known then than that it is small.
+/// Runs a method in blocks of trajectories. Stops after one in which most of all are lost, and after two if
+/// these are clear: of the share lost more is not known then than that it is small.
 template <class T>
 std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
                               const trial_plan& plan, double kinetic_energy, const judging_options& options) {
@@ -329,7 +330,8 @@ void summarise(std::vector<course>& courses, double rounding, judgement& found) 
     if (!is_lost) continue;
     ++found.lost;
     if (!found.first_lost) {
-      found.first_lost = {static_cast<std::int64_t>(m), one.diverged_at.value_or(std::max<std::int64_t>(0, one.large_at))};
+      found.first_lost = {static_cast<std::int64_t>(m),
+                          one.diverged_at.value_or(std::max<std::int64_t>(0, one.large_at))};
     }
   }
   if (errors.empty()) return;
@@ -371,10 +373,10 @@ void decide(judgement& found) {
   if (found.share_lost() > few_lost) return say(step_verdict::loses_trajectories, loss);
   if (found.lost > 0) return say(step_verdict::near_an_edge, loss);
   if (found.energy_error.largest > 1.0) {
-    return say(step_verdict::near_an_edge,
-               fmt::format("the energy of trajectory {} errs by {} of the kinetic energy at step {}",
-                           found.farthest.trajectory, percent(found.energy_error.largest),
-                           found.farthest.step));
+    return say(
+        step_verdict::near_an_edge,
+        fmt::format("the energy of trajectory {} errs by {} of the kinetic energy at step {}",
+                    found.farthest.trajectory, percent(found.energy_error.largest), found.farthest.step));
   }
   if (found.energy_error.most > large_error) {
     return say(step_verdict::near_an_edge,
@@ -396,8 +398,8 @@ void decide(judgement& found) {
 double judgement::most_lost() const {
   if (trajectories == 0) return 1.0;
   if (lost == trajectories) return 1.0;
-  return boost::math::binomial_distribution<>::find_upper_bound_on_p(
-      static_cast<double>(trajectories), static_cast<double>(lost), 1.0 - most);
+  return boost::math::binomial_distribution<>::find_upper_bound_on_p(static_cast<double>(trajectories),
+                                                                     static_cast<double>(lost), 1.0 - most);
 }
 
 std::string judgement::in_words() const {
@@ -412,8 +414,9 @@ std::string judgement::report() const {
                                  lost == 0 ? "none" : fmt::format("{}", lost), percent(most_lost()));
   if (unconfined > 0) text += fmt::format(", {} left out whose motion is not confined", unconfined);
   if (energy_was_watched && lost < trajectories) {
-    text += fmt::format("; energy errs by {:.2e} of the kinetic energy (median), {:.2e} (95 %), {:.2e} (largest)",
-                        energy_error.median, energy_error.most, energy_error.largest);
+    text +=
+        fmt::format("; energy errs by {:.2e} of the kinetic energy (median), {:.2e} (95 %), {:.2e} (largest)",
+                    energy_error.median, energy_error.most, energy_error.largest);
   }
   return text;
 }
@@ -437,7 +440,8 @@ phase_points states_of(const accurate_motion& motion, const states& starts, Eige
   constexpr Eigen::Index parts = 16'384;  // a large system has many in each state
   const auto wanted = static_cast<std::size_t>(std::clamp<Eigen::Index>(parts / size, 8, 256));
   phase_points result;
-  for (const std::size_t k : detail::spread_pairs(motion.seen.size(), wanted)) result.push_back(motion.seen[k]);
+  for (const std::size_t k : detail::spread_pairs(motion.seen.size(), wanted))
+    result.push_back(motion.seen[k]);
   typical = result.size();
   for (std::size_t k = 0; k < std::min(starts.size(), wanted / 4); ++k) result.push_back(starts[k]);
   return result;
@@ -464,25 +468,28 @@ void add_linear(const stability_guard& guard, const tabulated& method, Eigen::In
   // A trial shows what rare frequencies do if it meets states many times over that are one in a thousand.
   constexpr double many_states = 100'000;
   const bool shows_rare_states = static_cast<double>(found.trajectories) * static_cast<double>(found.steps) *
-                                     static_cast<double>(size) >= many_states;
+                                     static_cast<double>(size) >=
+                                 many_states;
   found.linear_objection =
       guard.objection(word, coefficients, found.step, shows_rare_states ? met::often : met::ever);
   if (word.has_own_letters()) return;
   if (!has_rotation(word)) {
     const auto chart = chart_stability(word, coefficients);
     for (const auto& band : bands) {
-      const double margin = stability_margin(chart.windows, found.step * band.low / narrower,
-                                             found.step * band.high / wider);
+      const double margin =
+          stability_margin(chart.windows, found.step * band.low / narrower, found.step * band.high / wider);
       found.margin = std::min(found.margin.value_or(margin), margin);
     }
   }
   if (found.steps < long_run || found.trajectories == 0) return;
-  if (const auto near = near_resonance(word, coefficients, bands, found.step)) found.resonance = in_words(*near);
+  if (const auto near = near_resonance(word, coefficients, bands, found.step))
+    found.resonance = in_words(*near);
 }
 
 }  // namespace
 
-step_judge::step_judge(model system, const phase_points& starts, double step, const judging_options& options) {
+step_judge::step_judge(model system, const phase_points& starts, double step,
+                       const judging_options& options) {
   if (starts.empty() || !(step > 0.0) || !std::isfinite(step) || options.steps < 1 || options.work < 1 ||
       options.threads < 1) {
     throw std::invalid_argument(
@@ -500,9 +507,8 @@ step_judge::step_judge(model system, const phase_points& starts, double step, co
                                             .no_guard = {}});
   const model& of = made->system;
   made->evaluations = evaluations_of(of, options);
-  made->motion = detail::with_scalar_of(of, [&]<class T>(T) {
-    return follow<T>(of.base(), made->starts, step, made->evaluations, options);
-  });
+  made->motion = detail::with_scalar_of(
+      of, [&]<class T>(T) { return follow<T>(of.base(), made->starts, step, made->evaluations, options); });
   try {
     made->guard = guard_of(of, made->motion, made->starts, run_time_word("BAB"));
   } catch (const std::invalid_argument& problem) {  // the force has no derivative there

@@ -8,7 +8,8 @@ namespace nysalt::program {
 
 inline constexpr int done = 0;
 inline constexpr int bad_input = 2;
-inline constexpr int no_result = 3;    // every trajectory diverged, the fit is not usable, or no method is accepted
+inline constexpr int no_result =
+    3;  // every trajectory diverged, the fit is not usable, or no method is accepted
 inline constexpr int not_written = 4;  // the disk is full, or the standard output is closed
 
 int build(const build_command& command, const common_settings& common);

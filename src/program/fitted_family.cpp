@@ -117,7 +117,8 @@ json fitted_family::document() const {
   if (command_.step) return document_of(learned_.front(), *system_, plan_.where, purpose());
   json result;
   result["fits"] = json::array();
-  for (const auto& one : learned_) result["fits"].push_back(document_of(one, *system_, plan_.where, purpose()));
+  for (const auto& one : learned_)
+    result["fits"].push_back(document_of(one, *system_, plan_.where, purpose()));
   return result;
 }
 

@@ -46,7 +46,9 @@ std::vector<compared_method> comparison::rows() const {
   return result;
 }
 
-std::string comparison::text() const { return program::with_arguments(readable(found_->all), program::in_cpp); }
+std::string comparison::text() const {
+  return program::with_arguments(readable(found_->all), program::in_cpp);
+}
 
 std::string comparison::json() const { return program::text_of(document_of(found_->all)); }
 

@@ -238,9 +238,8 @@ std::string verdict_of(const learned_row& fit) {
 void add_fits(page& report, const comparison& all) {
   if (all.fits().empty()) return;
   report.heading("What was learned");
-  table fits(
-      {"method", "step size", "parameters", "held-out error of a step", "evaluations", "seconds", "verdict",
-       "scheme"});
+  table fits({"method", "step size", "parameters", "held-out error of a step", "evaluations", "seconds",
+              "verdict", "scheme"});
   for (const auto& fit : all.fits()) {
     std::string parameters;
     for (const auto& [name, value] : fit.parameters) {

@@ -16,8 +16,8 @@ std::string readable(const comparison& all);
 /// In the folder of a report.
 constexpr const char* folder_of_pictures = "pictures";
 constexpr const char* folder_of_schemes = "schemes";
-/// Report and tables in a folder, and pictures and the schemes of learned rows in folders below. Returns warnings of pictures that could not be
-/// drawn.
+/// Report and tables in a folder, and pictures and the schemes of learned rows in folders below. Returns
+/// warnings of pictures that could not be drawn.
 std::vector<std::string> write_report(const comparison& all, const std::filesystem::path& folder);
 /// Every row by every metric.
 std::string csv_of(const comparison& all);

@@ -60,9 +60,8 @@ std::string recommendation::advice_of(const contest& among) const {
     return "No method stays with the reference and is stable: take more evaluations, or a shorter horizon.";
   }
   if (learned == nullptr) {
-    return fmt::format(
-        "A classical method wins: {}{}. No learned method is accepted.",
-        as_options(*classical), bound_of(among, *classical));
+    return fmt::format("A classical method wins: {}{}. No learned method is accepted.",
+                       as_options(*classical), bound_of(among, *classical));
   }
   if (classical == nullptr) {
     return fmt::format("Take {} at step {:.12g}{}: no classical method is accepted.", learned->source.typed,

@@ -74,8 +74,9 @@ std::optional<chosen_method> sampling_choice::chosen() const {
   const double step = best->found->step;
   return chosen_method{.name = best->source.typed,
                        .step = step,
-                       .text = best->is_learned() ? scheme_text({*best->learned}, *system_, *best->plan)
-                                                  : table_text(best->source.typed, method_at(*best, step), step, *system_)};
+                       .text = best->is_learned()
+                                   ? scheme_text({*best->learned}, *system_, *best->plan)
+                                   : table_text(best->source.typed, method_at(*best, step), step, *system_)};
 }
 
 json sampling_choice::document() const {

@@ -21,6 +21,7 @@
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/integrate_ensemble.hpp"
+#include "nysalt/judgement.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
@@ -31,7 +32,6 @@
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/lennard_jones_liquid.hpp"
 #include "nysalt/systems/phi4_chain.hpp"
-#include "nysalt/judgement.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -248,8 +248,8 @@ result judged(const division& how, std::uint64_t seed, const model& system, cons
       judge(system, starts, method, 0.04, {.steps = 128, .seed = seed, .threads = how.threads});
   result all;
   all.of_all << found.trajectories << found.lost << found.diverged << found.kinetic_energy
-             << found.energy_error.median << found.energy_error.most << found.energy_error.largest << found.drift
-             << found.growth << found.farthest << found.unconfined << found.highest_frequency;
+             << found.energy_error.median << found.energy_error.most << found.energy_error.largest
+             << found.drift << found.growth << found.farthest << found.unconfined << found.highest_frequency;
   return all;
 }
 

@@ -141,15 +141,16 @@ BOOST_AUTO_TEST_CASE(others_count_about_their_mean_as_one_among_the_blocks) {
   const double squares = 2.0 * 0.01 + 4.0 * 1.0;  // about 1.4
   BOOST_TEST(found.standard_errors[0] == std::sqrt(squares * 2.0 / (1.0 + 3.0)),
              boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(found.deciding[0] == squares * squares / (2.0 * 1e-4 + 4.0), boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(found.deciding[0] == squares * squares / (2.0 * 1e-4 + 4.0),
+             boost::test_tools::tolerance(1e-14));
   const auto alone = bend.spread(few, std::vector<Eigen::VectorXd>{});
   BOOST_TEST(alone.standard_errors[0] == std::sqrt(0.02 * 2.0), boost::test_tools::tolerance(1e-14));
   BOOST_TEST(alone.deciding[0] == 2.0, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(bend.spread(few, std::vector{score(5.0)}).standard_errors[0] == alone.standard_errors[0]);
 }
 
-// Of a line through the origin, y = x e with x = exp(.75 n), so that few blocks of sixty decide: at the minimum
-// their residuals are small, as it has gone to them. Each ratio is known to 2 %.
+// Of a line through the origin, y = x e with x = exp(.75 n), so that few blocks of sixty decide: at the
+// minimum their residuals are small, as it has gone to them. Each ratio is known to 2 %.
 BOOST_AUTO_TEST_CASE(others_show_the_scatter_that_the_blocks_of_a_fit_hide) {
   constexpr int repetitions = 1500;
   constexpr int blocks = 60;
@@ -179,7 +180,8 @@ BOOST_AUTO_TEST_CASE(others_show_the_scatter_that_the_blocks_of_a_fit_hide) {
     const double slope = xy / xx;
     const auto scores_of = [&](const auto& set) {
       std::vector<Eigen::VectorXd> scores;
-      for (const auto& [x, y] : set) scores.push_back(Eigen::VectorXd::Constant(1, 2.0 * x * (slope * x - y)));
+      for (const auto& [x, y] : set)
+        scores.push_back(Eigen::VectorXd::Constant(1, 2.0 * x * (slope * x - y)));
       return scores;
     };
     const curvature bend(Eigen::MatrixXd::Constant(1, 1, 2.0 * xx), {0});

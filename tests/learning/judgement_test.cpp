@@ -98,8 +98,8 @@ BOOST_AUTO_TEST_CASE(a_verdict_has_no_units) {
     };
     // H = p^2/2m + k q^2/2 with mass and stiffness in proportion: the frequency stays.
     const linear_chain one(Eigen::MatrixXd::Constant(1, 1, 4.0 * scale), Eigen::VectorXd::Constant(1, scale));
-    return judge(one, phase_points(std::vector{scaled(1.0, 0.3), scaled(0.2, -1.0)}), tabulated(verlet{}), step,
-                 {.steps = 2000});
+    return judge(one, phase_points(std::vector{scaled(1.0, 0.3), scaled(0.2, -1.0)}), tabulated(verlet{}),
+                 step, {.steps = 2000});
   };
   for (const double step : {0.1, 0.8, 1.01}) {
     const auto large = of(1.0, step);
@@ -174,7 +174,8 @@ BOOST_AUTO_TEST_CASE(starts_beyond_the_first_block_are_tried) {
 
 BOOST_AUTO_TEST_CASE(in_a_bath_only_divergence_counts) {
   const in_bath warm(harmonic_oscillator(1.0), bath::of_temperature(0.1, 1.0));
-  const phase_points starts(std::vector{phase_point<double, 1>{vector<double, 1>(1.0), vector<double, 1>(0.0)}});
+  const phase_points starts(
+      std::vector{phase_point<double, 1>{vector<double, 1>(1.0), vector<double, 1>(0.0)}});
   const auto sound = judge(warm, starts, tabulated(baoab{}), 0.5, {.steps = 5000});
   BOOST_TEST(sound.holds(), sound.in_words());
   BOOST_TEST(!sound.energy_was_watched);

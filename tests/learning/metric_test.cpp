@@ -128,8 +128,9 @@ BOOST_AUTO_TEST_CASE(weight_deviations_of_other_trajectories_are_those_among_eac
   BOOST_TEST((measure.weight_deviations(wider) - known).cwiseAbs().maxCoeff() <= 4 * 45 * eps);
   const metric own(chain, wider, coordinates::qp);  // whose weights are half as large
   BOOST_TEST((own.weight_deviations() - known).cwiseAbs().maxCoeff() <= 4 * 45 * eps);
-  const auto others = make_flow_map_data(chain, around_rest<dynamic>(0.3, 0.7, chain.size()), exact_linear(chain),
-                                         {.step = 0.3, .horizon = 1.5, .trajectories = 9, .seed = 2});
+  const auto others =
+      make_flow_map_data(chain, around_rest<dynamic>(0.3, 0.7, chain.size()), exact_linear(chain),
+                         {.step = 0.3, .horizon = 1.5, .trajectories = 9, .seed = 2});
   const Eigen::MatrixXd found = measure.weight_deviations(others);
   BOOST_TEST((found - known).cwiseAbs().maxCoeff() > 1e-2);
   BOOST_TEST(found.rowwise().sum().cwiseAbs().maxCoeff() <= 45 * eps);

@@ -271,8 +271,8 @@ BOOST_AUTO_TEST_CASE(a_problem_takes_a_loss_of_another_form_and_its_judge_decide
   }
 }
 
-// Of 60 trajectories with equal scores, sixty decide; but two may have ten times the curvature of all, with either sign,
-// so that others like them would have another minimum.
+// Of 60 trajectories with equal scores, sixty decide; but two may have ten times the curvature of all, with
+// either sign, so that others like them would have another minimum.
 BOOST_AUTO_TEST_CASE(errors_are_withheld_where_single_trajectories_make_the_curvature) {
   const auto& [data, held_out] = two_sets();
   const Eigen::Vector2d least(0.5, 0.4);

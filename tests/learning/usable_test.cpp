@@ -151,7 +151,8 @@ BOOST_AUTO_TEST_CASE(an_optimum_that_is_unstable_on_the_systems_frequencies_is_f
     BOOST_TEST(!unstable.summary.usable);
     BOOST_TEST(says(unstable.summary.reason, "unstable: "));
     BOOST_TEST(says(unstable.summary.judgement.linear_objection, "it is not linearly stable at z = 2.8"));
-    BOOST_TEST(says(unstable.summary.judgement.linear_objection, "1.96 to 2.04"));  // 2, and 2 % on either side
+    BOOST_TEST(
+        says(unstable.summary.judgement.linear_objection, "1.96 to 2.04"));  // 2, and 2 % on either side
     BOOST_TEST(diverges(unstable));
   }
 }

@@ -17,13 +17,13 @@
 
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nested_kicks.hpp"
+#include "nysalt/judgement.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/learning/some_states.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/bonded_chain.hpp"
-#include "nysalt/judgement.hpp"
 
 namespace nysalt::hard {
 

@@ -22,10 +22,10 @@ struct diverged_trajectory {
   std::int64_t step = 0;        ///< the first bad one
 };
 
-/// Detects divergence: not finite, or |H - H_0| > 1e3 max(|H_0|, K_0, |q grad V|, N kT) with the values at the
-/// start, energies that do not vanish together where H_0 does by chance. Without an energy only the first, and
-/// likewise where these are all 0, and in a bath that heats without end (noise, but no friction). Over packs
-/// lane by lane.
+/// Detects divergence: not finite, or |H - H_0| > 1e3 max(|H_0|, K_0, |q grad V|, N kT) with the values at
+/// the start, energies that do not vanish together where H_0 does by chance. Without an energy only the
+/// first, and likewise where these are all 0, and in a bath that heats without end (noise, but no friction).
+/// Over packs lane by lane.
 template <System S, Scalar T = double>
 class divergence {
  public:

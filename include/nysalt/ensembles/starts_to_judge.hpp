@@ -8,8 +8,8 @@
 
 namespace nysalt {
 
-/// Starts to judge methods on: the first 512 of an ensemble by a seed of their own, 64 of one whose states are
-/// expensive to make, fewer where it has no more or they are large; in a bath repeated up to 192.
+/// Starts to judge methods on: the first 512 of an ensemble by a seed of their own, 64 of one whose states
+/// are expensive to make, fewer where it has no more or they are large; in a bath repeated up to 192.
 phase_points starts_to_judge(const model& system, const initial_states& ensemble);
 
 }  // namespace nysalt

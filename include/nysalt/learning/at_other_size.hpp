@@ -15,9 +15,9 @@
 
 namespace nysalt {
 
-/// A method that was learned for one size of a kind of system, as a method for this size, if it holds there by
-/// judge(). Throws std::invalid_argument if the systems are not of one kind, see kind_of(), or the method does
-/// not hold. Cost: that of judge(); none where the method was learned for this very system.
+/// A method that was learned for one size of a kind of system, as a method for this size, if it holds there
+/// by judge(). Throws std::invalid_argument if the systems are not of one kind, see kind_of(), or the method
+/// does not hold. Cost: that of judge(); none where the method was learned for this very system.
 template <Family F, SeparableSystem S, Ensemble<S> E>
 tuned_method<F> at_size_of(const S& system, const tuned_method<F>& learned, const E& starts,
                            const judging_options& options = {}) {

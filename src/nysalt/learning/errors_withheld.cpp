@@ -2,8 +2,8 @@
 // When the scatter of theta over other data is not known, and why.
 #include "errors_withheld.hpp"
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -74,12 +74,14 @@ std::string reason_to_withhold(const learning_problem& problem, const fit_summar
   }
   if (fit.trajectories < 2) return "one trajectory has no scatter";
   if (!spread) return {};
-  if (!spread->standard_errors.allFinite()) return "the loss is flat along a direction, which no data determine";
+  if (!spread->standard_errors.allFinite())
+    return "the loss is flat along a direction, which no data determine";
   double fewest = spread->deciding[free.front()];
   for (const Eigen::Index k : free) fewest = std::min(fewest, spread->deciding[k]);
   if (!(fewest >= fewest_that_decide)) {
     return fmt::format(
-        "they rest on {:.0f} of the trajectories, and fewer than {:.0f} show too small a scatter; take more, or "
+        "they rest on {:.0f} of the trajectories, and fewer than {:.0f} show too small a scatter; take more, "
+        "or "
         "starts of less different energies",
         std::floor(fewest), fewest_that_decide);
   }

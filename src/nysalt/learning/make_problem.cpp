@@ -167,9 +167,8 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
     rival_method result{
         .name = method.name(),
         .held_out_losses = losses->by_trajectory_of(as_family),
-        .method = is_in_bath
-                      ? tabulated(method.name(), as_family.letters, as_family.coefficients({}), method)
-                      : method};
+        .method = is_in_bath ? tabulated(method.name(), as_family.letters, as_family.coefficients({}), method)
+                             : method};
     result.step = step * theirs / ours;
     result.judged_step = is_in_bath ? step : result.step;
     if (steps > 1) {

@@ -258,14 +258,16 @@ attempt solve_as_it_is(const learning_problem& problem) {
       summary.flat_directions.emplace_back(flat.begin(), flat.end());
     }
   }
-  summary.errors_withheld = has_data ? reason_to_withhold(problem, summary, best, free, spread) : std::string();
+  summary.errors_withheld =
+      has_data ? reason_to_withhold(problem, summary, best, free, spread) : std::string();
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
     const bool is_estimated = has_data && std::ranges::find(free, k) != free.end();
     const bool varies = !best.is_held && std::ranges::find(best.free, k) != best.free.end();
     const bool is_flat = spread && std::isinf(spread->standard_errors[k]);
-    const double error = !is_estimated                                  ? 0.0
-                         : !summary.errors_withheld.empty() && !is_flat ? std::numeric_limits<double>::quiet_NaN()
-                                                                        : spread->standard_errors[k];
+    const double error = !is_estimated ? 0.0
+                         : !summary.errors_withheld.empty() && !is_flat
+                             ? std::numeric_limits<double>::quiet_NaN()
+                             : spread->standard_errors[k];
     summary.parameters.push_back(
         {family.parameter_names[static_cast<std::size_t>(k)], theta[k], error, varies});
   }

@@ -66,8 +66,9 @@ template <class Loss>
 data_loss without_type(const std::shared_ptr<const Loss>& loss, const std::shared_ptr<const metric>& kept) {
   return {
       .of_theta = [loss, kept](const Eigen::VectorXd& theta) { return squares_at(*loss, theta); },
-      .scores = [loss, kept](const Eigen::VectorXd& theta,
-                             const Eigen::MatrixXd& deviations) { return scores_of(*loss, theta, deviations); },
+      .scores = [loss, kept](
+                    const Eigen::VectorXd& theta,
+                    const Eigen::MatrixXd& deviations) { return scores_of(*loss, theta, deviations); },
       .by_trajectory = [loss, kept](const Eigen::VectorXd& theta) { return trajectory_losses(*loss, theta); },
       .value = [loss, kept](const Eigen::VectorXd& theta) { return loss_value(*loss, theta); },
       .by_residual = [loss, kept](const Eigen::VectorXd& theta) { return residual_squares(*loss, theta); },

@@ -24,8 +24,9 @@ int print_result(auto& all, const std::string& output, const common_settings& co
   if (!output.empty()) on_first(all_ranks(), [&] { require_result(output); });
   warn_of_threads(common);
   const std::string file = of_letters(output);
-  last_words said(output.empty() ? std::string("no method was accepted so far")
-                                 : fmt::format("no method was accepted so far, and {} was not written", file));
+  last_words said(output.empty()
+                      ? std::string("no method was accepted so far")
+                      : fmt::format("no method was accepted so far, and {} was not written", file));
   const auto write_text = [&](const std::string& text) {
     on_first(all_ranks(), [&] { write_result(output, text, common); });
   };
@@ -44,9 +45,7 @@ int print_result(auto& all, const std::string& output, const common_settings& co
   const auto write = [&] {
     if (writes) write_text(chosen->text);
     if (chosen || !is_kept) return;
-    said.set({}, [&] {
-      on_first(all_ranks(), [&] { std::filesystem::remove(output); });
-    });
+    said.set({}, [&] { on_first(all_ranks(), [&] { std::filesystem::remove(output); }); });
   };
   write_and_print(write, [&](bool written) {
     if (common.json) {

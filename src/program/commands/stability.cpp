@@ -119,9 +119,9 @@ void add_judgement(answer& result, const judgement& found) {
   document["judgement"] = to_json(found);
   result.text += fmt::format("  {}\n  trial: {}\n", found.in_words(), found.report());
   if (found.highest_frequency > 0.0) {
-    result.text += fmt::format("  highest frequency along the motion {:.6g}, z = {:.6g} ({})\n",
-                               found.highest_frequency, found.step * found.highest_frequency,
-                               found.frequencies);
+    result.text +=
+        fmt::format("  highest frequency along the motion {:.6g}, z = {:.6g} ({})\n", found.highest_frequency,
+                    found.step * found.highest_frequency, found.frequencies);
   } else {
     result.text += fmt::format("  {}\n", found.frequencies);
   }
@@ -142,8 +142,8 @@ void add_steps(answer& result, const tabulated& method, const stability_chart& c
   for (const auto& band : bands) {
     const double margin = stability_margin(chart.windows, found.step * band.low, found.step * band.high);
     document["bands"].push_back({{"low", band.low}, {"high", band.high}, {"margin", finite(margin)}});
-    result.text += fmt::format("  frequencies {:g} .. {:g} of {} at step {:g}: margin {}\n", band.low, band.high,
-                               system.description(), found.step, percent(margin));
+    result.text += fmt::format("  frequencies {:g} .. {:g} of {} at step {:g}: margin {}\n", band.low,
+                               band.high, system.description(), found.step, percent(margin));
   }
   const auto steps = stable_steps(chart.windows, bands);
   document["stable_steps"] = pairs(steps);
@@ -155,8 +155,9 @@ void add_steps(answer& result, const tabulated& method, const stability_chart& c
   const auto safe = safe_step(method, system, linear, threads);
   document["safe_step"] = safe ? json(*safe) : json();
   if (safe) {
-    result.text += fmt::format("  safe step {:g}: trials lost nothing there, at {:g}, {:g} % more, and at shorter steps\n", *safe,
-                               *safe / (1.0 - tried_margin), 100.0 * (1.0 / (1.0 - tried_margin) - 1.0));
+    result.text += fmt::format(
+        "  safe step {:g}: trials lost nothing there, at {:g}, {:g} % more, and at shorter steps\n", *safe,
+        *safe / (1.0 - tried_margin), 100.0 * (1.0 / (1.0 - tried_margin) - 1.0));
   } else if (system.frequency_bands().empty()) {
     result.text += "  no step is called safe: the frequencies of the system have no bound\n";
   } else {

@@ -156,9 +156,8 @@ void add_search(CLI::App& command, learning_options& how, const std::string& pre
 }
 
 void add_horizon(CLI::App& command, learning_options& how, const std::string& prefix) {
-  add_number(
-      command, prefix + "horizon", how.horizon,
-      "length of each [200 steps; of losses after K steps 0.5 or ten steps]");
+  add_number(command, prefix + "horizon", how.horizon,
+             "length of each [200 steps; of losses after K steps 0.5 or ten steps]");
 }
 
 void add_learning(CLI::App& command, learning_options& how, const std::string& prefix) {

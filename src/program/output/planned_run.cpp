@@ -5,8 +5,8 @@
 
 #include "comparison/all_ranks.hpp"
 #include "comparison/checks.hpp"
-#include "comparison/refusal.hpp"
 #include "comparison/judging.hpp"
+#include "comparison/refusal.hpp"
 #include "hdf5_layout.hpp"
 #include "nysalt/detail/collectively.hpp"
 #include "program/systems.hpp"
@@ -49,15 +49,15 @@ std::optional<std::string> planned_run::warning_of_energy(double largest) const 
   constexpr double small = 0.25;  // of the kinetic energy, as of judgements
   const double kinetic = judged().kinetic_energy;
   if (!judged().energy_was_watched || !(largest > small * kinetic)) return std::nullopt;
-  return fmt::format("{} at step {:g}: at its end the energy errs by up to {:.2g}, {:.2g} times the median kinetic energy",
-                     command.method, plan.step, largest, largest / kinetic);
+  return fmt::format(
+      "{} at step {:g}: at its end the energy errs by up to {:.2g}, {:.2g} times the median kinetic energy",
+      command.method, plan.step, largest, largest / kinetic);
 }
 
 std::vector<std::string> planned_run::warnings_of_starts() const {
   std::vector<std::string> found;
   for (const auto& text :
-       {warning_of(command.method, judged()),
-        warning_of_energies(source, *system, plan)}) {
+       {warning_of(command.method, judged()), warning_of_energies(source, *system, plan)}) {
     if (text) found.push_back(*text);
   }
   return found;

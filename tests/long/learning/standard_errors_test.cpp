@@ -28,11 +28,14 @@ Eigen::VectorXd errors_without_weights(const flow_map_data& data, const paramete
   const metric measure(chain, data, coordinates::qp);
   const one_step<nystrom> loss(chain, data, measure);
   const std::vector<Eigen::VectorXd> none;
-  return curvature(hessian(loss, theta), {0, 1}).spread(trajectory_gradients(loss, theta), none).standard_errors;
+  return curvature(hessian(loss, theta), {0, 1})
+      .spread(trajectory_gradients(loss, theta), none)
+      .standard_errors;
 }
 
 /// The errors of a fit of data as few as one likes, of which the summary says only that they are not known.
-Eigen::VectorXd errors_of(const flow_map_data& data, const flow_map_data& held_out, const Eigen::VectorXd& theta) {
+Eigen::VectorXd errors_of(const flow_map_data& data, const flow_map_data& held_out,
+                          const Eigen::VectorXd& theta) {
   const auto problem = make_learning_problem(run_time_family(nystrom{}), chain, data, held_out,
                                              {.loss = loss_named("state:1")});
   const curvature bend(hessian(problem.loss, theta), {0, 1});
@@ -53,7 +56,8 @@ struct repeated {
       for (std::size_t k = 0; k < 2; ++k) {
         const auto& p = fit.summary.parameters[k];
         const double error = errors[static_cast<Eigen::Index>(k)];
-        if (fit.summary.errors_withheld.empty()) BOOST_TEST(p.standard_error == error, boost::test_tools::tolerance(1e-6));
+        if (fit.summary.errors_withheld.empty())
+          BOOST_TEST(p.standard_error == error, boost::test_tools::tolerance(1e-6));
         value[k].push_back(p.value);
         reported_square[k].push_back(error * error);
         naive_square[k].push_back(std::pow(naive[static_cast<Eigen::Index>(k)], 2));

@@ -399,7 +399,8 @@ BOOST_AUTO_TEST_CASE(resonances_of_slow_kicks_are_found_by_each_command) {
         BOOST_TEST(learned.code == (is_stable ? 0 : 3), learned.err);
         const auto found = json_of(learned);
         BOOST_TEST(found["usable"] == is_stable, found.dump());
-        BOOST_TEST((learned.err.find("trajectories are lost") != std::string::npos) == !is_stable, learned.err);
+        BOOST_TEST((learned.err.find("trajectories are lost") != std::string::npos) == !is_stable,
+                   learned.err);
       }
     }
   }

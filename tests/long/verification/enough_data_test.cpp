@@ -60,7 +60,8 @@ flow_map_data taken_apart(flow_map_data data) {
   return data;
 }
 
-/// Of seeds that print errors: how many intervals of M = 100 cover the truth, and the sum of squared distances in standard errors.
+/// Of seeds that print errors: how many intervals of M = 100 cover the truth, and the sum of squared
+/// distances in standard errors.
 struct coverage {
   int by_interval = 0;
   int by_half = 0;
