@@ -151,14 +151,14 @@ mutant(41, "all random starts have the same random numbers", LIBRARY + "learning
         "{.trajectory = MUTANT ? 0 : n, .purpose = noise_purpose::search}"))
 mutant(42, "standard errors of parameters without the factor B/(B - 1)", LIBRARY + "learning/curvature.cpp",
        "learning",
-       ("(scores.share.sum(squares, zero) * (blocks / (blocks - 1.0))).cwiseSqrt()",
-        "(scores.share.sum(squares, zero) * (MUTANT ? 1.0 : blocks / (blocks - 1.0))).cwiseSqrt()"))
+       ("(squares * (blocks / freedom)).cwiseSqrt()",
+        "(squares * (MUTANT ? 1.0 : blocks / freedom)).cwiseSqrt()"))
 mutant(43, "the expected excess of a fit is twice as large", LIBRARY + "learning/curvature.cpp", "learning",
        ("result.push_back(0.5 * score.dot(solve(score)));",
         "result.push_back((MUTANT ? 1.0 : 0.5) * score.dot(solve(score)));"))
 mutant(12, "a mean square is divided by a rank's own pairs", LIBRARY + "losses/metric.cpp", "losses learning",
-       ("const auto total = static_cast<double>(data.all_pairs());",
-        "const auto total = static_cast<double>(MUTANT ? data.pairs() : data.all_pairs());"))
+       ("increment);\n  const auto total = static_cast<double>(data.all_pairs());",
+        "increment);\n  const auto total = static_cast<double>(MUTANT ? data.pairs() : data.all_pairs());"))
 mutant(44, "positions in energy coordinates are not multiplied by their frequency", LIBRARY + "losses/metric.cpp",
        "losses learning",
        ("is_scaled ? heavy * omega : heavy", "is_scaled && !MUTANT ? heavy * omega : heavy"))
