@@ -70,8 +70,8 @@ def test_a_judgement_is_that_of_the_program_and_of_a_run(program):
 
 def test_without_methods_all_that_apply_are_compared(program):
     asked = dict(steps=0.02, equal_cost=True, horizon=3, trajectories=4, metric="state")
-    found = nysalt.compare(nysalt.system("pendulum", frequency=0.9), **asked)
-    of_program = program("compare", "--system", "pendulum", "--frequency", "0.9", "--steps", "0.02", "--equal-cost",
+    found = nysalt.compare(nysalt.system("henon_heiles", frequency=0.9), **asked)
+    of_program = program("compare", "--system", "henon_heiles", "--frequency", "0.9", "--steps", "0.02", "--equal-cost",
                          "--horizon", "3", "--trajectories", "4", "--metric", "state")
     assert without_times(found) == without_times(of_program)
     methods = {row["method"] for row in found["rows"]}
