@@ -104,8 +104,8 @@ class step_judge {
   /// range. Cost: some eighth of a trial.
   step_judge(model system, const phase_points& starts, double step, const judging_options& options = {});
   ~step_judge();
-  step_judge(step_judge&&) noexcept;
-  step_judge& operator=(step_judge&&) noexcept;
+  step_judge(step_judge&&) noexcept;             ///< takes over what is known
+  step_judge& operator=(step_judge&&) noexcept;  ///< takes over what is known
 
   /// Judgement of a method at the step. Throws std::invalid_argument if the method does not suit the system.
   /// Cost: a trial of at most `work`, less where trajectories are lost.

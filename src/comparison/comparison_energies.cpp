@@ -2,6 +2,7 @@
 // Stability in a report: the judgement of each step, and energies and survivors along time.
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "comparison.hpp"
 #include "nysalt/detail/served_letters.hpp"
@@ -38,7 +39,9 @@ void comparison::judge_steps() {
   for (row& line : rows_) {
     if (!line.coefficients) continue;
     shown_.part(fmt::format("judging {} at step {:g}", line.method, line.nominal));
-    line.judged = system_->judged(*line.coefficients, line.step, common_.threads);
+    // A step of several evaluations is a product, which differs from the step as typed in its last digit.
+    const double as_typed = std::stod(fmt::format("{:.15g}", line.step));
+    line.judged = system_->judged(*line.coefficients, as_typed, common_.threads);
   }
 }
 
