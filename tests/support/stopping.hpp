@@ -81,7 +81,8 @@ inline std::vector<stoppable> stoppable_commands() {
       {in_bath, "o.csv", checkpoint, "c"},
       {in_bath, "o.npy", checkpoint, "c"},
       {with_losses, "o.csv", checkpoint, "c"},
-      {"run --system henon_heiles --method takahashi_imada_processed --step 0.1 --horizon 40 --sample-every 10",
+      {"run --system henon_heiles --method takahashi_imada_processed --step 0.1 --horizon 40 --sample-every "
+       "10",
        "o.csv", checkpoint, "c"},
       {"sample --system phi4 --masses 5 --length 1 --chains 37 --burn-in 100 --draws 30 --diagonal-masses",
        "o.csv", "--checkpoint c --every 30", "c"},
