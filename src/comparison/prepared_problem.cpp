@@ -364,16 +364,6 @@ stability_guard prepared_problem::guard(const run_time_word& word) const {
   return {made_.system, states, word};
 }
 
-std::optional<stability_guard> prepared_problem::guard_of_parts(const run_time_word& word) const {
-  if (!word.has_own_letters() || size(made_.system) > most_for_all_frequencies) return std::nullopt;
-  try {
-    stability_guard result = guard(word);
-    if (result.parts() != nullptr) return result;
-  } catch (const std::invalid_argument&) {  // the force has no derivative there: the run will show it
-  }
-  return std::nullopt;
-}
-
 const judgement& prepared_problem::judged(const tabulated& method, double step, int threads) const {
   const std::string key =
       fmt::format("{} {} {}", method.letters().letters(), fmt::join(method.coefficients(), " "), step);

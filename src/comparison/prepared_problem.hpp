@@ -119,9 +119,6 @@ class prepared_problem {
   /// For a word, of its bands, or of the frequencies along some states of the initial distribution, and of
   /// kicks of parts of V as a fit has it.
   stability_guard guard(const run_time_word& word) const;
-  /// The guard of a word with kicks of parts whose linearised motion can be computed; nothing of others, and
-  /// of words without letters of one's own. Cost: that of guard().
-  std::optional<stability_guard> guard_of_parts(const run_time_word& word) const;
   /// The judgement of a method at a step, on starts of its own, see starts_to_judge(): equal for equal
   /// coefficients, whatever the method is called and whichever command asks. Cost: that of step_judge::of();
   /// of a method that was judged at the step before none.

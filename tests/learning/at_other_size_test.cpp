@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(a_step_beyond_the_window_is_refused) {
 }
 
 // The guard sees no stiffness where trajectories start, and admits the method at both sizes.
-BOOST_AUTO_TEST_CASE(what_only_a_trial_run_sees_is_refused_by_it) {
+BOOST_AUTO_TEST_CASE(what_only_a_trial_sees_is_refused) {
   const double step = 0.3;
   const tabulated method(verlet_twice);
   for (const Eigen::Index wells : {1, 12}) {

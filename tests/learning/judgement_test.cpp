@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(in_a_bath_only_divergence_counts) {
   BOOST_TEST(!judge(warm, starts, tabulated(baoab{}), 2.2, {.steps = 5000}).holds());
 }
 
-// Where nobody asks for the energy only divergence counts, as for proposals.
+// With watches_energy = false only divergence counts, as for proposals of Hybrid Monte Carlo.
 BOOST_AUTO_TEST_CASE(energies_that_are_not_watched_do_not_count) {
   const auto starts = starts_of(kepler_law(0.6), 64);
   const auto found =

@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(a_recommendation_names_a_method_and_its_step) {
   // A budget of 10 evaluations: a word of s evaluations takes steps of s/10.
   BOOST_TEST(std::abs(10.0 * found.step() - std::round(10.0 * found.step())) < 1e-9);
   BOOST_TEST(has(found.text(), found.method()));
-  // Whoever wins is a file, by which it is compared.
+  // The winner is available as a method file, which compare() accepts.
   const auto file = found.method_file();
   BOOST_TEST_REQUIRE(file.has_value());
   BOOST_TEST((file->find("nysalt scheme") != std::string::npos) == (found.verdict() == "learned"));

@@ -10,7 +10,7 @@ namespace nysalt {
 
 namespace {
 
-/// What is known of the error of a parameter, with so many digits after the first.
+/// The standard error of a parameter in scientific notation with `digits` decimals, or why there is none.
 std::string error_of(const fitted_parameter& p, const fit_summary& fit, int digits) {
   if (std::isinf(p.standard_error)) return "(not determined by the data)";
   if (std::isnan(p.standard_error)) return fit.is_held_by_guard ? "(held by the guard)" : "+- not known";

@@ -14,7 +14,7 @@
 
 namespace nysalt::detail {
 
-/// A loss of held-out data by times that are multiples of so many steps; null if there are none.
+/// The held-out loss evaluated at every `times`-th step only; null if the trajectories are shorter.
 using loss_by_times = std::function<std::shared_ptr<const data_loss>(int times)>;
 
 /// From what the losses of a problem are made.
