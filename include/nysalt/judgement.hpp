@@ -45,8 +45,8 @@ struct judging_options {
   bool watches_energy = true;  ///< false: only divergence counts, as for proposals of Hybrid Monte Carlo
 };
 
-/// Error of the energy of trajectories, each the largest |H - H_0| over the median kinetic energy.
-struct energy_error {
+/// Errors of the energy of trajectories, each the largest |H - H_0| over the median kinetic energy.
+struct energy_errors {
   double median = 0.0;   ///< of the trajectories
   double most = 0.0;     ///< 95 % of the trajectories have less
   double largest = 0.0;  ///< of all trajectories
@@ -64,8 +64,8 @@ struct judgement {
       first_lost;               ///< lost trajectory with the lowest number, where it is lost
   double kinetic_energy = 0.0;  ///< median over trajectories and times of an accurate motion; 0: not known
   bool energy_was_watched =
-      false;  ///< false: in a bath, H or its kinetic part is not known, or not asked for
-  nysalt::energy_error energy_error{};  ///< of the trajectories that did not diverge
+      false;                   ///< false: in a bath, H or its kinetic part is not known, or not asked for
+  energy_errors energy_error;  ///< of the trajectories that did not diverge
   /// Slope by Theil and Sen [sen_1968] of the median energy error over 16 windows, for the whole trial.
   double drift = 0.0;
   double growth = 0.0;  ///< largest energy error of the second half of the trial over that of the first
@@ -110,8 +110,6 @@ class step_judge {
   /// Judgement of a method at the step. Throws std::invalid_argument if the method does not suit the system.
   /// Cost: a trial of at most `work`, less where trajectories are lost.
   judgement of(const tabulated& method) const;
-
-  double step() const;  ///< h
 
  private:
   struct known;

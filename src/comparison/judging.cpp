@@ -5,8 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <span>
+#include <utility>
 
+#include "catalogue.hpp"
+#include "refusal.hpp"
 #include "stability.hpp"
 
 namespace nysalt::program {
@@ -109,6 +114,57 @@ std::optional<double> safe_step(const tabulated& method, const prepared_problem&
     if (is_safe) return rung(n);
   }
   return std::nullopt;
+}
+
+std::optional<rival_judgement> loses_fewest(const tabulated& method, const prepared_problem& system,
+                                            const judgement& found, int threads) {
+  if (found.holds() || found.verdict == step_verdict::not_tried || system.heat_bath().acts())
+    return std::nullopt;
+  const auto is_served = [&](const tabulated& other) {
+    try {
+      system.require_served(other.letters());
+      return true;
+    } catch (const refusal&) {
+      return false;
+    }
+  };
+  std::vector<std::pair<double, const tabulated*>> candidates;  // window an evaluation
+  for (const auto& [other, source] : classical_methods()) {
+    const run_time_word& word = other.letters();
+    if (!has_windows(word) || word.stochastic_letters > 0 || !is_served(other)) continue;
+    if (word.letters() == method.letters().letters() && other.coefficients() == method.coefficients()) {
+      continue;
+    }
+    candidates.emplace_back(limit_of(other) / word.evaluations_per_step, &other);
+  }
+  constexpr std::ptrdiff_t most = 8;
+  std::ranges::stable_sort(candidates, std::greater(), &std::pair<double, const tabulated*>::first);
+  std::optional<rival_judgement> best;
+  for (const auto& [window, other] : std::span(candidates).first(std::min(most, std::ssize(candidates)))) {
+    const double cost =
+        static_cast<double>(other->letters().evaluations_per_step) / method.letters().evaluations_per_step;
+    const judgement& one = system.judged(*other, found.step * cost, threads);
+    if (one.trajectories == 0) continue;
+    if (!best || one.share_lost() < best->found.share_lost()) best = {other->name(), one};
+    if (best->found.lost == 0) break;
+  }
+  return best;
+}
+
+std::string in_words(const rival_judgement& rival) {
+  return fmt::format("at equal cost {} at step {:g} loses {}", rival.method, rival.found.step,
+                     rival.found.lost == 0 ? std::string("no trajectory")
+                                           : fmt::format("the fewest trajectories, {:.2g} %",
+                                                         100.0 * rival.found.share_lost()));
+}
+
+json to_json(const std::optional<rival_judgement>& rival) {
+  if (!rival) return nullptr;
+  return {{"method", rival->method},
+          {"step", rival->found.step},
+          {"verdict", std::string(to_string(rival->found.verdict))},
+          {"share_lost", rival->found.share_lost()},
+          {"most_lost", rival->found.most_lost()}};
 }
 
 }  // namespace nysalt::program

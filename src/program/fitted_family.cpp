@@ -35,7 +35,8 @@ std::vector<double> steps_of(const learn_command& command) {
 }
 
 json document_of(const learned_scheme& learned, const prepared_problem& system,
-                 std::optional<placement> where, const std::string& purpose) {
+                 const std::optional<rival_judgement>& rival, std::optional<placement> where,
+                 const std::string& purpose) {
   const fit_summary& fit = learned.fit;
   json result = fit_json(fit);
   result["system"] = system.description();
@@ -53,6 +54,7 @@ json document_of(const learned_scheme& learned, const prepared_problem& system,
   result["guard"] = fit.guard;
   result["held_by_guard"] = fit.is_held_by_guard;
   result["unguarded"] = fit.unguarded.empty() ? json(nullptr) : json(fit.unguarded);
+  result["loses_fewest"] = to_json(rival);
   result["frequency"] = nullptr;
   if (fit.fitted_frequency > 0.0)
     result["frequency"] = {{"value", fit.fitted_frequency}, {"source", fit.source_of_frequency}};
@@ -106,6 +108,9 @@ void fitted_family::learn() {
   progress shown;
   prepare_starts(*system_, common_, shown);
   learned_ = learn_curve(*system_, plan_, steps_, shown);
+  shown.part("judging the step");
+  for (const auto& one : learned_)
+    losing_fewest_.push_back(loses_fewest(one.method, *system_, one.fit.judgement, common_.threads));
 }
 
 const learned_scheme* fitted_family::unusable() const {
@@ -114,11 +119,13 @@ const learned_scheme* fitted_family::unusable() const {
 }
 
 json fitted_family::document() const {
-  if (command_.step) return document_of(learned_.front(), *system_, plan_.where, purpose());
+  if (command_.step)
+    return document_of(learned_.front(), *system_, losing_fewest_.front(), plan_.where, purpose());
   json result;
   result["fits"] = json::array();
-  for (const auto& one : learned_)
-    result["fits"].push_back(document_of(one, *system_, plan_.where, purpose()));
+  for (std::size_t k = 0; k < learned_.size(); ++k) {
+    result["fits"].push_back(document_of(learned_[k], *system_, losing_fewest_[k], plan_.where, purpose()));
+  }
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "comparison/json.hpp"
+#include "comparison/judging.hpp"
 #include "comparison/prepared_problem.hpp"
 #include "settings.hpp"
 
@@ -27,6 +28,8 @@ class fitted_family {
   const std::string& purpose() const { return command_.learning.purpose; }
   /// At each of the steps, in their order; one if no curve is asked for.
   const std::vector<learned_scheme>& learned() const { return learned_; }
+  /// For each of these, see loses_fewest() of methods.
+  const std::vector<std::optional<rival_judgement>>& losing_fewest() const { return losing_fewest_; }
   /// The first that is not usable; null if all are.
   const learned_scheme* unusable() const;
 
@@ -42,6 +45,7 @@ class fitted_family {
   std::vector<double> steps_;
   learn_plan plan_{};
   std::vector<learned_scheme> learned_;
+  std::vector<std::optional<rival_judgement>> losing_fewest_;
 };
 
 }  // namespace nysalt::program

@@ -168,7 +168,7 @@ mutant(45, "the scale of an energy loss is twice as large", LIBRARY + "losses/en
 mutant(46, "each frequency counts twice in the loss gaussian_acceptance", LIBRARY + "losses/gaussian_acceptance.cpp",
        "losses learning",
        ("const double weight = 0.5 * count;", "const double weight = (MUTANT ? 1.0 : 0.5) * count;"))
-mutant(16, "a trial repeats its first 64 starts", LIBRARY + "judgement.cpp", "learning programs",
+mutant(16, "a trial repeats its first 64 starts", LIBRARY + "judging/trial.cpp", "learning programs",
        (".first = first},", ".first = MUTANT ? 0 : first},"))
 mutant(122, "a trial asks whether energies diverge, and not whether they err by much", LIBRARY + "judgement.cpp",
        "learning programs",

@@ -13,9 +13,13 @@ namespace nysalt {
 normal_modes stiffness_modes(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& inverse_masses,
                              std::string_view who) {
   const Eigen::Index n = stiffness.rows();
-  if (n == 0 || n != stiffness.cols() || n != inverse_masses.size()) {
+  if (n == 0 || n != stiffness.cols()) {
     throw std::invalid_argument(
         sentence("{}: the stiffness matrix must be square, got {} x {}", who, n, stiffness.cols()));
+  }
+  if (n != inverse_masses.size()) {
+    throw std::invalid_argument(
+        sentence("{}: masses must be one for each of {} coordinates, got {}", who, n, inverse_masses.size()));
   }
   if (!stiffness.allFinite()) {
     throw std::invalid_argument(sentence("{}: the stiffness matrix must be finite", who));

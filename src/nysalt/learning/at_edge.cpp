@@ -15,6 +15,7 @@ Eigen::VectorXd descend_at_edge(const objective& loss,
                                 int most_passes) {
   constexpr double longest = 0.3;  // coefficients are of order one
   constexpr double shortest = 1e-3;
+  if (free.empty()) return theta;
   squares here = loss(theta);
   int passes = 1;
   double length = 1.0;

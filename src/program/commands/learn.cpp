@@ -32,9 +32,12 @@ int learn(const learn_command& command, const common_settings& common) {
       print(text_of(result));
       return;
     }
-    for (const auto& one : learned) {
+    for (std::size_t k = 0; k < learned.size(); ++k) {
+      const learned_scheme& one = learned[k];
       const bool in_full = command.step || !written;  // with all digits
       print(in_full ? one.fit.full() : one.fit.brief() + "\n");
+      if (const auto& rival = training.losing_fewest()[k])
+        print(fmt::format("  {:<22}{}\n", "loses fewest", in_words(*rival)));
       if (one.course && command.step) print(fmt::format("  {:<22}{}\n", "enough", one.course->report()));
     }
     if (!training.purpose().empty()) print(fmt::format("  {:<22}{}\n", "for", training.purpose()));

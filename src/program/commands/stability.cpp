@@ -264,8 +264,11 @@ int stability(const stability_command& command, const common_settings& common) {
                    shown);  // a bath drives the initial states to its stationary distribution
     shown.part("judging the step");
     const judgement& found = system->judged(target.method, *command.step, common.threads);
+    const auto rival = loses_fewest(target.method, *system, found, common.threads);
     shown.clear();
     add_judgement(result, found);
+    result.document["loses_fewest"] = to_json(rival);
+    if (rival) result.text += "  " + in_words(*rival) + "\n";
     if (rotates) add_rotation(result, target.method, *system, *command.step);
     if (!rotates && !has_own_letters) {
       add_steps(result, target.method, chart, *system, found, common.threads);

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <span>
+
+#include "nysalt/ensembles/listed.hpp"
+#include "nysalt/integrate_ensemble.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/noises/counter_noise.hpp"
+
+namespace nysalt::detail {
+
+trial_plan plan_of(std::int64_t evaluations, int of_step, std::int64_t starts, std::int64_t most_steps) {
+  constexpr std::int64_t enough = 512;
+  constexpr std::int64_t fewest = 8;
+  constexpr std::int64_t long_enough = 5'000;
+  constexpr std::int64_t shortest = 500;
+  const std::int64_t steps_in_all = evaluations / std::max(1, of_step);
+  trial_plan plan;
+  plan.trajectories = std::clamp(steps_in_all / std::min(long_enough, most_steps), fewest, enough);
+  plan.trajectories = std::min(plan.trajectories, starts);
+  plan.steps = std::min(most_steps, std::max(shortest, steps_in_all / plan.trajectories));
+  return plan;
+}
+
+namespace {
+
+/// Which of some trajectories an accurate method loses too: at a fine step and, so that it is not its own
+/// instability, at a finer one.
+template <class T>
+std::vector<bool> are_unconfined(const model& system, const states& at, double step, int parts,
+                                 std::int64_t steps, const judging_options& options) {
+  std::vector<bool> result(at.size(), true);
+  for (const int finer : {parts, 4 * parts}) {
+    const auto accurate =
+        make_stepper(system, tabulated(blanes_moan_s6{}), step / finer, counter_noise(options.seed));
+    const auto diverged_at = integrate_ensemble<T>(
+        accurate, listed<Eigen::Dynamic>(at),
+        {.trajectories = std::ssize(at),
+         .steps = finer * steps,
+         .every = finer * steps,
+         .threads = options.threads},
+        1, [](const auto&, std::span<T>) {}, [](auto&&...) {});
+    for (std::size_t k = 0; k < at.size(); ++k) result[k] = result[k] && diverged_at[k].has_value();
+    if (std::ranges::none_of(result, std::identity{})) break;
+  }
+  return result;
+}
+
+/// Leaves out those of some diverged trajectories that an accurate method loses, too. A few at a time: the
+/// first that the motion does not lose decides.
+template <class T>
+void leave_out_unconfined(const model& system, const states& starts, double step, std::int64_t steps,
+                          const judging_options& options, const std::vector<std::size_t>& diverged,
+                          std::vector<course>& courses) {
+  const double parts = parts_of_step(system, step);
+  if (!(parts <= most_parts) || system.bath().acts()) return;
+  constexpr std::size_t few = 8;
+  for (std::size_t begin = 0; begin < diverged.size(); begin += few) {
+    const std::size_t end = std::min(begin + few, diverged.size());
+    states some;
+    for (std::size_t k = begin; k < end; ++k) some.push_back(starts[diverged[k]]);
+    const auto unconfined = are_unconfined<T>(system, some, step, static_cast<int>(parts), steps, options);
+    for (std::size_t k = begin; k < end; ++k) courses[diverged[k]].is_left_out = unconfined[k - begin];
+    if (!std::ranges::all_of(unconfined, std::identity{})) return;
+  }
+}
+
+/// Whether some trajectories leave nothing to ask: energies err by less than half of what is large, and by no
+/// more in the second half of the trial than growth in proportion to time makes of the first.
+bool are_clear(const std::vector<course>& courses, double kinetic_energy) {
+  if (!(kinetic_energy > 0.0)) return false;
+  double first_half = 0.0;
+  double second_half = 0.0;
+  for (const course& one : courses) {
+    if (one.diverged_at) return false;
+    for (std::size_t w = 0; w < one.largest.size(); ++w) {
+      double& half = 2 * w < one.largest.size() ? first_half : second_half;
+      half = std::max(half, one.largest[w]);
+    }
+  }
+  return std::max(first_half, second_half) < 0.5 * large_error * kinetic_energy &&
+         second_half < 2.0 * first_half;
+}
+
+template <class T>
+std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
+                              const trial_plan& plan, double kinetic_energy, const judging_options& options) {
+  constexpr std::int64_t block = 64;
+  constexpr std::int64_t every = 7;  // no low-order resonance has this period
+  const bool watches = kinetic_energy > 0.0;
+  const listed<Eigen::Dynamic> all(starts);
+  const auto stepper = make_stepper(system, method, step, counter_noise(options.seed));
+  std::vector<course> courses;
+  const auto read = [&](const phase_point<T, Eigen::Dynamic>& x, std::span<T> numbers) {
+    if (watches) numbers[0] = energy<T>(system, x);
+  };
+  const auto take = [&](std::int64_t m, std::int64_t n, std::span<const double> numbers) {
+    if (!watches) return;
+    course& one = courses[static_cast<std::size_t>(m)];
+    if (n == 0) one.initial = numbers[0];
+    double departure = std::abs(numbers[0] - one.initial);
+    if (std::isnan(departure)) departure = std::numeric_limits<double>::infinity();
+    const auto window = static_cast<std::size_t>(std::min(windows - 1, n * windows / plan.steps));
+    one.sum[window] += departure;
+    one.reads[window] += 1.0;
+    one.largest[window] = std::max(one.largest[window], departure);
+    one.magnitude = std::max(one.magnitude, std::abs(numbers[0]));
+    if (window + 1 == static_cast<std::size_t>(windows)) one.last.push_back(departure);
+    if (departure > kinetic_energy && one.large_at < 0) one.large_at = n;
+    if (departure <= one.largest_of_all) return;
+    one.largest_of_all = departure;
+    one.at = n;
+  };
+  std::int64_t lost = 0;
+  for (std::int64_t first = 0; first < plan.trajectories && lost * 2 <= first; first += block) {
+    const std::int64_t count = std::min(block, plan.trajectories - first);
+    courses.resize(static_cast<std::size_t>(first + count));
+    const auto diverged_at = integrate_ensemble<T>(stepper, all,
+                                                   {.trajectories = count,
+                                                    .steps = plan.steps,
+                                                    .every = watches ? every : plan.steps,
+                                                    .seed = options.seed,
+                                                    .threads = options.threads,
+                                                    .first = first},
+                                                   1, read, take);
+    std::vector<std::size_t> diverged;
+    for (std::size_t k = 0; k < diverged_at.size(); ++k) {
+      const std::size_t m = static_cast<std::size_t>(first) + k;
+      courses[m].diverged_at = diverged_at[k];
+      if (diverged_at[k]) diverged.push_back(m);
+    }
+    leave_out_unconfined<T>(system, starts, step, plan.steps, options, diverged, courses);
+    for (std::int64_t m = first; m < first + count; ++m) {
+      const course& one = courses[static_cast<std::size_t>(m)];
+      if (one.diverged_at && !one.is_left_out) ++lost;
+    }
+    if (first == block && are_clear(courses, kinetic_energy)) break;
+  }
+  return courses;
+}
+
+}  // namespace
+
+std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
+                              const trial_plan& plan, double kinetic_energy, const judging_options& options) {
+  return with_scalar_of(system, [&]<class T>(T) {
+    return run_trial<T>(system, method, step, starts, plan, kinetic_energy, options);
+  });
+}
+
+}  // namespace nysalt::detail
