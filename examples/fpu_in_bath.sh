@@ -14,8 +14,8 @@ nysalt compare $bath --methods scheme.json,baoab,baoab_2x,s_aia2 --steps 0.033 -
 
 # Expected output:
 # nystrom at step 0.033 for fpu_chain(pairs=3, omega=50) in bath(friction=0.01, sigma=0.05)
-#   b1                    0.526047~  +- 1.51e-03
-#   beta1                 0.407737~  +- 7.45e-04
+#   b1                    0.52604773838771002  +- 1.65e-03
+#   beta1                 0.40773760081473737  +- 8.17e-04
 # fpu_chain(pairs=3, omega=50) in bath(friction=0.01, sigma=0.05), 400 trajectories over 1
 # starts: gibbs(temperature=0.125, from fpu_law(omega=50), burned in for 31.23 with friction 0.7865 and step 0.009933)
 #
@@ -27,18 +27,20 @@ nysalt compare $bath --methods scheme.json,baoab,baoab_2x,s_aia2 --steps 0.033 -
 # ----------  ----------------------  ----------------------  --------------------  -----------------
 # 0.033       baoab with step 0.0001                5.79e-05              4.16e-02            the end
 #
-# method        step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  margin  marks
-# -----------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------  -----
-# scheme.json  0.033              60.6~%  3.52e-02        1.08e-03      3.15e-02  1.37e-02 to 6.92e-02     0/400    37 %
-# baoab        0.033              31.3~%  5.09e-01        1.66e-02      3.77e-01  8.84e-02 to 1.37e+00     0/400    17 %   null
-# baoab_2x     0.033              61.6~%  6.15e-02        1.65e-03      5.20e-02  1.61e-02 to 1.34e-01     0/400    58 %   null
-# s_aia2       0.033              60.6~%  3.44e-02        1.10e-03      3.06e-02  1.26e-02 to 7.36e-02     0/400    36 %
-# null model       -               0.0        0         -  4.16e-02               -             -                     -         -       -
+# method        step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  verdict  marks
+# -----------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  -------  -----
+# scheme.json  0.033              60.6~3.52e-02~0/400     good
+# baoab        0.033              31.3~5.09e-01~0/400     good   null
+# baoab_2x     0.033              61.6~6.15e-02~0/400     good   null
+# s_aia2       0.033              60.6~3.44e-02~0/400     good
+# null model       -               0.0        0         -  4.16e-02               -             -                     -         -        -
 # `null`: no better than the null model, which stays as it was at the start and costs nothing; not ranked
 #
 # at equal cost   step     error  best of the others  its error  its error / learned  its ns / learned
 # -------------  -----  --------  ------------------  ---------  -------------------  ----------------
 # scheme.json    0.033  3.52e-02              s_aia2   3.44e-02        0.978 ± 0.009~
+#
+# fitted to the frequency 50.3383, declared: s_aia2
 #
 # peak memory: ~ MB
 # fpu_chain(pairs=3, omega=50) in bath(friction=0.01, sigma=0.05), 200 trajectories over 20
@@ -52,19 +54,21 @@ nysalt compare $bath --methods scheme.json,baoab,baoab_2x,s_aia2 --steps 0.033 -
 # ----------  ---------------------  -----------------------  --------------------  -----------------
 # 0.033       baoab with step 0.001                 9.31e-04              5.93e-03           7.37e-04
 #
-# method              step  evaluations/time  ns/time  median +     error  standard error  diverged  margin  marks
-# -----------------  -----  ----------------  -------  --------  --------  --------------  --------  ------  -----
-# scheme.json        0.033              60.6~%  9.50e-04        1.74e-03     0/200    37 %  floor
-# baoab              0.033              30.4~%  2.69e-01        1.92e-02     0/200    17 %   null
-# baoab_2x           0.033              60.7~%  6.55e-03        2.67e-03     0/200    58 %   null
-# s_aia2             0.033              60.6~%  7.45e-04        1.82e-03     0/200    36 %  floor
-# null model             -               0.0        0         -  5.93e-03               -         -       -
-# floor of sampling      -               0.0        0         -  7.37e-04               -         -       -
+# method              step  evaluations/time  ns/time  median +     error  standard error  diverged  verdict  marks
+# -----------------  -----  ----------------  -------  --------  --------  --------------  --------  -------  -----
+# scheme.json        0.033              60.6~9.50e-04~0/200     good  floor
+# baoab              0.033              30.4~2.69e-01~0/200     good   null
+# baoab_2x           0.033              60.7~6.55e-03~0/200     good   null
+# s_aia2             0.033              60.6~7.45e-04~0/200     good  floor
+# null model             -               0.0        0         -  5.93e-03               -         -        -
+# floor of sampling      -               0.0        0         -  7.37e-04               -         -        -
 # `null`: no better than the null model, which stays as it was at the start and costs nothing; not ranked
 # `floor`: not above the floor of sampling by two standard errors: nothing is seen of the method
 #
 # at equal cost   step     error  best of the others  its error  its error / learned  its ns / learned
 # -------------  -----  --------  ------------------  ---------  -------------------  ----------------
 # scheme.json    0.033  9.50e-04              s_aia2   7.45e-04                1 ± 2~
+#
+# fitted to the frequency 50.3383, declared: s_aia2
 #
 # peak memory: ~ MB

@@ -24,17 +24,19 @@ nysalt compare --equal-cost --system fpu --steps 0.015 --horizon 20 --trajectori
 # 0.075          srkn11b with step 0.00394736842105                2.19e-11              8.05e-03            the end
 # 0.09           srkn11b with step 0.00391304347826                2.07e-11              8.05e-03            the end
 #
-# method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  margin      marks
-# -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------  ---------
-# learned:fg_chin          0.015              66.7~%  8.09e-05        3.62e-06      6.37e-05  3.06e-05 to 1.81e-04      0/48    28 %       tail
-# learned:nystrom          0.015              66.7~%  9.50e-03        5.27e-04      8.24e-03  2.46e-03 to 2.07e-02      0/48    42 %       null
-# phase_fitted_mclachlan5  0.015              66.7~%  9.36e-04        3.19e-05      7.95e-04  3.19e-04 to 1.96e-03      0/48    14 %
-# srkn6b                   0.015              66.7~%  2.20e-01        9.02e-03      2.03e-01  9.74e-02 to 3.81e-01      0/48    10 %  null tail
-# s_aia2                   0.015              66.7~%  8.07e-03        5.65e-04      7.29e-03  1.41e-03 to 1.84e-02      0/48    42 %       null
-# verlet                   0.015              66.7~%  5.01e-02        1.14e-03      3.87e-02  1.88e-02 to 1.07e-01      0/48    62 %  null tail
-# null model                   -               0.0        0         -  8.05e-03               -             -                     -         -       -
+# method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged       verdict           marks
+# -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------------  --------------
+# learned:fg_chin          0.015              66.7~8.09e-05~0/48          good            tail
+# learned:nystrom          0.015              66.7~9.50e-03~0/48          good    null formula
+# phase_fitted_mclachlan5  0.015              66.7~9.36e-04~0/48          good
+# srkn6b                   0.015              66.7~2.20e-01~0/48  near an edge  null tail edge
+# s_aia2                   0.015              66.7~8.07e-03~0/48          good            null
+# verlet                   0.015              66.7~5.01e-02~0/48  near an edge  null tail edge
+# null model                   -               0.0        0         -  8.05e-03               -             -                     -         -             -
 # `null`: no better than the null model, which stays as it was at the start and costs nothing; not ranked
 # `tail`: few trajectories decide the mean: it and its standard error say little; ranked by the median, as are all rows here
+# `formula`: learned, but nothing was gained: a classical method of the same cost, named with the fit, has as small a loss
+# `edge`: the method at this step is near an edge: the judgement in the data says which
 #
 # at equal cost     step  median error       best of the others  its median error  its error / learned  its ns / learned
 # ---------------  -----  ------------  -----------------------  ----------------  -------------------  ----------------
@@ -51,21 +53,28 @@ nysalt compare --equal-cost --system fpu --steps 0.015 --horizon 20 --trajectori
 # 0.075          srkn11b with step 0.00394736842105                8.45e-09              5.40e+00            the end
 # 0.09           srkn11b with step 0.00391304347826                8.02e-09              5.40e+00            the end
 #
-# method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged  margin  marks
-# -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------  -----
-# learned:fg_chin          0.015              66.7~%  9.62e-03        4.36e-04      8.92e-03  5.73e-03 to 1.37e-02      0/48    28 %   tail
-# learned:nystrom          0.015              66.7~%  4.18e+00        1.48e-01      4.03e+00  2.71e+00 to 5.70e+00      0/48    42 %
-# phase_fitted_mclachlan5  0.015              66.7~%  2.84e-03        1.05e-04      2.63e-03  2.13e-03 to 3.76e-03      0/48    14 %   tail
-# srkn6b                   0.015              66.7~%  4.19e+00        1.27e-01      4.06e+00  2.99e+00 to 5.53e+00      0/48    10 %
-# s_aia2                   0.015              66.7~%  4.23e+00        1.49e-01      4.07e+00  2.75e+00 to 5.76e+00      0/48    42 %
-# verlet                   0.015              66.7~%  4.16e+00        1.43e-01      4.01e+00  2.75e+00 to 5.63e+00      0/48    62 %
-# null model                   -               0.0        0         -  5.40e+00               -             -                     -         -       -
+# method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged       verdict    marks
+# -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------------  -------
+# learned:fg_chin          0.015              66.7~9.62e-03~0/48          good     tail
+# learned:nystrom          0.015              66.7~4.18e+00~0/48          good  formula
+# phase_fitted_mclachlan5  0.015              66.7~2.84e-03~0/48          good     tail
+# srkn6b                   0.015              66.7~4.19e+00~0/48  near an edge     edge
+# s_aia2                   0.015              66.7~4.23e+00~0/48          good
+# verlet                   0.015              66.7~4.16e+00~0/48  near an edge     edge
+# null model                   -               0.0        0         -  5.40e+00               -             -                     -         -             -
 # `tail`: few trajectories decide the mean: it and its standard error say little; ranked by the median, as are all rows here
+# `formula`: learned, but nothing was gained: a classical method of the same cost, named with the fit, has as small a loss
+# `edge`: the method at this step is near an edge: the judgement in the data says which
 #
 # at equal cost     step  median error       best of the others  its median error  its error / learned  its ns / learned
 # ---------------  -----  ------------  -----------------------  ----------------  -------------------  ----------------
 # learned:fg_chin  0.015      8.92e-03  phase_fitted_mclachlan5          2.63e-03          0.29 ± 0.02~
 # learned:nystrom  0.015      4.03e+00  phase_fitted_mclachlan5          2.63e-03    0.00065 ± 0.00004~
+#
+# fitted to the frequency 50, declared: phase_fitted_mclachlan5
+# fitted to the frequency 50.3383, declared: s_aia2
+#
+# learned for state, by the loss trajectory
 #
 # peak memory: ~ MB
 # Written: report

@@ -30,7 +30,9 @@ nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observ
 #   uncertainty           adds 1.4e-08 to the loss on new data, 0.22 % of it; it rests on 27 trajectories
 #   search                26 starts; this is from 'one step'
 #   stability             declared bands [0, 5.94242] [49, 51.345]
-#   trial run             256 trajectories of 20000 steps: none diverged, |H - H_0| up to 2.54e-02, up to 2.18e-02 in the first tenth
+#   judgement             good
+#   trial                 128 trajectories of 20000 steps, none lost (at most 2.3 %); energy errs by 1.35e-03 of the kinetic energy (median), 3.30e-03 (95 %), 5.02e-03 (largest)
+#   phase-fitted          the frequency 50, declared
 #   one-step error        8.344e-04, the reference's own 2.385e-13
 #   trajectory error      3.830e-03 at the end of held-out trajectories
 #   coordinates           energy
@@ -39,20 +41,23 @@ nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observ
 #   reference             srkn11b with step 0.0001
 #   starts                fpu_law(omega=50), seed 1, held out 2251799813685249
 #   force derivatives     automatic differentiation
-#   cost                  209107632 force evaluations; data ~ s, fit ~ s
+#   cost                  209408132 force evaluations; data ~ s, fit ~ s
+#   for                   state
 # Written: scheme.json
 # scheme.json: BAGAB, order 2, 3 evaluations a step
 # stable up to z = h omega = 3.14279661, 1.04759887 for each evaluation
 #   window 0 .. 3.14279661
 #   window 3.309630287 .. 4.171642181
-#   highest frequency 50.3383, z = 2.26522 (declared up to 50.3383; rare starts meet 50; 64 starts have up to 50.0351)
-#   frequencies 0 .. 5.8259 of fpu_chain(pairs=3, omega=50) at step 0.045: stable, margin 91.7 %
-#   frequencies 50 .. 50.3383 of fpu_chain(pairs=3, omega=50) at step 0.045: stable, margin 27.9 %
-#   stable steps 0 .. 0.0624335
-#   stable steps 0.0661926 .. 0.0828722
+#   good
+#   trial: 128 trajectories of 20000 steps, none lost (at most 2.3 %); energy errs by 1.35e-03 of the kinetic energy (median), 3.30e-03 (95 %), 5.02e-03 (largest)
+#   highest frequency along the motion 50.3383, z = 2.26522 (declared bands [0, 5.94242] [49, 51.345])
+#   linear margin 27.9 %
+#   frequencies 0 .. 5.8259 of fpu_chain(pairs=3, omega=50) at step 0.045: margin 91.7 %
+#   frequencies 50 .. 50.3383 of fpu_chain(pairs=3, omega=50) at step 0.045: margin 27.9 %
+#   linearly stable steps 0 .. 0.0624335
+#   linearly stable steps 0.0661926 .. 0.0828722
 #   by the linear criterion steps up to 0.0295 have a margin of 30 % to the first end, and turn by less than a quarter
-#   trial run at step 0.045: 192 trajectories of 20000 steps: none diverged, |H - H_0| up to 2.00e-02, up to 1.57e-02 in the first tenth
-#   safe step 0.0295: trial runs passed there, at 0.036875, 25 % more, and at shorter steps
+#   safe step 0.0295: trials lost nothing there, at 0.036875, 25 % more, and at shorter steps
 # fpu_chain(pairs=3, omega=50), 48 trajectories over 10
 # starts: fpu_law(omega=50)
 # steps are per force evaluation: equal steps, equal cost
@@ -73,28 +78,33 @@ nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observ
 # 0.075       srkn11b with step 0.00394736842105                4.22e-09              5.17e+00            the end
 # 0.09        srkn11b with step 0.00391304347826                4.01e-09              5.17e+00            the end
 #
-# method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged    margin  marks
-# -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  --------  -----
-# learned:fg_chin          0.005             200.1~%  4.86e-05        3.84e-06      3.68e-05  1.61e-05 to 8.59e-05      0/48      77 %   tail
-# phase_fitted_mclachlan5  0.005             200.0~%  6.57e-05        2.89e-06      5.82e-05  4.49e-05 to 9.44e-05      0/48      59 %   tail
-# srkn6b                   0.005             200.1~%  1.04e-01        3.67e-03      9.99e-02  6.74e-02 to 1.41e-01      0/48      52 %
-# chin4a                   0.005             200.1~%  6.46e-02        2.28e-03      6.22e-02  4.20e-02 to 8.81e-02      0/48      78 %
-# pefrl                    0.005             200.0~%  5.22e-02        1.86e-03      5.02e-02  3.40e-02 to 7.12e-02      0/48      66 %
-# verlet                   0.005             200.1~%  2.14e+00        7.54e-02      2.06e+00  1.39e+00 to 2.92e+00      0/48      87 %
-# learned:fg_chin          0.015              66.8~%  4.23e-03        2.86e-04      3.44e-03  1.83e-03 to 7.02e-03      0/48      28 %   tail
-# phase_fitted_mclachlan5  0.015              66.7~%  2.66e-03        9.98e-05      2.40e-03  1.90e-03 to 3.67e-03      0/48      14 %   tail
-# srkn6b                   0.015              66.8~%  4.24e+00        1.28e-01      4.11e+00  3.02e+00 to 5.59e+00      0/48      10 %
-# chin4a                   0.015              66.8~%  4.59e+00        1.65e-01      4.42e+00  2.95e+00 to 6.29e+00      0/48      35 %
-# pefrl                    0.015              66.7~%         -               -             -                     -     48/48  unstable
-# verlet                   0.015              66.8~%  4.16e+00        1.43e-01      4.01e+00  2.75e+00 to 5.63e+00      0/48      62 %
-# null model                   -               0.0        0         -  5.17e+00               -             -                     -         -         -
+# method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged       verdict  marks
+# -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------------  -----
+# learned:fg_chin          0.005             200.1~4.86e-05~0/48          good   tail
+# phase_fitted_mclachlan5  0.005             200.0~6.57e-05~0/48          good   tail
+# srkn6b                   0.005             200.1~1.04e-01~0/48          good
+# chin4a                   0.005             200.1~6.46e-02~0/48          good
+# pefrl                    0.005             200.0~5.22e-02~0/48          good
+# verlet                   0.005             200.1~2.14e+00~0/48          good
+# learned:fg_chin          0.015              66.8~4.23e-03~0/48          good   tail
+# phase_fitted_mclachlan5  0.015              66.7~2.66e-03~0/48          good   tail
+# srkn6b                   0.015              66.8~4.24e+00~0/48  near an edge   edge
+# chin4a                   0.015              66.8~4.59e+00~0/48          good
+# pefrl                    0.015              66.7~-~48/48      unstable
+# verlet                   0.015              66.8~4.16e+00~0/48  near an edge   edge
+# null model                   -               0.0        0         -  5.17e+00               -             -                     -         -             -
 # `tail`: few trajectories decide the mean: it and its standard error say little; ranked by the median, as are all rows here
+# `edge`: the method at this step is near an edge: the judgement in the data says which
 # pefrl at step 0.015: every trajectory diverged, the first of them at step 41
 #
 # at equal cost     step  median error       best of the others  its median error  its error / learned  its ns / learned
 # ---------------  -----  ------------  -----------------------  ----------------  -------------------  ----------------
 # learned:fg_chin  0.005      3.68e-05  phase_fitted_mclachlan5          5.82e-05            1.6 ± 0.2~
 # learned:fg_chin  0.015      3.44e-03  phase_fitted_mclachlan5          2.40e-03          0.70 ± 0.06~
+#
+# fitted to the frequency 50, declared: phase_fitted_mclachlan5
+#
+# learned for state, by the loss trajectory
 #
 # peak memory: ~ MB
 # Written: report

@@ -107,8 +107,9 @@ class step_judge {
   step_judge(step_judge&&) noexcept;             ///< takes over what is known
   step_judge& operator=(step_judge&&) noexcept;  ///< takes over what is known
 
-  /// Judgement of a method at the step. Throws std::invalid_argument if the method does not suit the system.
-  /// Cost: a trial of at most `work`, less where trajectories are lost.
+  /// Judgement of a method at the step. Not to be called by two threads at once. Throws std::invalid_argument
+  /// if the method does not suit the system. Cost: a trial of at most `work`, less where trajectories are
+  /// lost.
   judgement of(const tabulated& method) const;
 
  private:

@@ -54,8 +54,8 @@ struct rival_judgement {
 };
 
 /// Beside a method that loses trajectories: the classical method that loses the fewest at equal cost, of the
-/// eight with the longest stability windows an evaluation, as on close encounters every fixed step loses
-/// some. Nothing where at most 2 % are lost, and in a bath. Cost: eight trials at most.
+/// five with the longest stability windows an evaluation, as on close encounters every fixed step loses
+/// some. Nothing where at most 2 % are lost, and in a bath. Cost: five trials at most.
 std::optional<rival_judgement> loses_fewest(const tabulated& method, const prepared_problem& system,
                                             const judgement& found, int threads);
 /// "at equal cost verlet at step 0.05 loses the fewest trajectories, 3.1 %"

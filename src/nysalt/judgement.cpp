@@ -183,6 +183,7 @@ struct step_judge::known {
   accurate_motion motion;
   std::optional<stability_guard> guard;  // for words of drifts and kicks
   std::string no_guard;                  // why there is none
+  mutable detail::unconfined_starts unconfined;
 };
 
 namespace {
@@ -257,7 +258,8 @@ step_judge::step_judge(model system, const phase_points& starts, double step,
                                             .evaluations = 0,
                                             .motion = {},
                                             .guard = {},
-                                            .no_guard = {}});
+                                            .no_guard = {},
+                                            .unconfined = {}});
   const model& of = made->system;
   made->evaluations = evaluations_of(of, options);
   made->motion = detail::follow(of, made->starts, step, made->evaluations, options);
@@ -274,7 +276,7 @@ step_judge::step_judge(step_judge&&) noexcept = default;
 step_judge& step_judge::operator=(step_judge&&) noexcept = default;
 
 judgement step_judge::of(const tabulated& method) const {
-  const auto& [system, starts, step, options, evaluations, motion, guard, no_guard] = *known_;
+  const auto& [system, starts, step, options, evaluations, motion, guard, no_guard, unconfined] = *known_;
   const run_time_word& word = method.letters();
   judgement found;
   found.step = step;
@@ -283,8 +285,9 @@ judgement step_judge::of(const tabulated& method) const {
   found.steps = plan.steps;
   found.energy_was_watched = options.watches_energy && !system.bath().acts() && motion.kinetic_energy > 0.0;
   found.kinetic_energy = motion.kinetic_energy;
-  auto courses = detail::run_trial(system, method, step, starts, plan,
-                                   found.energy_was_watched ? motion.kinetic_energy : 0.0, options);
+  auto courses =
+      detail::run_trial(system, method, step, starts, plan,
+                        found.energy_was_watched ? motion.kinetic_energy : 0.0, options, unconfined);
   // Each letter rounds H once at most, in one direction at worst.
   const double rounding = static_cast<double>(plan.steps) * static_cast<double>(word.length) *
                           std::numeric_limits<double>::epsilon();

@@ -14,7 +14,7 @@ import os
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
-from table import ask, asked_for, highest_frequency
+from asking import ask, asked_for, highest_frequency
 
 RADIANS = (0.05, 0.1, 0.2, 0.35, 0.6, 0.9)
 EVALUATIONS = 6
@@ -39,7 +39,7 @@ def main():
     asked = asked_for(__doc__, "families")
     cases = []
     for system in asked.systems.split(","):
-        omega = highest_frequency(asked.program, system)
+        omega = highest_frequency(asked.program, "--system", system)
         cases += [(system, angle, float(f"{EVALUATIONS * angle / omega:.3g}")) for angle in RADIANS]
     rows = []
     with ThreadPoolExecutor(asked.jobs) as pool:

@@ -22,7 +22,7 @@ import statistics
 import sys
 from concurrent.futures import ThreadPoolExecutor, as_completed
 
-from table import ask
+from asking import ask
 
 LOW, HIGH = 0.7, 1.4
 FEWEST = 4  # of which a deviation is taken; of 12 seeds a third

@@ -16,7 +16,7 @@ import os
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
-from table import asked_for, ask, highest_frequency
+from asking import asked_for, ask, highest_frequency
 
 RADIANS = (0.05, 0.1, 0.2, 0.35, 0.55, 0.8)
 SCATTER = 1.4
@@ -57,7 +57,7 @@ def main():
     families = asked.families.split(",") if asked.families else [one["name"] for one in listed["families"]]
     cases = []
     for system in asked.systems.split(","):
-        omega = highest_frequency(asked.program, system)
+        omega = highest_frequency(asked.program, "--system", system)
         steps = [float(f"{angle / omega:.3g}") for angle in RADIANS]
         cases += [(system, family, steps, HORIZON / omega) for family in families]
 

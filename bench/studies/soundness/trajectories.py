@@ -20,7 +20,7 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
-from table import ask
+from asking import ask, highest_frequency
 
 TRAJECTORIES = 96
 SCATTER = 1.4
@@ -190,10 +190,7 @@ def thresholds_or_rivals_of(program, case, seed):
 
 def other_of(program, name, seed):
     options = options_of_other(name)
-    found, _, said = ask(program, "stability", *options[:-2], "--method", "verlet", "--step", 1e-6)
-    if found is None:
-        sys.exit(f"{name}: {said}")
-    omega = found["highest_frequency"]
+    omega = highest_frequency(program, *options[:-2])
     steps = [float(f"{angle / omega:.3g}") for angle in RADIANS]
     rivals = RIVALS + (FITTED if name == "fpu_64" else [])
     rows = []

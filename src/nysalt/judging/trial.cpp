@@ -36,6 +36,7 @@ template <class T>
 std::vector<bool> are_unconfined(const model& system, const states& at, double step, int parts,
                                  std::int64_t steps, const judging_options& options) {
   std::vector<bool> result(at.size(), true);
+  if (at.empty()) return result;
   for (const int finer : {parts, 4 * parts}) {
     const auto accurate =
         make_stepper(system, tabulated(blanes_moan_s6{}), step / finer, counter_noise(options.seed));
@@ -57,17 +58,27 @@ std::vector<bool> are_unconfined(const model& system, const states& at, double s
 template <class T>
 void leave_out_unconfined(const model& system, const states& starts, double step, std::int64_t steps,
                           const judging_options& options, const std::vector<std::size_t>& diverged,
-                          std::vector<course>& courses) {
+                          unconfined_starts& known, std::vector<course>& courses) {
   const double parts = parts_of_step(system, step);
   if (!(parts <= most_parts) || system.bath().acts()) return;
   constexpr std::size_t few = 8;
   for (std::size_t begin = 0; begin < diverged.size(); begin += few) {
     const std::size_t end = std::min(begin + few, diverged.size());
     states some;
-    for (std::size_t k = begin; k < end; ++k) some.push_back(starts[diverged[k]]);
+    std::vector<std::size_t> unknown;
+    for (std::size_t k = begin; k < end; ++k) {
+      if (known.contains({diverged[k], steps})) continue;
+      unknown.push_back(diverged[k]);
+      some.push_back(starts[diverged[k]]);
+    }
     const auto unconfined = are_unconfined<T>(system, some, step, static_cast<int>(parts), steps, options);
-    for (std::size_t k = begin; k < end; ++k) courses[diverged[k]].is_left_out = unconfined[k - begin];
-    if (!std::ranges::all_of(unconfined, std::identity{})) return;
+    for (std::size_t k = 0; k < unknown.size(); ++k) known[{unknown[k], steps}] = unconfined[k];
+    bool are_all = true;
+    for (std::size_t k = begin; k < end; ++k) {
+      courses[diverged[k]].is_left_out = known.at({diverged[k], steps});
+      are_all = are_all && courses[diverged[k]].is_left_out;
+    }
+    if (!are_all) return;
   }
 }
 
@@ -90,7 +101,8 @@ bool are_clear(const std::vector<course>& courses, double kinetic_energy) {
 
 template <class T>
 std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
-                              const trial_plan& plan, double kinetic_energy, const judging_options& options) {
+                              const trial_plan& plan, double kinetic_energy, const judging_options& options,
+                              unconfined_starts& unconfined) {
   constexpr std::int64_t block = 64;
   constexpr std::int64_t every = 7;  // no low-order resonance has this period
   const bool watches = kinetic_energy > 0.0;
@@ -135,7 +147,7 @@ std::vector<course> run_trial(const model& system, const tabulated& method, doub
       courses[m].diverged_at = diverged_at[k];
       if (diverged_at[k]) diverged.push_back(m);
     }
-    leave_out_unconfined<T>(system, starts, step, plan.steps, options, diverged, courses);
+    leave_out_unconfined<T>(system, starts, step, plan.steps, options, diverged, unconfined, courses);
     for (std::int64_t m = first; m < first + count; ++m) {
       const course& one = courses[static_cast<std::size_t>(m)];
       if (one.diverged_at && !one.is_left_out) ++lost;
@@ -148,9 +160,10 @@ std::vector<course> run_trial(const model& system, const tabulated& method, doub
 }  // namespace
 
 std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
-                              const trial_plan& plan, double kinetic_energy, const judging_options& options) {
+                              const trial_plan& plan, double kinetic_energy, const judging_options& options,
+                              unconfined_starts& unconfined) {
   return with_scalar_of(system, [&]<class T>(T) {
-    return run_trial<T>(system, method, step, starts, plan, kinetic_energy, options);
+    return run_trial<T>(system, method, step, starts, plan, kinetic_energy, options, unconfined);
   });
 }
 

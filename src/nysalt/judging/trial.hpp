@@ -3,8 +3,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "accurate_motion.hpp"
@@ -46,10 +49,15 @@ struct course {
   bool is_left_out = false;
 };
 
+/// Which starts an accurate method loses too within a number of steps, as far as they were tried: not a
+/// matter of the method that is judged.
+using unconfined_starts = std::map<std::pair<std::size_t, std::int64_t>, bool>;
+
 /// Runs a method in blocks of trajectories. Stops after one in which most of all are lost, and after two if
 /// these are clear: of the share lost more is not known then than that it is small.
 /// `kinetic_energy` is the scale of energies; 0: only divergence counts.
 std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
-                              const trial_plan& plan, double kinetic_energy, const judging_options& options);
+                              const trial_plan& plan, double kinetic_energy, const judging_options& options,
+                              unconfined_starts& unconfined);
 
 }  // namespace nysalt::detail
