@@ -101,7 +101,7 @@ class step_judge {
  public:
   /// Judge of methods at a step, on trajectories from some of these starts, the first ones first. Throws
   /// std::invalid_argument if there are no starts, the step is not positive and finite or an option is out of
-  /// range. Cost: some eighth of a trial.
+  /// range. Cost: some tenth of a trial.
   step_judge(model system, const phase_points& starts, double step, const judging_options& options = {});
   ~step_judge();
   step_judge(step_judge&&) noexcept;             ///< takes over what is known

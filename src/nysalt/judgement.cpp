@@ -57,6 +57,7 @@ void summarise(std::vector<course>& courses, double rounding, judgement& found) 
   std::array<std::vector<double>, windows> levels;
   double first_half = 0.0;
   double second_half = 0.0;
+  double least = 0.0;  // what rounding makes of an energy
   for (std::size_t m = 0; m < courses.size(); ++m) {
     course& one = courses[m];
     if (one.is_left_out) {
@@ -78,6 +79,7 @@ void summarise(std::vector<course>& courses, double rounding, judgement& found) 
         const double excess = std::max(0.0, one.largest[w] - rounding * one.magnitude);
         double& half = 2 * w < levels.size() ? first_half : second_half;
         half = std::max(half, excess);
+        least = std::max(least, rounding * one.magnitude);
       }
     }
     if (!is_lost) continue;
@@ -92,7 +94,7 @@ void summarise(std::vector<course>& courses, double rounding, judgement& found) 
   found.energy_error.median = median_of(errors);
   std::ranges::nth_element(errors, errors.begin() + static_cast<std::ptrdiff_t>(rank));
   found.energy_error.most = errors[rank];
-  found.growth = second_half > 0.0 ? second_half / first_half : 0.0;
+  found.growth = second_half > 0.0 ? second_half / std::max(first_half, least) : 0.0;
   std::array<double, windows> level{};
   for (std::size_t w = 0; w < levels.size(); ++w) level[w] = median_of(levels[w]);
   found.drift = slope_of(level);
@@ -285,9 +287,14 @@ judgement step_judge::of(const tabulated& method) const {
   found.steps = plan.steps;
   found.energy_was_watched = options.watches_energy && !system.bath().acts() && motion.kinetic_energy > 0.0;
   found.kinetic_energy = motion.kinetic_energy;
-  auto courses =
-      detail::run_trial(system, method, step, starts, plan,
-                        found.energy_was_watched ? motion.kinetic_energy : 0.0, options, unconfined);
+  if (!motion.is_followed && motion.kinetic_energy == 0.0) {
+    found.reason =
+        fmt::format("an accurate method does not keep the energy at a step of {:g}: the step is far too long",
+                    detail::finest_step * step);
+    return found;
+  }
+  auto courses = detail::run_trial(system, method, step, starts, plan, motion, found.energy_was_watched,
+                                   options, unconfined);
   // Each letter rounds H once at most, in one direction at worst.
   const double rounding = static_cast<double>(plan.steps) * static_cast<double>(word.length) *
                           std::numeric_limits<double>::epsilon();

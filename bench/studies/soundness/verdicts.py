@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Does what a verdict promises hold? Judgements of all methods and families at six steps, tried on fresh runs.
 
-usage: verdicts.py PROGRAM FOLDER [--systems A,B] [--methods A,B] [--families A,B] [--seeds N] [--most N] [--jobs N]
+usage: verdicts.py PROGRAM FOLDER [--systems A,B] [--methods A,B] [--families A,B] [--seeds N] [--most N] [--again] [--jobs N]
 
 Systems are the bundled ones and five that no threshold was made on, three of them with close encounters. A method or a
 fit at a step is judged by `stability` or `learn`; whatever is not `unstable` is then run from 512 fresh starts, four
@@ -12,8 +12,9 @@ less than 1 % of the kinetic energy, must not be refused. The twin is the rule t
 and not whether it is large. Beside that each method is judged again by its coefficients in a table, by `run` and by
 `compare`, and a fit by its file: all must show the same judgement, and a fit that is usable must hold.
 With --seeds N a family is learned with each, and the verdicts of the seeds are compared.
---most N: of the rows that are not there yet only N are made. Writes verdicts.csv, to which a further call adds, and
-verdicts.md. Exit code 1 if a promise is broken.
+--most N: of the rows that are not there yet only N are made. --again: judgements of methods that are there are made
+again, and what was run stays. Writes verdicts.csv, to which a further call adds, and verdicts.md. Exit code 1 if a
+promise is broken.
 """
 import argparse
 import csv
@@ -80,7 +81,9 @@ def fresh_losses(program, system, method, step, steps):
     scale = sorted(kinetic)[len(kinetic) // 2]
     ends = [abs(all_of[-1] - all_of[0]) for number, all_of in energies.items() if number not in diverged]
     lost = len(diverged) + sum(not end <= scale for end in ends)
-    return lost / FRESH_STARTS, (document["energy_error"] or 0.0) / scale, ""
+    largest = max((abs(energy - all_of[0]) for number, all_of in energies.items() if number not in diverged
+                   for energy in all_of), default=0.0)
+    return lost / FRESH_STARTS, largest / scale, ""
 
 
 def contradictions(program, system, method, found, table):
@@ -120,7 +123,8 @@ bench/studies/soundness/verdicts.py build/release/nysalt build/soundness --seeds
 """
 
 
-def row_of(program, system, kind, name, part, step, seed):
+def row_of(program, system, kind, name, part, step, seed, known=None):
+    """One row; fresh runs of `known` are not made again, if they are as long."""
     row = {"system": system, "kind": kind, "name": name, "part": part, "step": step, "seed": seed}
     with tempfile.TemporaryDirectory() as folder:
         if kind == "method":
@@ -144,7 +148,9 @@ def row_of(program, system, kind, name, part, step, seed):
         if kind == "family" and found["usable"] and judged["verdict"] not in ("good", "near an edge"):
             differ.append("usable")
         row["contradictions"] = " ".join(differ) or "none"
-        if judged["verdict"] != "unstable":
+        if known and known["fresh_lost"] and int(known["steps"]) == judged["steps"]:
+            row |= {"fresh_lost": known["fresh_lost"], "fresh_error": known["fresh_error"]}
+        elif judged["verdict"] != "unstable":
             lost, largest, said = fresh_losses(program, system, method, step, LONGER * judged["steps"])
             row |= {"fresh_lost": lost if lost is not None else "", "fresh_error": largest if lost is not None else "",
                     "reason": row["reason"] or said}
@@ -225,6 +231,7 @@ def main():
     parser.add_argument("--families")
     parser.add_argument("--seeds", type=int, default=1)
     parser.add_argument("--most", type=int)
+    parser.add_argument("--again", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     asked = parser.parse_args()
     asked.folder.mkdir(parents=True, exist_ok=True)
@@ -236,6 +243,16 @@ def main():
         with open(table, newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
     key = lambda row: tuple(str(row[name]) for name in fields[:6])
+    if asked.again:
+        made = {key(row): row for row in rows if row["kind"] == "method"}
+        with ThreadPoolExecutor(asked.jobs) as pool:
+            again = list(pool.map(lambda row: row_of(asked.program, row["system"], row["kind"], row["name"], row["part"],
+                                                     float(row["step"]), row["seed"], row), made.values()))
+        rows = again + [row for row in rows if row["kind"] != "method"]
+        with open(table, "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, fields, extrasaction="ignore", lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows)
     known = {key(row) for row in rows}
     cells = list(cases_of(asked))
     random.Random(1).shuffle(cells)  # what is done first is a sample of all

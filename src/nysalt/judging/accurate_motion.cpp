@@ -9,7 +9,6 @@
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/frequency_to_fit.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 
@@ -22,39 +21,41 @@ double median_of(std::vector<double>& numbers) {
   return *middle;
 }
 
-double parts_of_step(const model& system, double step) {
-  double highest = 0.0;
-  if (has_frequency_bands(system)) {
-    for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
-  } else if (has_modes(system)) {
-    highest = detail::frequency_to_fit(system);
-  }
-  return std::max(8.0, std::ceil(std::abs(step) * highest));
-}
-
 namespace {
 
+/// What one trajectory shows, up to where its energy errs by more than a tenth of its largest kinetic energy,
+/// as after a close encounter that is too close for the step: what comes then is not the motion.
+struct shown_motion {
+  std::vector<double> kinetic;
+  states seen;
+  double initial = 0.0;
+  double largest_kinetic = 0.0;
+  bool has_left = false;
+
+  bool holds(double energy, double kinetic_energy) {
+    constexpr double hundredth = 0.01;
+    largest_kinetic = std::max(largest_kinetic, kinetic_energy);
+    if (!(std::abs(energy - initial) <= hundredth * largest_kinetic)) has_left = true;
+    return !has_left;
+  }
+};
+
+constexpr std::int64_t most_steps = 400;
+
 template <class T>
-accurate_motion follow(const model& system, const states& starts, double step, std::int64_t evaluations,
-                       const judging_options& options) {
+accurate_motion follow_at(double step, const model& system, const states& starts, std::int64_t evaluations,
+                          const judging_options& options) {
   constexpr std::int64_t most_trajectories = 64;
-  constexpr std::int64_t most_steps = 400;
   constexpr std::int64_t samples = 8;  // states of each trajectory
-  constexpr double share = 0.125;      // of the work of a trial
-  accurate_motion result;
-  const double parts = parts_of_step(system, step);
-  const auto fine = static_cast<std::int64_t>(std::min(parts, most_parts));
+  constexpr double share = 0.03;       // of the work of a trial
   const tabulated accurate(blanes_moan_s6{});
-  const auto cost = static_cast<double>(fine * accurate.letters().evaluations_per_step);
   const std::int64_t trajectories = std::min<std::int64_t>(most_trajectories, std::ssize(starts));
-  const auto steps =
-      std::clamp<std::int64_t>(static_cast<std::int64_t>(share * static_cast<double>(evaluations) /
-                                                         (cost * static_cast<double>(trajectories))),
-                               samples, most_steps);
-  const std::int64_t every = steps / samples * fine;
+  const double cost = static_cast<double>(accurate.letters().evaluations_per_step * trajectories);
+  const auto steps = std::clamp<std::int64_t>(
+      static_cast<std::int64_t>(share * static_cast<double>(evaluations) / cost), samples, most_steps);
+  const std::int64_t every = steps / samples;
   const bool knows_kinetic = has_energy(system);
-  std::vector<std::vector<double>> kinetic(static_cast<std::size_t>(trajectories));
-  std::vector<states> seen(static_cast<std::size_t>(trajectories));
+  std::vector<shown_motion> shown(static_cast<std::size_t>(trajectories));
   const auto n = static_cast<std::size_t>(size(system));
   const auto read = [&](const phase_point<T, Eigen::Dynamic>& x, std::span<T> numbers) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -64,30 +65,38 @@ accurate_motion follow(const model& system, const states& starts, double step, s
     if (!knows_kinetic) return;
     auto at_rest = x;
     for (T& p : at_rest.p) p = T(0.0);
-    numbers[2 * n] = energy<T>(system, x) - energy<T>(system, at_rest);
+    numbers[2 * n + 1] = energy<T>(system, x);
+    numbers[2 * n] = numbers[2 * n + 1] - energy<T>(system, at_rest);
   };
   const auto take = [&](std::int64_t m, std::int64_t at, std::span<const double> numbers) {
-    const auto of = static_cast<std::size_t>(m);
-    if (knows_kinetic && std::isfinite(numbers[2 * n])) kinetic[of].push_back(numbers[2 * n]);
+    shown_motion& one = shown[static_cast<std::size_t>(m)];
+    if (knows_kinetic) {
+      if (at == 0) one.initial = numbers[2 * n + 1];
+      if (!one.holds(numbers[2 * n + 1], numbers[2 * n])) return;
+      one.kinetic.push_back(numbers[2 * n]);
+    }
     phase_point<double, Eigen::Dynamic> x{Eigen::VectorXd(size(system)), Eigen::VectorXd(size(system))};
     std::copy_n(numbers.begin(), n, x.q.begin());
     std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(n), n, x.p.begin());
-    if (at % every == 0 && is_finite(x)) seen[of].push_back(x);
+    if (at % every == 0 && is_finite(x)) one.seen.push_back(x);
   };
-  const auto stepper =
-      make_stepper(system, accurate, step / static_cast<double>(fine), counter_noise(options.seed));
+  const auto stepper = make_stepper(system, accurate, step, counter_noise(options.seed));
   integrate_ensemble<T>(stepper, listed<Eigen::Dynamic>(starts),
                         {.trajectories = trajectories,
-                         .steps = steps / samples * samples * fine,
-                         .every = fine,
+                         .steps = every * samples,
+                         .every = 1,
                          .seed = options.seed,
                          .threads = options.threads},
-                        2 * n + 1, read, take);
+                        2 * n + 2, read, take);
+  accurate_motion result;
   std::vector<double> all;
-  for (const auto& some : kinetic) all.insert(all.end(), some.begin(), some.end());
-  result.kinetic_energy = median_of(all);
-  if (!std::isfinite(result.kinetic_energy) || result.kinetic_energy < 0.0) result.kinetic_energy = 0.0;
-  for (auto& some : seen) result.seen.insert(result.seen.end(), some.begin(), some.end());
+  for (const shown_motion& one : shown) {
+    all.insert(all.end(), one.kinetic.begin(), one.kinetic.end());
+    result.seen.insert(result.seen.end(), one.seen.begin(), one.seen.end());
+  }
+  const std::int64_t reads = trajectories * (every * samples + 1);
+  result.is_followed = !knows_kinetic || 2 * std::ssize(all) >= reads;
+  result.kinetic_energy = std::max(0.0, median_of(all));
   return result;
 }
 
@@ -95,8 +104,18 @@ accurate_motion follow(const model& system, const states& starts, double step, s
 
 accurate_motion follow(const model& system, const states& starts, double step, std::int64_t evaluations,
                        const judging_options& options) {
-  return with_scalar_of(
-      system, [&]<class T>(T) { return follow<T>(system.base(), starts, step, evaluations, options); });
+  constexpr double finer = 0.25;
+  return with_scalar_of(system, [&]<class T>(T) {
+    const double shortest = finest_step * step;
+    double length =
+        step * std::max(1.0, static_cast<double>(options.steps) / static_cast<double>(most_steps));
+    accurate_motion motion = follow_at<T>(length, system.base(), starts, evaluations, options);
+    while (!motion.is_followed && length > shortest) {
+      length = std::max(shortest, finer * length);
+      motion = follow_at<T>(length, system.base(), starts, evaluations, options);
+    }
+    return motion;
+  });
 }
 
 }  // namespace nysalt::detail

@@ -16,19 +16,18 @@ using states = std::vector<phase_point<double, Eigen::Dynamic>>;
 /// Median of some numbers, which are put into another order; 0 of none.
 double median_of(std::vector<double>& numbers);
 
-/// Parts of a step that an accurate method takes: of the highest frequency that is declared less than a
-/// radian each, far inside its window.
-double parts_of_step(const model& system, double step);
-/// Beyond this number of parts no accurate motion is computed: nothing is known of what is lost.
-constexpr double most_parts = 64.0;
-
 /// What an accurate motion shows.
 struct accurate_motion {
   double kinetic_energy = 0.0;  // median over trajectories and times; 0: not known
   states seen;                  // states along it, typical ones first
+  bool is_followed = true;      // false: at no step that was tried the energy stays
 };
 
-/// Without a bath. Cost: an eighth of `evaluations`.
+/// Finest step of the accurate motion, in steps of the trial.
+constexpr double finest_step = 1.0 / 512.0;
+
+/// Of the system without a bath, as long as the trial or shorter: at the coarsest of some steps at which the
+/// energy stays. Cost: some 10^5 evaluations for each step that is tried, nine at most.
 accurate_motion follow(const model& system, const states& starts, double step, std::int64_t evaluations,
                        const judging_options& options);
 

@@ -11,6 +11,7 @@
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/methods/classical.hpp"
+#include "nysalt/methods/frequency_to_fit.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt::detail {
@@ -30,16 +31,33 @@ trial_plan plan_of(std::int64_t evaluations, int of_step, std::int64_t starts, s
 
 namespace {
 
+/// Of more parts of a step no accurate motion is asked: the step is far too long.
+constexpr std::int64_t most_parts = 64;
+
+/// Parts of a step that an accurate method takes: of the highest frequency that is declared less than a
+/// radian each, far inside its window.
+std::int64_t parts_of_step(const model& system, double step) {
+  double highest = 0.0;
+  if (has_frequency_bands(system)) {
+    for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
+  } else if (has_modes(system)) {
+    highest = detail::frequency_to_fit(system);
+  }
+  constexpr double fewest = 8.0;
+  return static_cast<std::int64_t>(
+      std::clamp(std::ceil(std::abs(step) * highest), fewest, static_cast<double>(most_parts)));
+}
+
 /// Which of some trajectories an accurate method loses too: at a fine step and, so that it is not its own
 /// instability, at a finer one.
 template <class T>
-std::vector<bool> are_unconfined(const model& system, const states& at, double step, int parts,
+std::vector<bool> are_unconfined(const model& system, const states& at, double step, std::int64_t parts,
                                  std::int64_t steps, const judging_options& options) {
   std::vector<bool> result(at.size(), true);
   if (at.empty()) return result;
-  for (const int finer : {parts, 4 * parts}) {
-    const auto accurate =
-        make_stepper(system, tabulated(blanes_moan_s6{}), step / finer, counter_noise(options.seed));
+  for (const std::int64_t finer : {parts, 4 * parts}) {
+    const auto accurate = make_stepper(system, tabulated(blanes_moan_s6{}), step / static_cast<double>(finer),
+                                       counter_noise(options.seed));
     const auto diverged_at = integrate_ensemble<T>(
         accurate, listed<Eigen::Dynamic>(at),
         {.trajectories = std::ssize(at),
@@ -59,8 +77,8 @@ template <class T>
 void leave_out_unconfined(const model& system, const states& starts, double step, std::int64_t steps,
                           const judging_options& options, const std::vector<std::size_t>& diverged,
                           unconfined_starts& known, std::vector<course>& courses) {
-  const double parts = parts_of_step(system, step);
-  if (!(parts <= most_parts) || system.bath().acts()) return;
+  const std::int64_t parts = parts_of_step(system, step);
+  if (parts >= most_parts || system.bath().acts()) return;
   constexpr std::size_t few = 8;
   for (std::size_t begin = 0; begin < diverged.size(); begin += few) {
     const std::size_t end = std::min(begin + few, diverged.size());
@@ -71,7 +89,7 @@ void leave_out_unconfined(const model& system, const states& starts, double step
       unknown.push_back(diverged[k]);
       some.push_back(starts[diverged[k]]);
     }
-    const auto unconfined = are_unconfined<T>(system, some, step, static_cast<int>(parts), steps, options);
+    const auto unconfined = are_unconfined<T>(system, some, step, parts, steps, options);
     for (std::size_t k = 0; k < unknown.size(); ++k) known[{unknown[k], steps}] = unconfined[k];
     bool are_all = true;
     for (std::size_t k = begin; k < end; ++k) {
@@ -101,11 +119,11 @@ bool are_clear(const std::vector<course>& courses, double kinetic_energy) {
 
 template <class T>
 std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
-                              const trial_plan& plan, double kinetic_energy, const judging_options& options,
-                              unconfined_starts& unconfined) {
+                              const trial_plan& plan, const accurate_motion& motion, bool watches,
+                              const judging_options& options, unconfined_starts& unconfined) {
   constexpr std::int64_t block = 64;
   constexpr std::int64_t every = 7;  // no low-order resonance has this period
-  const bool watches = kinetic_energy > 0.0;
+  const double kinetic_energy = motion.kinetic_energy;
   const listed<Eigen::Dynamic> all(starts);
   const auto stepper = make_stepper(system, method, step, counter_noise(options.seed));
   std::vector<course> courses;
@@ -160,10 +178,10 @@ std::vector<course> run_trial(const model& system, const tabulated& method, doub
 }  // namespace
 
 std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
-                              const trial_plan& plan, double kinetic_energy, const judging_options& options,
-                              unconfined_starts& unconfined) {
+                              const trial_plan& plan, const accurate_motion& motion, bool watches,
+                              const judging_options& options, unconfined_starts& unconfined) {
   return with_scalar_of(system, [&]<class T>(T) {
-    return run_trial<T>(system, method, step, starts, plan, kinetic_energy, options, unconfined);
+    return run_trial<T>(system, method, step, starts, plan, motion, watches, options, unconfined);
   });
 }
 

@@ -55,9 +55,10 @@ using unconfined_starts = std::map<std::pair<std::size_t, std::int64_t>, bool>;
 
 /// Runs a method in blocks of trajectories. Stops after one in which most of all are lost, and after two if
 /// these are clear: of the share lost more is not known then than that it is small.
-/// `kinetic_energy` is the scale of energies; 0: only divergence counts.
+/// The kinetic energy of the motion is the scale of energies; unless energies are watched only divergence
+/// counts.
 std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
-                              const trial_plan& plan, double kinetic_energy, const judging_options& options,
-                              unconfined_starts& unconfined);
+                              const trial_plan& plan, const accurate_motion& motion, bool watches,
+                              const judging_options& options, unconfined_starts& unconfined);
 
 }  // namespace nysalt::detail
