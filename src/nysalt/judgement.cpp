@@ -287,12 +287,6 @@ judgement step_judge::of(const tabulated& method) const {
   found.steps = plan.steps;
   found.energy_was_watched = options.watches_energy && !system.bath().acts() && motion.kinetic_energy > 0.0;
   found.kinetic_energy = motion.kinetic_energy;
-  if (!motion.is_followed && motion.kinetic_energy == 0.0) {
-    found.reason =
-        fmt::format("an accurate method does not keep the energy at a step of {:g}: the step is far too long",
-                    detail::finest_step * step);
-    return found;
-  }
   auto courses = detail::run_trial(system, method, step, starts, plan, motion, found.energy_was_watched,
                                    options, unconfined);
   // Each letter rounds H once at most, in one direction at worst.
@@ -310,6 +304,12 @@ judgement step_judge::of(const tabulated& method) const {
     add_linear(*guard, method, size(system), found);
   }
   decide(found);
+  if (found.holds() && !motion.is_followed && motion.kinetic_energy == 0.0) {
+    found.verdict = step_verdict::not_tried;
+    found.reason = fmt::format(
+        "at a step of {:g} an accurate method does not keep the energy either: the step is far too long",
+        detail::finest_step * step);
+  }
   return found;
 }
 

@@ -156,6 +156,33 @@ BOOST_AUTO_TEST_CASE(what_an_accurate_method_cannot_follow_is_not_left_out) {
   }
 }
 
+// Nearly radial orbits begin almost at rest, with H = -1 and a median kinetic energy below 1. No part of
+// these steps follows them past the first pericentre, at some 10^-4: what is flung out there says nothing of
+// the scale.
+BOOST_AUTO_TEST_CASE(the_scale_of_energies_is_that_of_the_motion_however_long_the_step) {
+  const normal_around<2> law({{1.0, 0.0}, {0.0, 0.0}}, 0.0, 0.01);
+  for (const double step : {0.02, 0.5, 8.0}) {
+    const auto found = judge(kepler{}, starts_of(law, 16), tabulated(mclachlan2{}), step, {.steps = 2000});
+    BOOST_TEST(found.kinetic_energy < 1.0);
+    BOOST_TEST(!found.holds(), found.in_words());
+  }
+}
+
+// At rest there is no scale: what does not diverge was not tried.
+BOOST_AUTO_TEST_CASE(a_step_that_no_accurate_motion_can_follow_from_rest_is_not_good) {
+  const linear_chain stiff(Eigen::MatrixXd::Constant(1, 1, 1e12));
+  const phase_points at_rest(
+      std::vector{phase_point<double, Eigen::Dynamic>{numbers(1.0).head(1), numbers(0.0).head(1)}});
+  const auto verdict_of = [&](const tabulated& method) {
+    return judge(stiff, at_rest, method, 0.1, {.steps = 500});
+  };
+  const auto found =
+      verdict_of(tabulated("rotation", run_time_word("RSR"), {0.5, 1.0, 0.5}, {2, true, true}));
+  BOOST_TEST((found.verdict == step_verdict::not_tried), found.in_words());
+  BOOST_TEST(found.reason.find("far too long") != std::string::npos, found.reason);
+  BOOST_TEST((verdict_of(tabulated(verlet{})).verdict == step_verdict::unstable));
+}
+
 // Starts are run 64 at a time: the first of the second block is the only one that moves too fast for the
 // step, one of 65.
 BOOST_AUTO_TEST_CASE(starts_beyond_the_first_block_are_tried) {
