@@ -2,14 +2,7 @@
 // Compiled with -O1: 2.2 s at -O0, 0.8 s at -O1.
 // The acceptance of proposals of Hybrid Monte Carlo: in closed form, and along trajectories; and the step
 // that has it, against Gaussian targets and against chains.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
 #include <numeric>
-#include <span>
-#include <vector>
 
 #include "../support/refusal.hpp"
 #include "../support/seeds.hpp"

@@ -2,13 +2,6 @@
 // Compiled with -O1: 32 s at -O0, 2.5 s at -O1.
 // Error bars cover as often as they promise, over a thousand ensembles of a law whose numbers are known; and
 // errors have an expectation: more trajectories give the same, or the tail is reported.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
 #include "nysalt/nysalt.hpp"
@@ -29,7 +22,6 @@ const normal_around<Eigen::Dynamic> law({Eigen::VectorXd::Zero(8), Eigen::Vector
 /// One step of it errs by 1e-9 or so.
 const fine_steps<> flow(0.2);
 const tabulated by_verlet{verlet()};
-const auto position = over_lanes([](const auto& x) { return x.q[0]; });
 
 /// The mean of |dq_i| over oscillators, trajectories and times.
 error_measure modulus_measure() {
@@ -100,36 +92,6 @@ bool is_near(int count, double expected, double more = 0.0) {
   const double found = static_cast<double>(count) / ensembles;
   BOOST_TEST_MESSAGE("covers " << found << ", expected " << expected);
   return std::abs(found - expected) < standard_errors(false_alarms / 3) * deviation + more;
-}
-
-constexpr int samples = 256;  // in 64 groups of 4
-
-/// Histograms of starts of one oscillator, normal around a mean.
-std::vector<histogram> groups_around(double mean, std::uint64_t number, const equal_bins& bins) {
-  static const model oscillator{harmonic_oscillator(1.0)};
-  static const auto stepper = make_stepper(oscillator, by_verlet, 0.1);
-  const normal_around<Eigen::Dynamic> starts({Eigen::VectorXd::Constant(1, mean), Eigen::VectorXd::Zero(1)},
-                                             1.0, 0.0);
-  const ensemble_options options{.trajectories = samples, .steps = 0, .seed = seed(number)};
-  return ensemble_statistics(stepper, starts, options, position, {.histogram = bins}).histogram_of_groups;
-}
-
-/// Fractions p, q of n samples each: p - q is nearly normal, and of a normal number of mean d and deviation s
-/// the modulus has the mean s sqrt(2/pi) exp(-d^2/2 s^2) + d erf(d/(s sqrt 2)).
-double expected_distance(double mean, const equal_bins& bins) {
-  std::vector<double> edges{-1e300};
-  for (int k = 0; k <= bins.count; ++k) edges.push_back(bins.low + k * bins.width());
-  edges.push_back(1e300);
-  double sum = 0.0;
-  for (std::size_t k = 0; k + 1 < edges.size(); ++k) {
-    const double p = normal_law(edges[k + 1] - mean) - normal_law(edges[k] - mean);
-    const double q = normal_law(edges[k + 1] + mean) - normal_law(edges[k] + mean);
-    const double d = p - q;
-    const double s = std::sqrt((p * (1.0 - p) + q * (1.0 - q)) / samples);
-    sum += s * std::sqrt(2.0 / std::numbers::pi) * std::exp(-0.5 * d * d / (s * s));
-    sum += d * std::erf(d / (s * std::numbers::sqrt2));
-  }
-  return 0.5 * sum;
 }
 
 /// Every coordinate uniform in [-bound, bound]: errors of normal ones are so skew (10) that a mean of 1000 is
@@ -207,60 +169,6 @@ BOOST_AUTO_TEST_CASE(bars_of_errors_cover) {
   // Moduli are less skew than that.
   BOOST_TEST(is_near(modulus.whole, expected_coverage(factor, trajectories), 0.005));
   BOOST_TEST(!is_near(modulus.half, expected_coverage(factor, trajectories), 0.005));
-}
-
-// Time means of a linear observable along a linear map are normal: Student's ratio exactly, of mean 0.
-BOOST_AUTO_TEST_CASE(bars_of_means_cover) {
-  const auto stepper = make_stepper(all, by_verlet, 0.4);
-  coverage found;
-  for (std::uint64_t n = 0; n < ensembles; ++n) {
-    const ensemble_options options{.trajectories = trajectories, .steps = steps, .seed = seed(n)};
-    found.count(ensemble_statistics(stepper, law, options, position, {.moments = true}).mean, 0.0);
-  }
-  BOOST_TEST(is_near(found.whole, expected_coverage(factor, trajectories - 1)));
-  BOOST_TEST(is_near(found.half, expected_coverage(0.5 * factor, trajectories - 1)));
-  BOOST_TEST(!is_near(found.half, expected_coverage(factor, trajectories - 1)));
-}
-
-// Laws .6 to both sides: in each of the bins the sign of p - q is all but certain. Two jackknives of 64
-// groups have 126 degrees of freedom. Counts near 10 in the outer bins are a little skew.
-BOOST_AUTO_TEST_CASE(bars_of_distances_cover) {
-  const equal_bins bins{-2.0, 2.0, 4};
-  const double expected = expected_distance(0.6, bins);
-  coverage found;
-  for (std::uint64_t n = 0; n < ensembles; ++n) {
-    const std::vector<std::vector<histogram>> other{groups_around(-0.6, 2 * n, bins)};
-    found.count(mean_total_variation(groups_around(0.6, 2 * n + 1, bins), other), expected);
-  }
-  BOOST_TEST(is_near(found.whole, expected_coverage(factor, 126.0), 0.005));
-  BOOST_TEST(is_near(found.half, expected_coverage(0.5 * factor, 126.0), 0.005));
-  BOOST_TEST(!is_near(found.half, expected_coverage(factor, 126.0), 0.005));
-}
-
-// Of one law: distances scatter by sqrt(1 - 2/pi) = .60 of what they say, known to 1/sqrt(2 x 400) = 3.5 %.
-// Bins of shares p are correlated by -sqrt(p_i p_j): the variance of the scatter grows by (sum of p^1.5)^2/pi
-// = .011 of .363, that of the bar shrinks by the sum of p^2 = .038, and the ratio grows by 3.4 %; the next
-// order is smaller.
-BOOST_AUTO_TEST_CASE(bars_at_the_floor_are_too_long) {
-  const equal_bins bins{-2.0, 2.0, 30};
-  std::vector<double> distances;
-  double said = 0.0;
-  for (std::uint64_t n = 0; n < 400; ++n) {
-    const std::vector<std::vector<histogram>> other{groups_around(0.0, 2 * n, bins)};
-    const estimate distance = mean_total_variation(groups_around(0.0, 2 * n + 1, bins), other);
-    distances.push_back(distance.mean);
-    said += distance.standard_error / 400.0;
-  }
-  const double scatter = mean_and_error(distances).standard_error * std::sqrt(400.0);
-  const auto near = boost::test_tools::tolerance(standard_errors(false_alarms / 2) * .04 + .05);
-  BOOST_TEST(scatter == std::sqrt(1.0 - 2.0 / std::numbers::pi) * said, near);
-  BOOST_TEST(scatter != said, near);
-  // The floor itself: that the numbers in a bin are whole, 2.6 and more on average, changes it by 2 % at
-  // most.
-  const double floor = expected_distance(0.0, bins);
-  const double allowed = standard_errors(false_alarms / 2) * scatter / std::sqrt(400.0) + 0.02 * floor;
-  BOOST_TEST(std::abs(mean(distances) - floor) < allowed);
-  BOOST_TEST(std::abs(0.5 * mean(distances) - floor) > allowed);
 }
 
 // Five times three pairs. A mean of n numbers of skewness g is z of its estimated standard errors off more

@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Error measures against their formulas, on states made by hand, and the weights of samples in means over
 // time.
-#include <boost/test/unit_test.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <string_view>
-#include <vector>
-
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 // Means, medians, slopes, tails, Pareto fronts, thresholds, histograms and their distances, against numbers
 // worked out by hand.
-#include <boost/test/unit_test.hpp>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <span>
-#include <vector>
-
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "../support/seeds.hpp"
-#include "../support/statistics.hpp"
 #include "nysalt/noises/counter_based.hpp"
 #include "nysalt/nysalt.hpp"
 
@@ -22,15 +11,10 @@ using namespace nysalt;
 using namespace nysalt::test;
 
 namespace {
+
+using wrong = std::invalid_argument;
 using numbers = std::vector<double>;
 const double no_number = std::nan("");
-
-/// Samples of 1/u^(1/index), u uniform on (0, 1): moments from the order `index` on do not exist.
-numbers pareto(draws& random, double index, int count) {
-  numbers result;
-  for (int i = 0; i < count; ++i) result.push_back(std::pow(random.uniform(0.0, 1.0), -1.0 / index));
-  return result;
-}
 
 using rows = std::vector<error_at>;
 /// 3 x^2 at x = .1, .2, .4, .8, each known to 5 %: it is .3 at x = sqrt(.1), a third of the way from .2 to
@@ -45,6 +29,36 @@ const double share = std::log(where / .2) / std::log(2.0);
 
 using indices = std::vector<std::size_t>;
 indices front(const std::vector<cost_and_error>& all) { return pareto_front(all); }
+
+constexpr equal_bins quarters{0.0, 1.0, 4};
+
+using counts = std::vector<std::int64_t>;
+
+histogram of(const numbers& all, const equal_bins& bins = {-2.0, 2.0, 40}) {
+  histogram result(bins);
+  for (const double x : all) result.add(x);
+  return result;
+}
+counts counts_of(const numbers& all, const equal_bins& bins) {
+  const histogram found = of(all, bins);
+  return {found.counts().begin(), found.counts().end()};
+}
+
+numbers normals(std::size_t n, std::uint64_t number) {
+  numbers result(n);
+  standard_normals(number, {.purpose = noise_purpose::initial_state}, std::span(result));
+  return result;
+}
+
+constexpr equal_bins bins{-2.0, 2.0, 40};
+
+/// Of 4000 normal numbers each, independent of each other.
+std::vector<histogram> ensembles(std::uint64_t count) {
+  std::vector<histogram> result;
+  for (std::uint64_t k = 0; k < count; ++k) result.push_back(of(normals(4000, 100 + k)));
+  return result;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_mean_comes_with_its_error) {
@@ -133,26 +147,6 @@ BOOST_AUTO_TEST_CASE(a_tail_is_what_its_moments_say) {
   }
 }
 
-// Without a variance the skewness of a sample grows like the root of its size, and no size is enough; that of
-// a uniform law is 0, with a standard error of sqrt(6/400) = .12: .8 is beyond six of them.
-BOOST_AUTO_TEST_CASE(a_law_without_variance_is_heavy_at_any_size) {
-  draws random(seed(1));
-  for (const int count : {100, 400, 6400}) {
-    int heavy = 0;
-    int light = 0;
-    for (int k = 0; k < 20; ++k) {
-      heavy += tail_of(pareto(random, 1.2, count)).is_heavy();
-      numbers uniform;
-      for (int i = 0; i < count; ++i) uniform.push_back(random.uniform(0.0, 1.0));
-      light += tail_of(uniform).is_heavy();
-    }
-    BOOST_TEST_CONTEXT(count << " numbers: " << heavy) {
-      BOOST_TEST(20 - heavy <= most_of(20, 0.01, false_alarms / 3));  // each is with a probability above .99
-      BOOST_TEST(light == 0);
-    }
-  }
-}
-
 BOOST_AUTO_TEST_CASE(a_power_law_crosses_where_it_must) {
   const auto found = threshold(power_law(), .3);
   const auto near = boost::test_tools::tolerance(20 * eps);
@@ -210,33 +204,9 @@ BOOST_AUTO_TEST_CASE(what_diverged_is_above_any_level) {
   BOOST_TEST((threshold(exact, .3).kind == crossing_kind::bracketed));
 }
 
-// 4000 measurements of the law: the crossings scatter as they say, known to 1/sqrt(2 x 4000) = 1.1 %; that
-// the logarithm bends at errors of 5 % is (5 %)^2 of it.
-BOOST_AUTO_TEST_CASE(crossings_scatter_as_they_say) {
-  for (const double correlation : {0.0, 1.0}) {
-    double squares = 0.0;
-    double said = 0.0;
-    constexpr int times = 4000;
-    for (std::uint64_t n = 0; n < times; ++n) {
-      rows seen = power_law();
-      std::array<double, 4> normals{};
-      standard_normals(seed(1), {.trajectory = n, .purpose = noise_purpose::initial_state},
-                       std::span<double>(normals));
-      if (correlation == 1.0) normals.fill(normals[0]);
-      for (std::size_t i = 0; i < seen.size(); ++i) seen[i].error += seen[i].standard_error * normals[i];
-      const auto found = threshold(seen, .3, correlation);
-      squares += (found.x - where) * (found.x - where) / times;
-      said += found.standard_error / times;
-    }
-    const auto near = boost::test_tools::tolerance(standard_errors(false_alarms / 2) * .011 + .0025);
-    BOOST_TEST(std::sqrt(squares) == said, near);
-    BOOST_TEST(std::sqrt(squares) != .5 * said, near);
-  }
-}
-
 BOOST_AUTO_TEST_CASE(thresholds_that_cannot_be_are_refused) {
   const auto refused = [](const rows& some, double level, auto... words) {
-    return refuses<std::invalid_argument>([&] { threshold(some, level); }, {words...});
+    return refuses<wrong>([&] { threshold(some, level); }, {words...});
   };
   BOOST_TEST(refused({}, .3, "0 rows"));
   BOOST_TEST(refused(power_law(), 0.0, "level 0"));
@@ -258,61 +228,6 @@ BOOST_AUTO_TEST_CASE(who_costs_more_must_err_less) {
   BOOST_TEST(front({{1.0, NAN}, {NAN, 1.0}, {0.5, INFINITY}, {-INFINITY, 1.0}, {2.0, 2.0}}) == (indices{4}));
   BOOST_TEST(front({{1.0, NAN}}).empty());
 }
-
-// The definition, pair by pair.
-BOOST_AUTO_TEST_CASE(nobody_on_the_front_is_beaten) {
-  draws random;
-  std::vector<cost_and_error> all(200);
-  for (auto& [cost, error] : all) {
-    cost = std::round(random.uniform(0.0, 30.0));  // many ties
-    error = std::round(random.uniform(0.0, 30.0));
-  }
-  indices expected;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto beats = [&, i](const cost_and_error& other) {
-      const bool equal = other.cost == all[i].cost && other.error == all[i].error;
-      return other.cost <= all[i].cost && other.error <= all[i].error && (!equal || &other < &all[i]);
-    };
-    if (std::ranges::none_of(all, beats)) expected.push_back(i);
-  }
-  auto found = front(all);
-  BOOST_TEST(found.size() > 2U);
-  std::ranges::sort(found);
-  BOOST_TEST(found == expected);
-}
-
-namespace {
-
-constexpr equal_bins quarters{0.0, 1.0, 4};
-
-using counts = std::vector<std::int64_t>;
-
-histogram of(const numbers& all, const equal_bins& bins = {-2.0, 2.0, 40}) {
-  histogram result(bins);
-  for (const double x : all) result.add(x);
-  return result;
-}
-counts counts_of(const numbers& all, const equal_bins& bins) {
-  const histogram found = of(all, bins);
-  return {found.counts().begin(), found.counts().end()};
-}
-
-numbers normals(std::size_t n, std::uint64_t number) {
-  numbers result(n);
-  standard_normals(seed(number), {.purpose = noise_purpose::initial_state}, std::span(result));
-  return result;
-}
-
-constexpr equal_bins bins{-2.0, 2.0, 40};
-
-/// Of 4000 normal numbers each, independent of each other.
-std::vector<histogram> ensembles(std::uint64_t count) {
-  std::vector<histogram> result;
-  for (std::uint64_t k = 0; k < count; ++k) result.push_back(of(normals(4000, 100 + k)));
-  return result;
-}
-
-}  // namespace
 
 // An edge belongs to the bin above it, the last one to the last bin, and nothing within leaves by rounding.
 BOOST_AUTO_TEST_CASE(each_number_falls_into_its_bin) {
@@ -342,30 +257,6 @@ BOOST_AUTO_TEST_CASE(the_density_integrates_to_what_is_within) {
   const auto fractions = all.fractions();
   BOOST_TEST(fractions.front() > 0.1);
   BOOST_TEST(integral + fractions.front() + fractions.back() == 1.0, boost::test_tools::tolerance(20 * eps));
-}
-
-// Lane by lane, what one trajectory would give: NaN and what lies outside in other lanes do not matter.
-BOOST_AUTO_TEST_CASE(lanes_count_as_alone) {
-  using T = pack<double, 8>;
-  const equal_bins bins{-1.5, 1.0, 77};
-  histogram_along<T> together(bins);
-  std::vector<histogram> alone(8, histogram(bins));
-  const auto given = normals(8000, 6);
-  for (std::size_t i = 0; i < given.size(); i += 8) {
-    T x(0.0);
-    for (int k = 0; k < 8; ++k) {
-      const double number = given[i + static_cast<std::size_t>(k)];
-      x.set(k, k == 5 ? std::nan("") : number);
-      alone[static_cast<std::size_t>(k)].add(number);
-    }
-    together.add(x);
-  }
-  for (int k = 0; k < 8; ++k) {
-    const auto expected = alone[static_cast<std::size_t>(k)].counts();
-    const auto found = together.in_lane(k).counts();
-    BOOST_TEST(std::equal(found.begin(), found.end(), expected.begin()) == (k != 5));
-    BOOST_TEST(together.in_lane(k).total() == 1000);
-  }
 }
 
 BOOST_AUTO_TEST_CASE(the_distance_by_hand) {
@@ -413,9 +304,7 @@ BOOST_AUTO_TEST_CASE(the_error_of_a_distance_by_hand) {
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_counted_or_compared_is_refused) {
-  const auto refused = [](auto&& action, auto... words) {
-    return refuses<std::invalid_argument>(action, {words...});
-  };
+  const auto refused = [](auto&& action, auto... words) { return refuses<wrong>(action, {words...}); };
   for (const equal_bins& unsound :
        {equal_bins{0.0, 1.0, 0}, equal_bins{0.0, 1.0, 1'000'000}, equal_bins{1.0, 1.0, 4},
         equal_bins{1.0, 0.0, 4}, equal_bins{0.0, no_number, 4}, equal_bins{-INFINITY, 0.0, 4}}) {

@@ -3,12 +3,7 @@
 // Errors of methods along many trajectories, against one reference: with a bath and without one, by one
 // measure and by several. What goes wrong is reported with its trajectory and step, and what cannot be
 // compared is refused.
-#include <boost/test/unit_test.hpp>
-
-#include <array>
 #include <bit>
-#include <string>
-#include <vector>
 
 #include "../support/ranks_as_threads.hpp"
 #include "../support/refusal.hpp"
@@ -455,37 +450,6 @@ BOOST_AUTO_TEST_CASE(diverged_trajectories_are_told_and_left_out) {
   BOOST_TEST(none_left.diverged == 1);
   BOOST_TEST(std::isnan(none_left.error.mean));
   BOOST_TEST(none_left.evaluations_per_time * .05 * steps == 9.0, boost::test_tools::tolerance(8 * eps));
-}
-
-BOOST_AUTO_TEST_CASE(in_a_bath_a_method_that_diverges_is_told_with_its_step) {
-  const trajectory_options options{.step = 1.2, .steps = 200, .trajectories = 3, .seed = 3};
-  for (const auto& method : {by_baoab, by_thirds}) {
-    const auto found = warmed.judged({method, by_halves}, warmed.measures[1], options);
-    BOOST_TEST(found.methods[0].diverged == 3);
-    BOOST_TEST(found.methods[1].diverged == 0);
-    for (const auto& [m, step] : found.methods[0].diverged_at) {
-      const auto trajectory = static_cast<std::uint64_t>(m);
-      const kept_path kept(options, trajectory, 6);
-      const auto alone = integrate(
-          kept.stepper_of(method, options.step), around_zero(3, trajectory), 200, [](auto&&...) {}, 200,
-          trajectory);
-      BOOST_TEST(step == alone.diverged_at.value());
-    }
-  }
-}
-
-// The observable has no value at the method's fifth step, where the state itself is sound.
-BOOST_AUTO_TEST_CASE(an_error_without_a_value_counts_as_diverged) {
-  std::int64_t looks = 0;
-  const auto measure = path_measure(singly, [&](const state&) {
-    ++looks;  // 1 at the start, 10 along the reference and 10 along the finer one, then the method's
-    return looks > 21 + 4 ? NAN : 1.0;
-  });
-  const auto result =
-      judged(law, measure, {.step = .02, .steps = 10, .trajectories = 1}, on_the_chain.reference, singly)
-          .methods[0];
-  BOOST_TEST(result.diverged == 1);
-  BOOST_TEST(result.diverged_at.at(0).step == 5);
 }
 
 BOOST_AUTO_TEST_CASE(a_reference_that_breaks_is_told_of) {

@@ -10,7 +10,6 @@
 #include "nysalt/derivatives/sum_resonance.hpp"
 #include "nysalt/derivatives/transient_growth.hpp"
 #include "nysalt/derivatives/word_on_oscillator.hpp"
-#include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/classical_methods.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
@@ -188,32 +187,6 @@ BOOST_AUTO_TEST_CASE(the_energy_grows_by_rho_times_the_square_of_a_sine) {
   }
 }
 
-// Of Verlet's method rho = z^4/(32 (1 - z^2/4)); the difference of B and C that makes it cancels to a part of
-// z^2.
-BOOST_AUTO_TEST_CASE(of_verlet_it_is_the_closed_form) {
-  for (const double z : {0.1, 0.5, 1.0, 1.9}) {
-    const double closed = std::pow(z, 4) / (32.0 * (1.0 - z * z / 4.0));
-    const double relative = 40.0 * eps / (z * z * (1.0 - z * z / 4.0));
-    BOOST_TEST(std::abs(rho(tabulated(verlet{}), z) - closed) <= relative * closed);
-    BOOST_TEST(std::abs(rho(tabulated(bcss2{}), z) - closed) > relative * closed);
-  }
-  for (const double beyond : {2.0, 2.01}) BOOST_TEST(std::isinf(rho(tabulated(verlet{}), beyond)));
-}
-
-// Exchanging kicks and drifts exchanges omega q and p, up to a sign. B + C is the difference of entries below
-// z + 1/z, each right to some 10 roundings, and 1 - A^2 that of numbers below 1.
-BOOST_AUTO_TEST_CASE(a_word_and_its_velocity_form_err_alike) {
-  const tabulated method(mclachlan2{});
-  for (const double z : {0.4, 1.3, 2.2}) {
-    const auto m = matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
-    const double defect = std::abs(m.qp * z + m.pq / z);
-    const double rotation = 1.0 - m.half_trace() * m.half_trace();
-    const double relative = 40.0 * eps * ((z + 1.0 / z) / defect + 1.0 / rotation);
-    BOOST_TEST(std::abs(rho(method, z) / rho(tabulated(mclachlan2v{}), z) - 1.0) <= relative);
-    BOOST_TEST(std::abs(rho(method, z) / rho(tabulated(bcss2v{}), z) - 1.0) > relative);
-  }
-}
-
 // Against a central difference over 1e-5, which errs by the third derivative, of order one, times 1e-10/6,
 // and by roundings of 1e-15 over 1e-5.
 BOOST_AUTO_TEST_CASE(slopes_are_those_of_the_value) {
@@ -239,7 +212,8 @@ BOOST_AUTO_TEST_CASE(slopes_are_those_of_the_value) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(words_that_are_no_plain_step_are_refused) {
+BOOST_AUTO_TEST_CASE(beyond_the_window_it_is_infinite_and_words_that_are_no_plain_step_are_refused) {
+  for (const double beyond : {2.0, 2.01}) BOOST_TEST(std::isinf(rho(tabulated(verlet{}), beyond)));
   using wrong = std::invalid_argument;
   for (const char* name : {"impulse", "baoab", "takahashi_imada_processed"}) {
     BOOST_TEST(refuses<wrong>([&] { rho(classical_word(name), 0.5); }, {"no rotation", "no processor"}));
@@ -305,29 +279,9 @@ BOOST_AUTO_TEST_CASE(growth_is_that_of_the_eigenvalues_of_a_step) {
     }
   }
   BOOST_TEST(growing > 10);
-}
-
-BOOST_AUTO_TEST_CASE(the_guard_objects_to_a_sum_resonance) {
-  const auto system = two_modes(soft);
-  const std::vector<phase_point<double, 2>> states(
-      3, {vector<double, 2>(0.1, 0.2), vector<double, 2>(0.3, 0.1)});
-  const stability_guard guard(system, states);
-  const double resonance = 2.0 * pi / omega.sum();
-  // (omega_1 + omega_2) h = 2 pi, moved by what the soft force adds to the frequencies.
-  constexpr double step = 1.9415;
-  BOOST_TEST(std::abs(step / resonance - 1.0) < 0.02);
-  BOOST_TEST(growth_of_step(system, run_time_word("SRS"), halves, step) > 0.02);
-  const auto said = guard.objection(run_time_word("SRS"), halves, step);
-  BOOST_TEST(said.find("which soft forces couple") != std::string::npos, said);
-  for (const double part : {0.8, 0.9, 1.15}) {
-    BOOST_TEST(guard.objection(run_time_word("SRS"), halves, part * step) == "");
-  }
-  // Without the coupling there is nothing, and at a difference resonance there is nothing either.
-  const Eigen::Matrix2d apart = soft.diagonal().asDiagonal();
-  BOOST_TEST(stability_guard(two_modes(apart), states).admits(run_time_word("SRS"), halves, step));
-  const double difference = 2.0 * pi / (omega[1] - omega[0]);
-  BOOST_TEST(growth_of_pair(run_time_word("SRS"), halves, difference * omega,
-                            difference * difference * soft) < 1e-6);
+  // At a difference resonance there is nothing.
+  const double h = 2.0 * pi / (omega[1] - omega[0]);
+  BOOST_TEST(growth_of_pair(run_time_word("SRS"), halves, h * omega, h * h * soft) < 1e-6);
 }
 
 // Sixty-four steps turn by z to within z^3/(24 n^2), 0.3 % at 2 pi.

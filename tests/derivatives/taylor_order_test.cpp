@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Orders by Taylor expansion are those that are declared, proved or published, and mistakes lower them. The
-// symplecticity defect judges a step that is a function and one of a black box: methods/step_laws_test.cpp
-// has all methods.
+// Orders by Taylor expansion are those that are declared, proved or published, and mistakes lower them.
 #include "../laws/laws.hpp"
-#include "../support/tableau.hpp"
 #include "nysalt/core.hpp"
 
 using namespace nysalt;
@@ -68,13 +65,6 @@ BOOST_AUTO_TEST_CASE(methods_have_the_order_that_they_declare) {
       }
     }
   }
-}
-
-BOOST_AUTO_TEST_CASE(what_a_quadratic_kinetic_energy_gains) {
-  BOOST_TEST(orders(srkn11b()) == "6 and 4");
-  BOOST_TEST(orders(mclachlan_atela4()) == "4 and 3");
-  BOOST_TEST(orders(srkn6b()) == "4 and 4");
-  BOOST_TEST(orders(tabulated(srkn11b())) == "6 and 4");  // as data
 }
 
 // A change of coordinates makes a method of order 4 of Takahashi and Imada's, not of Verlet's, or with
@@ -158,29 +148,4 @@ BOOST_AUTO_TEST_CASE(an_accident_on_the_oscillator_does_not_count) {
                                  0.5520581660514783, -0.23936270217732913});
   using kick_first_11 = alternating_word<kick, drift, 11>;
   BOOST_TEST(orders(kick_first_11{}, c) == "4 and 4");
-}
-
-// The paper's condition on a21 is what makes the tableau symplectic: 1 % of a21 changes q by 0.01 a21 h^2 =
-// 1e-4 of f(q).
-BOOST_AUTO_TEST_CASE(a_nystrom_tableau_with_another_a21_is_not_symplectic) {
-  draws random;
-  const henon_heiles system;
-  const auto x = random.state(system, 0.25);
-  auto coefficients = tableau::symplectic(0.4, 0.3);
-  const auto step = [&](auto& y) { coefficients.step(system, y, 0.3); };
-  BOOST_TEST(symplecticity_defect(step, x) <= 100.0 * eps);  // some hundred operations of numbers below 2
-  coefficients.a21 *= 1.01;
-  BOOST_TEST(symplecticity_defect(step, x) > 1e-6);
-}
-
-// A black box without a derivative is differentiated by differences: no more can be had than eps^(2/3).
-BOOST_AUTO_TEST_CASE(a_black_box_is_symplectic_up_to_its_differences) {
-  draws random;
-  const black_box system;
-  for (int n = 0; n < 20; ++n) {
-    const member<nystrom> method({random.uniform(0.2, 0.8), random.uniform(0.1, 0.4)});
-    // Two derivatives with an error of 2 eps^(2/3) each, times h c, and J is below 2.
-    BOOST_TEST(symplecticity_defect(system, method, 0.25, random.state(system, 1.0)) <=
-               8.0 * std::pow(eps, 2.0 / 3.0));
-  }
 }

@@ -41,87 +41,6 @@ Eigen::Matrix4d kick_of_chance(std::uint64_t seed, double by) {
   return m;
 }
 
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(opposite_signatures_meet_where_the_sum_of_two_angles_is_a_whole_turn) {
-  const auto met = spectrum_of(turned_by(1.0, 2.0 * pi - 1.0));
-  BOOST_TEST(met.growth <= 16.0 * eps);
-  BOOST_TEST(met.krein_distance <= 16.0 * eps);
-  // The first turns by 1.0, the second by 1.0 short of a whole turn and 0.01 more.
-  const auto near = spectrum_of(turned_by(1.0, 2.0 * pi - 0.99));
-  BOOST_TEST(std::abs(near.krein_distance - 0.01) <= 64.0 * eps);
-  // The difference of angles is a whole turn: of like signature. Of opposite signature are +-1, 2 apart.
-  const auto like = spectrum_of(turned_by(1.0, 1.0));
-  BOOST_TEST(like.growth <= 16.0 * eps);
-  BOOST_TEST(std::abs(like.krein_distance - 2.0) <= 64.0 * eps);
-}
-
-// The theorem of Krein, Gelfand and Lidskii: perturbations of any small size.
-BOOST_AUTO_TEST_CASE(a_small_kick_makes_only_a_meeting_of_opposite_signatures_unstable) {
-  int grown = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const auto kick = kick_of_chance(seed, 1e-3);
-    // Diagonal entries shift the angles, and the pair is moved to where they meet again.
-    const double shift = -0.5 * (kick(2, 0) + kick(3, 1));
-    const auto opposite = spectrum_of(kick * turned_by(1.0, 2.0 * pi - 1.0 - shift));
-    grown += opposite.growth > 1e-4 ? 1 : 0;  // a coupling of 1e-3 or more grows by some half of it
-    const auto like = spectrum_of(kick * turned_by(1.0, 1.0));
-    BOOST_TEST(like.growth <= 1e-12);  // rounding, by the condition of nearly equal eigenvalues
-    BOOST_TEST(like.krein_distance > 1.9);
-  }
-  BOOST_TEST(grown == 20);
-}
-
-BOOST_AUTO_TEST_CASE(a_step_off_the_circle_has_its_growth_and_no_distance) {
-  Eigen::Matrix2d stretched;
-  stretched << 2.0, 0.0, 0.0, 0.5;
-  const auto spectrum = spectrum_of(stretched);
-  BOOST_TEST(std::abs(spectrum.growth - std::log(2.0)) <= 4.0 * eps);
-  BOOST_TEST(spectrum.krein_distance == 0.0);
-  BOOST_TEST(!spectrum.is_on_circle());
-  const auto turned = spectrum_of(-stretched);  // the phase is that of the multiplier
-  BOOST_TEST(std::abs(std::abs(turned.first) - pi) <= 4.0 * eps);
-  BOOST_TEST(turned.second == turned.first);
-  BOOST_TEST(spectrum_of(turned_by(1.0, 2.0)).is_on_circle());
-  Eigen::Matrix2d shear;  // both eigenvalues 1, with one vector
-  shear << 1.0, 1.0, 0.0, 1.0;
-  BOOST_TEST(spectrum_of(shear).krein_distance <= 1e-6);
-  BOOST_TEST(!(spectrum_of(turned_by(1.0, 2.0)).krein_distance <= 1e-6));
-  const auto none = spectrum_of(Eigen::MatrixXd(0, 0));  // a step so small that no mode turns
-  BOOST_TEST((none.growth == 0.0 && none.krein_distance == pi));
-  BOOST_TEST(refuses<std::invalid_argument>([] { spectrum_of(Eigen::MatrixXd::Identity(3, 3)); },
-                                            {"even number of rows", "got 3 rows"}));
-}
-
-BOOST_AUTO_TEST_CASE(powers_of_two_show_the_largest_power) {
-  constexpr std::int64_t steps = 4096;
-  int large = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const double apart = 0.05 * static_cast<double>(seed) / 20.0;
-    const Eigen::Matrix4d m = kick_of_chance(seed, 0.005) * turned_by(1.0, 2.0 * pi - 1.0 + apart);
-    double largest = 1.0;
-    Eigen::Matrix4d power = m;
-    for (std::int64_t n = 1; n <= steps; ++n) {
-      largest = std::max(largest, spectral_norm(power));
-      power = (power * m).eval();
-    }
-    const double found = largest_power(m, steps);
-    if (largest >= 1e6) {
-      BOOST_TEST(std::isinf(found));
-      continue;
-    }
-    BOOST_TEST(found <= largest * (1.0 + 1e-9));
-    BOOST_TEST(found >= largest * 0.5 * std::numbers::sqrt3 * 0.95);  // single phases beside the difference
-    large += largest > 2.0 ? 1 : 0;
-  }
-  BOOST_TEST(large >= 2);
-  // Fewer steps than the difference of phases needs do not show it.
-  const Eigen::Matrix4d slow = kick_of_chance(1, 1e-3) * turned_by(1.0, 2.0 * pi - 1.0 + 0.0002);
-  BOOST_TEST(largest_power(slow, 4) < 1.05);
-}
-
-namespace {
-
 /// V = q K q/2 + w sum q_i^4/4.
 struct springs {
   static constexpr int dimension = Eigen::Dynamic;
@@ -223,7 +142,113 @@ struct examined {
   }
 };
 
+/// Two frequencies whose sum and difference are whole turns at steps where neither is half a turn alone.
+two_parts pair_of_other_ratio(double coupling) {
+  const Eigen::Vector2d squares(10.0 * 10.0, 5.5 * 5.5);
+  return two_parts(springs{squares.asDiagonal()},
+                   springs{coupling * Eigen::Matrix2d{{1.0, 1.0}, {1.0, 1.0}}});
+}
+
+/// The step in a range at which the two modes, each a block of M but for the coupling, turn by angles of the
+/// same cosine.
+double step_where_cosines_meet(const examined& pair, double low, double high) {
+  const auto apart = [&](double h) {
+    const Eigen::MatrixXd m = pair.step(h);
+    return m(0, 0) + m(2, 2) - m(1, 1) - m(3, 3);
+  };
+  const bool rises = apart(low) < 0.0;
+  BOOST_REQUIRE(rises != (apart(high) < 0.0));
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((apart(middle) < 0.0) == rises ? low : high) = middle;
+  }
+  return low;
+}
+
+/// The least difference in phase of any two eigenvalues, whatever their signatures.
+double closest_phases(const Eigen::MatrixXd& m) {
+  const Eigen::VectorXcd values = eigenvalues(m);
+  double closest = pi;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j)
+      closest = std::min(closest, std::abs(std::arg(values[i] / values[j])));
+  }
+  return closest;
+}
+
+/// A letter that is neither a drift nor a kick: half a turn of q_0 and p_0.
+struct turn : exact_flow<'t'> {
+  template <System S, class State, class C>
+  static void apply(const S&, const C& t, State& x, auto&) {
+    using std::cos, std::sin;
+    const auto q = x.q[0];
+    x.q[0] = q * cos(t) + x.p[0] * sin(t);
+    x.p[0] = x.p[0] * cos(t) - q * sin(t);
+  }
+};
+
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(opposite_signatures_meet_where_the_sum_of_two_angles_is_a_whole_turn) {
+  const auto met = spectrum_of(turned_by(1.0, 2.0 * pi - 1.0));
+  BOOST_TEST(met.growth <= 16.0 * eps);
+  BOOST_TEST(met.krein_distance <= 16.0 * eps);
+  // The first turns by 1.0, the second by 1.0 short of a whole turn and 0.01 more.
+  const auto near = spectrum_of(turned_by(1.0, 2.0 * pi - 0.99));
+  BOOST_TEST(std::abs(near.krein_distance - 0.01) <= 64.0 * eps);
+  // The difference of angles is a whole turn: of like signature. Of opposite signature are +-1, 2 apart.
+  const auto like = spectrum_of(turned_by(1.0, 1.0));
+  BOOST_TEST(like.growth <= 16.0 * eps);
+  BOOST_TEST(std::abs(like.krein_distance - 2.0) <= 64.0 * eps);
+}
+
+BOOST_AUTO_TEST_CASE(a_step_off_the_circle_has_its_growth_and_no_distance) {
+  Eigen::Matrix2d stretched;
+  stretched << 2.0, 0.0, 0.0, 0.5;
+  const auto spectrum = spectrum_of(stretched);
+  BOOST_TEST(std::abs(spectrum.growth - std::log(2.0)) <= 4.0 * eps);
+  BOOST_TEST(spectrum.krein_distance == 0.0);
+  BOOST_TEST(!spectrum.is_on_circle());
+  const auto turned = spectrum_of(-stretched);  // the phase is that of the multiplier
+  BOOST_TEST(std::abs(std::abs(turned.first) - pi) <= 4.0 * eps);
+  BOOST_TEST(turned.second == turned.first);
+  BOOST_TEST(spectrum_of(turned_by(1.0, 2.0)).is_on_circle());
+  Eigen::Matrix2d shear;  // both eigenvalues 1, with one vector
+  shear << 1.0, 1.0, 0.0, 1.0;
+  BOOST_TEST(spectrum_of(shear).krein_distance <= 1e-6);
+  BOOST_TEST(!(spectrum_of(turned_by(1.0, 2.0)).krein_distance <= 1e-6));
+  const auto none = spectrum_of(Eigen::MatrixXd(0, 0));  // a step so small that no mode turns
+  BOOST_TEST((none.growth == 0.0 && none.krein_distance == pi));
+  BOOST_TEST(refuses<std::invalid_argument>([] { spectrum_of(Eigen::MatrixXd::Identity(3, 3)); },
+                                            {"even number of rows", "got 3 rows"}));
+}
+
+BOOST_AUTO_TEST_CASE(powers_of_two_show_the_largest_power) {
+  constexpr std::int64_t steps = 4096;
+  int large = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const double apart = 0.05 * static_cast<double>(seed) / 20.0;
+    const Eigen::Matrix4d m = kick_of_chance(seed, 0.005) * turned_by(1.0, 2.0 * pi - 1.0 + apart);
+    double largest = 1.0;
+    Eigen::Matrix4d power = m;
+    for (std::int64_t n = 1; n <= steps; ++n) {
+      largest = std::max(largest, spectral_norm(power));
+      power = (power * m).eval();
+    }
+    const double found = largest_power(m, steps);
+    if (largest >= 1e6) {
+      BOOST_TEST(std::isinf(found));
+      continue;
+    }
+    BOOST_TEST(found <= largest * (1.0 + 1e-9));
+    BOOST_TEST(found >= largest * 0.5 * std::numbers::sqrt3 * 0.95);  // single phases beside the difference
+    large += largest > 2.0 ? 1 : 0;
+  }
+  BOOST_TEST(large >= 2);
+  // Fewer steps than the difference of phases needs do not show it.
+  const Eigen::Matrix4d slow = kick_of_chance(1, 1e-3) * turned_by(1.0, 2.0 * pi - 1.0 + 0.0002);
+  BOOST_TEST(largest_power(slow, 4) < 1.05);
+}
 
 // Hessians of the parts do not commute; of a linear system the letters' product is the step itself.
 BOOST_AUTO_TEST_CASE(the_product_of_linearised_letters_has_the_eigenvalues_of_a_step) {
@@ -269,44 +294,6 @@ BOOST_AUTO_TEST_CASE(the_guard_refuses_a_tongue_and_what_grows_beside_it_and_adm
     BOOST_TEST(pair.objection(h).empty());
   }
 }
-
-namespace {
-
-/// Two frequencies whose sum and difference are whole turns at steps where neither is half a turn alone.
-two_parts pair_of_other_ratio(double coupling) {
-  const Eigen::Vector2d squares(10.0 * 10.0, 5.5 * 5.5);
-  return two_parts(springs{squares.asDiagonal()},
-                   springs{coupling * Eigen::Matrix2d{{1.0, 1.0}, {1.0, 1.0}}});
-}
-
-/// The step in a range at which the two modes, each a block of M but for the coupling, turn by angles of the
-/// same cosine.
-double step_where_cosines_meet(const examined& pair, double low, double high) {
-  const auto apart = [&](double h) {
-    const Eigen::MatrixXd m = pair.step(h);
-    return m(0, 0) + m(2, 2) - m(1, 1) - m(3, 3);
-  };
-  const bool rises = apart(low) < 0.0;
-  BOOST_REQUIRE(rises != (apart(high) < 0.0));
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    ((apart(middle) < 0.0) == rises ? low : high) = middle;
-  }
-  return low;
-}
-
-/// The least difference in phase of any two eigenvalues, whatever their signatures.
-double closest_phases(const Eigen::MatrixXd& m) {
-  const Eigen::VectorXcd values = eigenvalues(m);
-  double closest = pi;
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    for (Eigen::Index j = 0; j < i; ++j)
-      closest = std::min(closest, std::abs(std::arg(values[i] / values[j])));
-  }
-  return closest;
-}
-
-}  // namespace
 
 // Angles that differ by a whole turn meet too, but with like signatures: a coupling of any small size parts
 // them along the circle. Where angles sum up to a whole turn the same coupling moves them off it.
@@ -417,21 +404,6 @@ BOOST_AUTO_TEST_CASE(states_that_lie_far_apart_have_no_mean_of_however_many_coor
     }
   }
 }
-
-namespace {
-
-/// A letter that is neither a drift nor a kick: half a turn of q_0 and p_0.
-struct turn : exact_flow<'t'> {
-  template <System S, class State, class C>
-  static void apply(const S&, const C& t, State& x, auto&) {
-    using std::cos, std::sin;
-    const auto q = x.q[0];
-    x.q[0] = q * cos(t) + x.p[0] * sin(t);
-    x.p[0] = x.p[0] * cos(t) - q * sin(t);
-  }
-};
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(what_is_not_analysed_is_said_and_admitted) {
   const examined pair(pair_coupled_by(0.5));

@@ -2,12 +2,6 @@
 // Families are what the concept asks for, their classical members are those methods, of every family that can
 // turn the oscillator exactly there is a member that does, and the two-stage family is the tableau of its
 // paper.
-#include <boost/test/unit_test.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "../laws/laws.hpp"
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
@@ -222,27 +216,6 @@ BOOST_AUTO_TEST_CASE(the_word_of_nystrom_is_the_tableau_of_its_paper) {
   check(henon_heiles(), 0.25);
   check(fpu_chain<>(2, 7.0), 0.5);
   check(black_box(), 1.0);
-}
-
-BOOST_AUTO_TEST_CASE(verlet_and_mclachlan_are_members_of_nystrom) {
-  const pendulum system;
-  draws random;
-  const auto x = random.state(system, 1.0);
-  const auto after = [&](const auto& method) {
-    auto y = x;
-    step_map(system, method, 0.3)(y);
-    return y;
-  };
-  const auto member_at = [](double b1, double beta1) { return member<nystrom>({b1, beta1}); };
-  // Ten operations on numbers of size 1.
-  BOOST_TEST(distance(after(member_at(0.5, 0.5)), after(verlet())) <= 10.0 * eps);
-  BOOST_TEST(distance(after(member_at(2.0 / 3.0, 1.0 / 3.0)), after(verlet_aba())) <= 10.0 * eps);
-  BOOST_TEST(distance(after(member<nystrom>(nystrom::start())), after(mclachlan2())) <= 10.0 * eps);
-  BOOST_TEST(distance(after(member_at(0.5, 0.4)), after(mclachlan2())) > 1e-6);
-  auto halves = x;  // (1/2, 3/8): two half steps of drift-kick-drift
-  step_map(system, verlet_aba(), 0.15)(halves);
-  step_map(system, verlet_aba(), 0.15)(halves);
-  BOOST_TEST(distance(after(member_at(0.5, 0.375)), halves) <= 20.0 * eps);
 }
 
 BOOST_AUTO_TEST_CASE(out_of_range_is_said_with_the_parameters_name) {

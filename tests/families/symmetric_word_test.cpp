@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 // Families of words as data: of any palindrome of letters, symmetric, with coefficients that add up to one
 // for each part of H, and equal steps to begin with.
-#include <boost/test/unit_test.hpp>
-
-#include <array>
 #include <map>
-#include <random>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "../support/refusal.hpp"
-#include "nysalt/derivatives/taylor_order.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/families/bab.hpp"
 #include "nysalt/methods/r_respa.hpp"
@@ -110,21 +102,6 @@ BOOST_AUTO_TEST_CASE(a_start_is_made_of_equal_steps) {
   BOOST_TEST(family_of("kA0Ak").parameters() == 1);
   BOOST_TEST(family_of("kA0A0A0Ak").parameter_names == (std::vector<std::string>{"01", "A1", "02"}),
              boost::test_tools::per_element());
-}
-
-BOOST_AUTO_TEST_CASE(members_have_order_two) {
-  std::mt19937 random(2);
-  for (const std::string letters : {"ABABA", "BABABAB", "ABABABABABA"}) {
-    const auto family = symmetric_word("tried", run_time_word(letters), letters);
-    Eigen::VectorXd theta = family.starts.front().theta;
-    for (double& x : theta) x += 0.1 * static_cast<double>(random() % 7);
-    const tabulated method("tried", family.letters, family.coefficients(theta), {2, true, false});
-    BOOST_TEST(taylor_order(method).any_kinetic == 2);
-    auto off = family.coefficients(theta);
-    off.front() += 0.01;
-    off.back() -= 0.01;  // the sum stays, the symmetry goes
-    BOOST_TEST(taylor_order(tabulated("off", family.letters, off, {2, true, false})).any_kinetic == 1);
-  }
 }
 
 BOOST_AUTO_TEST_CASE(other_words_are_refused) {

@@ -4,7 +4,6 @@
 #include "nysalt/learning/curvature.hpp"
 
 #include <Eigen/LU>
-#include <boost/test/unit_test.hpp>
 
 #include "../support/draws.hpp"
 #include "../support/losses.hpp"
@@ -47,6 +46,31 @@ Eigen::Matrix2d exact_in_units(const Eigen::Vector2d& x) {
   const Eigen::Matrix2d of_second{{-std::sin(x[0]) * (std::sin(x[0]) + x[1] - 1.0), mixed},
                                   {mixed, std::exp(x[1]) * (std::exp(x[1]) - 2.0)}};
   return 2.0 * (in_units(Eigen::Vector2d::Ones(), x).normal_matrix + of_second);
+}
+
+struct small_block {
+  bool accepted;
+  Eigen::VectorXd r;
+  Eigen::MatrixXd j;
+};
+small_block compress(const squares& all, bool with_jacobian = true) {
+  using rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Index count = all.half_gradient.size();
+  const compressed_cost cost([&](const Eigen::VectorXd&) { return all; },
+                             [](const Eigen::VectorXd&) { return true; }, static_cast<int>(count));
+  const Eigen::VectorXd theta = Eigen::VectorXd::Zero(count);
+  const double* at = theta.data();
+  Eigen::VectorXd r(count + 1);
+  rows j = rows::Zero(count + 1, count);
+  double* slopes = j.data();
+  const bool accepted = cost.Evaluate(&at, r.data(), with_jacobian ? &slopes : nullptr);
+  return {accepted, r, j};
+}
+
+Eigen::MatrixXd random_matrix(draws& random, Eigen::Index rows, Eigen::Index columns) {
+  Eigen::MatrixXd result(rows, columns);
+  for (auto& x : result.reshaped()) x = random.uniform(-1.0, 1.0);
+  return result;
 }
 
 }  // namespace
@@ -149,54 +173,6 @@ BOOST_AUTO_TEST_CASE(others_count_about_their_mean_as_one_among_the_blocks) {
   BOOST_TEST(bend.spread(few, std::vector{score(5.0)}).standard_errors[0] == alone.standard_errors[0]);
 }
 
-// Of a line through the origin, y = x e with x = exp(.75 n), so that few blocks of sixty decide: at the
-// minimum their residuals are small, as it has gone to them. Each ratio is known to 2 %.
-BOOST_AUTO_TEST_CASE(others_show_the_scatter_that_the_blocks_of_a_fit_hide) {
-  constexpr int repetitions = 1500;
-  constexpr int blocks = 60;
-  draws random;
-  const auto normal = [&] {
-    double sum = -6.0;  // of twelve, of variance 1/12 each
-    for (int k = 0; k < 12; ++k) sum += random.uniform(0.0, 1.0);
-    return sum;
-  };
-  double scatter = 0.0;
-  double with_others = 0.0;
-  double by_fit_alone = 0.0;
-  for (int n = 0; n < repetitions; ++n) {
-    std::array<std::vector<std::array<double, 2>>, 2> sets;
-    for (auto& set : sets) {
-      for (int b = 0; b < blocks; ++b) {
-        const double x = std::exp(0.75 * normal());
-        set.push_back({x, x * normal()});
-      }
-    }
-    double xx = 0.0;
-    double xy = 0.0;
-    for (const auto& [x, y] : sets[0]) {
-      xx += x * x;
-      xy += x * y;
-    }
-    const double slope = xy / xx;
-    const auto scores_of = [&](const auto& set) {
-      std::vector<Eigen::VectorXd> scores;
-      for (const auto& [x, y] : set)
-        scores.push_back(Eigen::VectorXd::Constant(1, 2.0 * x * (slope * x - y)));
-      return scores;
-    };
-    const curvature bend(Eigen::MatrixXd::Constant(1, 1, 2.0 * xx), {0});
-    const auto alone = scores_of(sets[0]);
-    scatter += slope * slope;
-    with_others += std::pow(bend.spread(alone, scores_of(sets[1])).standard_errors[0], 2);
-    by_fit_alone += std::pow(standard_errors_of(bend, alone)[0], 2);
-  }
-  BOOST_TEST_MESSAGE("scatter over error: " << std::sqrt(scatter / with_others) << ", by the fit alone "
-                                            << std::sqrt(scatter / by_fit_alone));
-  BOOST_TEST(std::sqrt(scatter / with_others) < 1.0);
-  BOOST_TEST(std::sqrt(scatter / with_others) > 0.75);
-  BOOST_TEST(std::sqrt(scatter / by_fit_alone) > 1.1);
-}
-
 // C is infinite along the valley and H zero: what is across it counts alone.
 BOOST_AUTO_TEST_CASE(the_expected_excess_is_finite_on_a_flat_direction) {
   const Eigen::Vector2d along = Eigen::Vector2d(2.0, 1.0) / std::sqrt(5.0);
@@ -217,35 +193,6 @@ BOOST_AUTO_TEST_CASE(where_one_trajectory_outweighs_the_rest_it_alone_decides) {
   BOOST_TEST(bend.deciding_blocks(scores) == 10019.0 * 10019.0 / 100'000'019.0,
              boost::test_tools::tolerance(1e-12));
 }
-
-namespace {
-
-struct small_block {
-  bool accepted;
-  Eigen::VectorXd r;
-  Eigen::MatrixXd j;
-};
-small_block compress(const squares& all, bool with_jacobian = true) {
-  using rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Index count = all.half_gradient.size();
-  const compressed_cost cost([&](const Eigen::VectorXd&) { return all; },
-                             [](const Eigen::VectorXd&) { return true; }, static_cast<int>(count));
-  const Eigen::VectorXd theta = Eigen::VectorXd::Zero(count);
-  const double* at = theta.data();
-  Eigen::VectorXd r(count + 1);
-  rows j = rows::Zero(count + 1, count);
-  double* slopes = j.data();
-  const bool accepted = cost.Evaluate(&at, r.data(), with_jacobian ? &slopes : nullptr);
-  return {accepted, r, j};
-}
-
-Eigen::MatrixXd random_matrix(draws& random, Eigen::Index rows, Eigen::Index columns) {
-  Eigen::MatrixXd result(rows, columns);
-  for (auto& x : result.reshaped()) x = random.uniform(-1.0, 1.0);
-  return result;
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(a_small_block_has_loss_gradient_and_normal_matrix_of_the_large_one) {
   draws random;

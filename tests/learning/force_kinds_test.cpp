@@ -2,8 +2,6 @@
 // Compiled at -O0, where it runs for 4.6 s: -O1 would take longer to compile than it saves.
 // However a person writes the force, and in whatever units, the same is learned; and the summary says where
 // derivatives came from.
-#include <boost/test/unit_test.hpp>
-
 #include "../support/black_box_in_units.hpp"
 #include "../support/dense.hpp"
 #include "../support/learned.hpp"
@@ -69,6 +67,20 @@ double allowed(const flow_map_data& data, const parameters_of<nystrom>& theta, d
 
 double distance_of(const fit& a, const fit& b) { return (a.theta - b.theta).cwiseAbs().maxCoeff(); }
 
+/// Learned of data in some units, with a mistake in the first coordinate's force if the factor is not 1.
+template <class S>
+Eigen::VectorXd learned_for(const run_time_family& family, const units& scales, double factor = 1.0) {
+  S system;
+  system.scales = scales;
+  S wrong = system;
+  wrong.first_factor = factor;
+  const double h = 0.6 * scales.time;
+  const data_sets sets(system, starts_in_units<2>(system), fine_steps<>(h / 32.0),
+                       {.step = h, .horizon = 4.0 * h, .trajectories = 10});
+  // The optimum itself.
+  return sets.learned(family, wrong, {.random_starts = 2, .guarded = false, .planned_steps = 300}).theta;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_same_is_learned_however_the_force_is_written) {
@@ -99,6 +111,9 @@ BOOST_AUTO_TEST_CASE(the_same_is_learned_however_the_force_is_written) {
   BOOST_TEST(boxed.summary.full().find("central differences of the force") != std::string::npos);
 }
 
+static_assert(!force_may_be_wrong<by_potential>);
+static_assert(force_may_be_wrong<by_force> && force_may_be_wrong<by_black_box>);
+
 // It learns something all the same, and nothing else would tell.
 BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused_unless_asked_otherwise) {
   by_black_box_with_derivative wrong;
@@ -113,61 +128,6 @@ BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused_unless_asked_otherwise) 
   wrong.strength = 1.0;
   BOOST_TEST(fitted(quick).summary.usable);
 }
-
-/// With a force of its own, off by one in a hundred.
-struct with_wrong_force : by_potential {
-  template <class T>
-  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
-    by_force other;
-    other.strength = 1.01;
-    other.force(q, f);
-  }
-};
-
-BOOST_AUTO_TEST_CASE(what_may_be_wrong_is_checked_at_states_of_the_data) {
-  static_assert(!force_may_be_wrong<by_potential>);
-  static_assert(force_may_be_wrong<by_force> && force_may_be_wrong<by_black_box>);
-  static_assert(force_may_be_wrong<with_wrong_force>);
-  auto data = pendulums().data;
-  BOOST_CHECK_NO_THROW(require_sound_force(by_force(), data));
-  BOOST_CHECK_NO_THROW(require_sound_force(by_black_box(), data));
-  const auto refused = [&](std::initializer_list<std::string_view> words) {
-    return refuses<std::invalid_argument>([&] { require_sound_force(with_wrong_force(), data); }, words);
-  };
-  BOOST_TEST(refused({"the force is not -grad V", "coordinate 1", "check its sign"}));
-  data.start.resize(1);  // one state is enough
-  data.first_of = {0, 1};
-  BOOST_TEST(refused({"the force is not -grad V"}));
-}
-
-BOOST_AUTO_TEST_CASE(a_family_whose_letters_the_system_does_not_serve_is_refused) {
-  const auto refused = [](const auto& system) {
-    return refuses<std::invalid_argument>([&] { pendulums().learned(run_time_family(r_fg4()), system); },
-                                          {"RSRHRSR", describe(system), "quadratic part"});
-  };
-  BOOST_TEST(refused(exact));
-  BOOST_TEST(refused(by_black_box()));
-  // Gradient kicks ask for f'(q) v alone, which a black box has by differences.
-  BOOST_TEST(pendulums().learned(run_time_family(fg4()), by_black_box(), quick).summary.usable);
-}
-
-namespace {
-
-/// Learned of data in some units, with a mistake in the first coordinate's force if the factor is not 1.
-template <class S>
-Eigen::VectorXd learned_for(const run_time_family& family, const units& scales, double factor = 1.0) {
-  S system;
-  system.scales = scales;
-  S wrong = system;
-  wrong.first_factor = factor;
-  const double h = 0.6 * scales.time;
-  const data_sets sets(system, starts_in_units<2>(system), fine_steps<>(h / 32.0),
-                       {.step = h, .horizon = 4.0 * h, .trajectories = 10});
-  // The optimum itself.
-  return sets.learned(family, wrong, {.random_starts = 2, .guarded = false, .planned_steps = 300}).theta;
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(of_a_black_box_theta_is_the_same_in_all_units) {
   const run_time_family family{fg_chin()};

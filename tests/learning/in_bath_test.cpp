@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O1: 6 s at -O0, 0.6 s at -O1.
-// In a bath the learner finds the member that made the data, from their noise, and no other way; and on the
-// damped oscillator the optimum of docs/theory-langevin-optimum.md.
-#include <boost/test/unit_test.hpp>
-
+// In a bath data are of a noise, and held-out data of another; and on the damped oscillator the learner finds
+// the optimum of docs/theory-langevin-optimum.md. That a member has no loss on its own data, with their noise
+// and no other: losses/after_steps_test.cpp.
 #include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/langevin.hpp"
@@ -28,96 +27,9 @@ constexpr double h = 0.5;
 const galaxy warm(henon_heiles(), bath::of_sigma(0.7, 0.1));
 const auto starts = around_rest<2>(0.1, 0.2);
 
-data_sets followed(const auto& reference, std::uint64_t seed = 1) {
-  return {warm,
-          starts,
-          reference,
-          {.step = h, .horizon = 2.5, .trajectories = 30, .seed = seed, .noise_parts = 2}};
-}
 fit fit_to(const data_sets& sets, const galaxy& system = warm) {
   return sets.learned(bathed_stages, system, {.planned_steps = 1000});
 }
-
-/// How far theta can be off where the minimum is zero but for rounding: residuals of some 40 roundings, in
-/// units of increments of .1 or more, over the least singular value of the Jacobian.
-double recovery_error(const data_sets& sets, const parameters& theta) {
-  const metric measure(warm, sets.data, coordinates::qp);
-  const one_step<family> loss(warm, sets.data, measure);
-  const symmetric_eigen of_loss(hessian(loss, theta));
-  return std::sqrt(4.0) * 40.0 * eps / 0.1 / std::sqrt(0.5 * of_loss.values[0]);
-}
-
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(a_member_that_made_the_data_is_recovered) {
-  draws random;
-  for (int n = 0; n < 3; ++n) {
-    const parameters theta{random.uniform(0.35, 0.6), random.uniform(0.25, 0.5)};
-    const auto made = [&](std::uint64_t seed) {
-      return made_by_steps(warm, starts, member<family>(theta), {.step = h, .steps = 5, .seed = seed});
-    };
-    data_sets sets(made(1), made(2));
-    const auto distance_of = [&](const fit& found) {
-      return (found.theta - column_of(theta)).cwiseAbs().maxCoeff();
-    };
-    const auto fit = fit_to(sets);
-    BOOST_TEST_CONTEXT("b1 = " << theta[0] << ", beta1 = " << theta[1] << "\n" << fit.summary.full()) {
-      const double allowed = recovery_error(sets, theta);
-      BOOST_TEST(distance_of(fit) <= allowed);
-      BOOST_TEST(fit.summary.family == "nystrom_symmetric");
-      // With the noise of the next pairs nothing is to be recovered.
-      const vector_list noise = sets.data.noise;
-      for (std::size_t n = 0; n < noise.size(); ++n) sets.data.noise[n] = noise[(n + 2) % noise.size()];
-      BOOST_TEST(distance_of(fit_to(sets)) > 1e3 * allowed);
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(whatever_makes_the_paths_the_same_is_learned) {
-  const auto by_baoab = fit_to(followed(fine_paths(2.5e-3)));
-  const auto by_aboba = fit_to(followed(fine_paths(2.5e-3, aboba())));
-  const auto by_finer = fit_to(followed(fine_paths(2.5e-3).finer()));
-  const auto by_other_seed = fit_to(followed(fine_paths(2.5e-3), 3));
-  const auto off = [&](const auto& fit) { return (fit.theta - by_baoab.theta).cwiseAbs().maxCoeff(); };
-  BOOST_TEST_CONTEXT(by_baoab.summary.full()) {
-    // The generators' errors, sigma h/sqrt(12) = 7e-5 at time 1, are a hundred times below those of a step,
-    // and of either sign; other paths move theta by as much as thirty of them leave open.
-    BOOST_TEST(off(by_aboba) <= 0.05 * off(by_other_seed));
-    BOOST_TEST(off(by_finer) <= 0.05 * off(by_other_seed));
-    BOOST_TEST(off(by_other_seed) <= 0.1);
-    BOOST_TEST(by_baoab.summary.reference_checked);
-    BOOST_TEST(by_baoab.summary.reference_error < 0.05 * by_baoab.summary.one_step_error);
-    BOOST_TEST(by_baoab.summary.reference == "baoab with step 0.0025");
-  }
-}
-
-BOOST_AUTO_TEST_CASE(held_out_data_are_new_if_starts_or_noise_are) {
-  const listed<2> same({starts(1, 0), starts(1, 1), starts(1, 2)});
-  const auto with = [&](std::uint64_t seed, int parts) {
-    return made_by_steps(warm, same, member<family>({0.45, 0.38}),
-                         {.step = h, .trajectories = 3, .seed = seed, .parts = parts});
-  };
-  const auto is_new = [&](const auto& held_out) {
-    return fit_to({with(1, 2), held_out}).summary.held_out_is_new;
-  };
-  BOOST_TEST(is_new(with(2, 2)));
-  BOOST_TEST(!is_new(with(1, 2)));
-  BOOST_TEST(!is_new(with(1, 4)));  // the data do not show it
-}
-
-BOOST_AUTO_TEST_CASE(data_that_do_not_fit_the_bath_are_refused) {
-  const auto sets = followed(fine_paths(0.025));
-  const galaxy warmer(henon_heiles(), bath::of_sigma(0.7, 0.2));
-  BOOST_TEST(refuses<wrong>([&] { fit_to(sets, warmer); }, {"sigma=0.1", "sigma=0.2"}));
-  auto without = sets;
-  for (auto* data : {&without.held_out, &without.data}) {
-    data->noise.clear();
-    data->noise_parts = 0;
-    BOOST_TEST(refuses<wrong>([&] { fit_to(without); }, {"got 0", "noise_parts = 2"}));
-  }
-}
-
-namespace {
 
 constexpr double omega = 3.0;
 
@@ -166,6 +78,30 @@ fitted_parameter of_paths(placement where, double g, double z) {
 }
 
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(held_out_data_are_new_if_starts_or_noise_are_and_both_are_of_the_bath) {
+  const listed<2> same({starts(1, 0), starts(1, 1), starts(1, 2)});
+  const auto with = [&](std::uint64_t seed, int parts) {
+    return made_by_steps(warm, same, member<family>({0.45, 0.38}),
+                         {.step = h, .trajectories = 3, .seed = seed, .parts = parts});
+  };
+  const auto is_new = [&](const auto& held_out) {
+    return fit_to({with(1, 2), held_out}).summary.held_out_is_new;
+  };
+  BOOST_TEST(is_new(with(2, 2)));
+  BOOST_TEST(!is_new(with(1, 2)));
+  BOOST_TEST(!is_new(with(1, 4)));  // the data do not show it
+
+  const data_sets sets(with(1, 2), with(2, 2));
+  const galaxy warmer(henon_heiles(), bath::of_sigma(0.7, 0.2));
+  BOOST_TEST(refuses<wrong>([&] { fit_to(sets, warmer); }, {"sigma=0.1", "sigma=0.2"}));
+  auto without = sets;
+  for (auto* data : {&without.held_out, &without.data}) {
+    data->noise.clear();
+    data->noise_parts = 0;
+    BOOST_TEST(refuses<wrong>([&] { fit_to(without); }, {"got 0", "noise_parts = 2"}));
+  }
+}
 
 BOOST_AUTO_TEST_CASE(the_matrix_alone) {
   // The table has six digits.

@@ -3,8 +3,6 @@
 // it is learned as they are: found, judged, and given its errors.
 #include "nysalt/losses/own_loss.hpp"
 
-#include <boost/test/unit_test.hpp>
-
 #include "../support/learned.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
@@ -78,28 +76,22 @@ auto own_energy_error(const flow_map_data& data) {
   };
 }
 
-template <Scalar R>
-void check_the_librarys() {
+}  // namespace
+
+// In lanes and over double they are equal: invariance/results_test.cpp.
+BOOST_AUTO_TEST_CASE(the_librarys_losses_come_out_to_the_bit) {
+  using R = detail::lanes;
   const auto data = uneven_data(galaxy);
   const metric measure(galaxy, data, coordinates::qp);
   const auto state = squares_of<R>(galaxy, data, state_error<R>(measure));
   const auto of_own = [&](const auto& error) {
     return squares_of<R>(galaxy, data, own_error<R>(galaxy, error));
   };
-  BOOST_TEST_CONTEXT(lanes_in<R> << " lanes") {
-    BOOST_TEST(same(of_own(state_after_three(measure).error), state));
-    BOOST_TEST(!same(of_own(state_after_three(measure, 1.0 + 1e-15).error), state));
-    const auto energy = squares_of<R>(galaxy, data, energy_error<R>(galaxy, data));
-    BOOST_TEST(same(of_own(own_energy_error(data)), energy));
-    BOOST_TEST(energy.value > 1e-12);
-  }
-}
-
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(the_librarys_losses_come_out_to_the_bit) {
-  check_the_librarys<double>();
-  check_the_librarys<detail::lanes>();
+  BOOST_TEST(same(of_own(state_after_three(measure).error), state));
+  BOOST_TEST(!same(of_own(state_after_three(measure, 1.0 + 1e-15).error), state));
+  const auto energy = squares_of<R>(galaxy, data, energy_error<R>(galaxy, data));
+  BOOST_TEST(same(of_own(own_energy_error(data)), energy));
+  BOOST_TEST(energy.value > 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(any_number_of_residuals_is_told_by_what_is_returned) {
@@ -150,37 +142,6 @@ BOOST_AUTO_TEST_CASE(residuals_that_change_in_number_are_refused) {
     BOOST_TEST(refuses<wrong>(of_so_many(0, 0, threads), {"residuals must be one or more"}));
   }
 }
-
-namespace {
-
-/// A loss that asks no windows, (theta_0 - .45)^2 (theta_0 - .55)^2 + (theta_1 - .4)^2: it has two minima,
-/// both 0. Each trajectory has an equal part of it.
-class two_minima {
- public:
-  using scalar = double;
-
-  explicit two_minima(const shard& share) : share_(share) {}
-
-  Eigen::Index parameters() const { return 2; }
-  std::size_t residuals() const { return 2; }
-  const shard& share() const { return share_; }
-
-  std::vector<Eigen::VectorXd> sums(const Eigen::VectorXd& theta, bool, Eigen::Index terms,
-                                    const terms_of_window<double>& of_window) const {
-    const double left = theta[0] - 0.45;
-    const double right = theta[0] - 0.55;
-    const residuals_of_window<double> r{2, {left * right, theta[1] - 0.4}, {left + right, 0.0, 0.0, 1.0}};
-    std::vector<double> numbers(static_cast<std::size_t>(terms));
-    of_window(r, numbers);
-    const Eigen::VectorXd all = Eigen::Map<const Eigen::VectorXd>(numbers.data(), terms);
-    return {static_cast<std::size_t>(share_.count()), all / static_cast<double>(share_.total())};
-  }
-
- private:
-  shard share_;
-};
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(the_librarys_loss_written_as_ones_own_is_learned_to_the_bit) {
   const auto& sets = two_sets();
@@ -243,34 +204,6 @@ BOOST_AUTO_TEST_CASE(between_several_minima_the_own_loss_judges) {
   BOOST_TEST(usual.judge(theta) != usual.held_out.sum(usual.held_out_losses(theta)));
 }
 
-BOOST_AUTO_TEST_CASE(a_problem_takes_a_loss_of_another_form_and_its_judge_decides) {
-  const auto& [data, held_out] = two_sets();
-  const two_minima loss(data.share());
-  const fit_options options{.start = Eigen::Vector2d(0.46, 0.41),
-                            .further_starts = {{"the other", Eigen::Vector2d(0.54, 0.39)}},
-                            .random_starts = 0};
-  auto problem = make_learning_problem(family, galaxy, data, held_out, options);
-  problem.loss = objective_of(loss);
-  problem.stages.clear();
-  problem.shorter.reset();
-  problem.scores = [&](const Eigen::VectorXd& theta) {
-    return trajectory_scores(trajectory_gradients(loss, theta), loss.share());
-  };
-  problem.held_out_scores = {};
-  problem.held_out_losses = [&](const Eigen::VectorXd& theta) { return trajectory_losses(loss, theta); };
-  problem.facts.loss_name = "two minima";
-  for (const double wanted : {0.45, 0.55}) {
-    problem.judge = [=](const Eigen::VectorXd& theta) { return std::abs(theta[0] - wanted); };
-    const fit found = solve(problem);
-    BOOST_TEST_CONTEXT(found.summary.full()) {
-      BOOST_TEST(std::abs(found.theta[0] - wanted) < 0.01);  // they are .1 apart
-      BOOST_TEST(std::abs(found.theta[1] - 0.4) < 0.01);
-      BOOST_TEST(found.summary.from == (wanted < 0.5 ? "start" : "the other"));
-      BOOST_TEST(found.summary.loss_name == "two minima");
-    }
-  }
-}
-
 // Of 60 trajectories with equal scores, sixty decide; but two may have ten times the curvature of all, with
 // either sign, so that others like them would have another minimum.
 BOOST_AUTO_TEST_CASE(errors_are_withheld_where_single_trajectories_make_the_curvature) {
@@ -318,22 +251,10 @@ BOOST_AUTO_TEST_CASE(errors_are_withheld_where_single_trajectories_make_the_curv
 }
 
 BOOST_AUTO_TEST_CASE(where_an_own_loss_is_not_a_number_no_search_ends) {
-  const auto& sets = two_sets();
-  const metric measure(galaxy, sets.data, coordinates::qp);
-  const auto cut_off_at = [&](double bound) {
-    const auto all = state_after_three(measure).error;
-    const auto error = [=](const auto& start, const auto& finish, const auto& wanted) {
-      using std::sqrt;
-      auto r = all(start, finish, wanted);
-      r[3] = r[3] + 0.0 * sqrt(bound - (finish.p[0] - wanted.p[0]) * (finish.p[0] - wanted.p[0]));
-      return r;
-    };
-    return sets.learned(family, galaxy, {}, own_loss{"cut off", 3, error}).summary;
-  };
-  BOOST_TEST(cut_off_at(1.0).usable);
-  const auto nowhere = cut_off_at(-1.0);
-  BOOST_TEST(!nowhere.usable);
-  BOOST_TEST(!nowhere.reason.empty());
+  const auto nowhere = []<class T>(const phase_point<T, 2>&, const phase_point<T, 2>& finish,
+                                   const phase_point<T, 2>&) -> T { return finish.q[0] * std::nan(""); };
+  const auto found = two_sets().learned(family, galaxy, {}, own_loss{"nowhere", 3, nowhere}).summary;
+  BOOST_TEST((!found.usable && !found.reason.empty()), found.full());
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {

@@ -3,8 +3,6 @@
 // in a bath they take the noise that the data hold.
 #include "nysalt/losses/after_steps.hpp"
 
-#include <boost/test/unit_test.hpp>
-
 #include "../support/learned.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
@@ -141,6 +139,10 @@ void check_noise(int parts, int steps) {
   BOOST_TEST(loss_of<F>(shuffled, maker, steps) > 1e-5);
 }
 
+struct a_fork : potential_only {  // takes a branch, and says so
+  static constexpr int lanes = 1;
+};
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(bits_are_those_of_window_after_window) {
@@ -181,35 +183,24 @@ BOOST_AUTO_TEST_CASE(each_trajectory_has_the_bits_of_its_pairs) {
   BOOST_TEST(!same(squares_at(loss, Eigen::Vector2d(0.45, 0.38 + 1e-15)), pairs(theta)));
 }
 
+// Without a bath it is that of dual numbers, to the bit: bits_are_those_of_window_after_window.
 BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
-  const auto check = [](const std::string& what, const after_steps<>& loss, const Eigen::VectorXd& at) {
-    const Eigen::VectorXd ours = squares_at(loss, at).gradient();
-    const auto value = [&](const Eigen::VectorXd& x) { return loss_value(loss, x); };
-    for (Eigen::Index k = 0; k < at.size(); ++k) {
-      const central_difference difference(value, at, k);
-      const double s = 1e-4;
-      // A residual is the difference of numbers below 1, or below the increments' inverse 1/.05, after some
-      // hundred roundings.
-      const double rounding = 2.0 * 100.0 * eps * 20.0 * std::sqrt(value(at)) / s;
-      const double off = std::abs(ours[k] - difference(s));
-      BOOST_TEST_CONTEXT(what << ", parameter " << k) {
-        BOOST_TEST(off <= 2.0 * difference.truncation(s) + rounding);
-        BOOST_TEST(off <= 1e-4 * ours.norm());  // which says something
-      }
-    }
-  };
-  const auto data = uneven_data();
-  const metric measure(galaxy, data, coordinates::qp);
-  const run_time_family four_kicks{aba<4>()};
-  const Eigen::VectorXd at = column_of(elsewhere<aba<4>>());
-  for (const auto& what : {five_steps, several_times, ten_of_energy}) {
-    check(std::to_string(what.options.steps.back()) + " steps",
-          after_steps<>(four_kicks, galaxy, data, error_of(what, data, measure), what.options), at);
-  }
   const auto noisy = made<symmetric>(2);
-  const metric of_noisy(warm, noisy, coordinates::qp);
-  check("in a bath", after_steps<>(run_time_family(symmetric()), warm, noisy, state_error(of_noisy)),
-        column_of(far));
+  const metric measure(warm, noisy, coordinates::qp);
+  const after_steps<> loss(run_time_family(symmetric()), warm, noisy, state_error(measure));
+  const Eigen::VectorXd at = column_of(far);
+  const Eigen::VectorXd ours = squares_at(loss, at).gradient();
+  const auto value = [&](const Eigen::VectorXd& x) { return loss_value(loss, x); };
+  for (Eigen::Index k = 0; k < at.size(); ++k) {
+    const central_difference difference(value, at, k);
+    const double s = 1e-4;
+    // A residual is the difference of numbers below 1, or below the increments' inverse 1/.05, after some
+    // hundred roundings.
+    const double rounding = 2.0 * 100.0 * eps * 20.0 * std::sqrt(value(at)) / s;
+    const double off = std::abs(ours[k] - difference(s));
+    BOOST_TEST(off <= 2.0 * difference.truncation(s) + rounding);
+    BOOST_TEST(off <= 1e-4 * ours.norm());  // which says something
+  }
 }
 
 // Each trajectory adds its part of the mean to the whole: the mean over some has their parts, and no others.
@@ -234,12 +225,6 @@ BOOST_AUTO_TEST_CASE(some_trajectories_alone) {
     }
   }
 }
-
-namespace {
-struct a_fork : potential_only {  // takes a branch, and says so
-  static constexpr int lanes = 1;
-};
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(packs_are_for_systems_that_serve_them) {
   using packs = detail::lanes;

@@ -2,15 +2,6 @@
 // Who wins a contest: at one error by a cost that differs enough, at one cost by errors that differ by more
 // than chance on the trajectories that both share. Intervals of their ratios, and bounds of errors, hold as
 // often as they say.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <optional>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "../../src/comparison/contest.hpp"
 #include "../../src/comparison/paired_ratio.hpp"
 #include "../support/seeds.hpp"
@@ -145,28 +136,18 @@ BOOST_AUTO_TEST_CASE(a_root_is_the_root_and_equal_methods_tie) {
   BOOST_TEST(!paired_ratio(two, one, mean).is_above_one());
 }
 
-// 4,000 samples: a bound of 97.7 % fails in 92 of them at most. Of 100 numbers it is the largest, which fails
-// in 0.95^100 of them: in 24, and in none with a probability of 6e-11.
-BOOST_AUTO_TEST_CASE(the_upper_bound_of_a_quantile_holds_for_any_tail) {
-  std::mt19937_64 draw(seed(8));
-  const double exact = std::exp(3.0 * 1.6448536269514722);  // z of .95 [R 4.2, qnorm(.95)]
-  int failures = 0;
-  int below = 0;
-  for (int k = 0; k < 4000; ++k) {
-    const auto scores = drawn(draw, 100, 3.0, 1.0).b;
-    failures += quantile.upper_bound(scores) < exact;
-    below += quantile.lower_bound(scores) > exact;
-  }
-  const int allowed = most_of(4000, 0.023, false_alarms / 2);
-  BOOST_TEST(failures <= allowed);
-  BOOST_TEST(below <= allowed);
-  BOOST_TEST(failures > 0);
-}
-
-// The mean of such a law is not found from a hundred, and its bound does not hold: why tails are looked at.
-BOOST_AUTO_TEST_CASE(the_upper_bound_of_a_mean_fails_where_the_tail_is_heavy) {
-  std::mt19937_64 draw(seed(9));
-  int failures = 0;
-  for (int k = 0; k < 200; ++k) failures += mean.upper_bound(drawn(draw, 100, 3.0, 1.0).b) < std::exp(4.5);
-  BOOST_TEST(failures > 60);
+// Of n numbers n p lie below the quantile, give or take sqrt(n p (1 - p)): two of these to either side.
+BOOST_AUTO_TEST_CASE(bounds_are_two_standard_errors_away_and_those_of_a_quantile_are_scores) {
+  std::vector<double> scores;
+  for (int n = 1000; n > 0; --n) scores.push_back(n);
+  BOOST_TEST(quantile(scores) == 950.0);
+  BOOST_TEST(quantile.upper_bound(scores) == 964.0);  // 950 + 13.8, the next
+  BOOST_TEST(quantile.lower_bound(scores) == 936.0);
+  scores.resize(100);  // 1000 to 901: the 99.4th is the largest
+  BOOST_TEST(quantile.upper_bound(scores) == 1000.0);
+  const double error = 2.0 * std::sqrt(14.0 / 3.0 / 4.0);
+  const auto near = boost::test_tools::tolerance(1e-14);
+  BOOST_TEST(mean.upper_bound({1.0, 2.0, 3.0, 6.0}) == 3.0 + error, near);
+  BOOST_TEST(root_mean.lower_bound({1.0, 2.0, 3.0, 6.0}) == std::sqrt(3.0 - error), near);
+  BOOST_TEST(mean.lower_bound({0.0, 0.0, 0.0, 1.0}) == 0.0);
 }

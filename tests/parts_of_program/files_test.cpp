@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 // Checkpoints can be read again, files are held by one process at a time, and what is asked again is compared
 // option by option.
-#include <boost/test/unit_test.hpp>
-
 #include <sys/mman.h>
 
 #include <filesystem>
-#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"

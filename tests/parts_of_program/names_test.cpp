@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 // Names with one mistake are found again, and methods are known by what they do.
-#include <boost/test/unit_test.hpp>
-
-#include <random>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "../../src/comparison/catalogue.hpp"
 #include "../../src/comparison/did_you_mean.hpp"
 #include "../../src/comparison/known_word.hpp"

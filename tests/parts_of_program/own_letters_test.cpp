@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // What a problem has of its own: of its letters unsound ones are refused each time, and sound ones taken at
 // any offset and step; observables of a black box with memory are asked from several threads.
-#include <boost/test/unit_test.hpp>
-
 #include <atomic>
-#include <string>
 
 #include "../../src/comparison/catalogue.hpp"
 #include "../../src/comparison/observables.hpp"

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O1: 15 s at -O0, 2.5 s at -O1.
 // Comparisons, recommendations and pages of systems that callers of the library bring.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
 #include <filesystem>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Pages and their tables say what they were told, in Markdown, in HTML and as CSV; a page needs nothing but
 // itself.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <cstdlib>
-#include <limits>
 #include <regex>
 #include <set>
-#include <string>
 
 #include "../../src/report/page.hpp"
 #include "../../src/report/svg.hpp"
@@ -63,6 +57,23 @@ page example() {
   report.code("nysalt compare");
   report.picture(named("p"), "A [picture].");
   return report;
+}
+
+nysalt::table cells() {
+  nysalt::table t({"method", "error"});
+  t.add({"verlet", "2e-2"});
+  t.add({"x", "0.00039"});
+  return t;
+}
+
+work_precision_row at_cost(const std::string& method, double evaluations, double error,
+                           std::int64_t diverged = 0) {
+  return {method, 2.0 / evaluations, evaluations, 1e-9 * evaluations, {error, 0.1 * error}, diverged, 40};
+}
+/// Errors that fall with the square of the cost, out of order, beside another method's.
+std::vector<work_precision_row> power_law() {
+  return {at_cost("a", 400, 7 * std::pow(400, -2)), at_cost("b", 200, 99.0),
+          at_cost("a", 100, 7 * std::pow(100, -2)), at_cost("a", 1600, 7 * std::pow(1600, -2))};
 }
 
 }  // namespace
@@ -238,27 +249,6 @@ BOOST_AUTO_TEST_CASE(two_pictures_of_one_name_are_refused) {
   BOOST_TEST(refuses<std::invalid_argument>([&] { report.picture(named("../p"), "c"); }, {"letters"}));
   BOOST_TEST(report.figures().size() == 1U);
 }
-
-namespace {
-
-nysalt::table cells() {
-  nysalt::table t({"method", "error"});
-  t.add({"verlet", "2e-2"});
-  t.add({"x", "0.00039"});
-  return t;
-}
-
-work_precision_row at_cost(const std::string& method, double evaluations, double error,
-                           std::int64_t diverged = 0) {
-  return {method, 2.0 / evaluations, evaluations, 1e-9 * evaluations, {error, 0.1 * error}, diverged, 40};
-}
-/// Errors that fall with the square of the cost, out of order, beside another method's.
-std::vector<work_precision_row> power_law() {
-  return {at_cost("a", 400, 7 * std::pow(400, -2)), at_cost("b", 200, 99.0),
-          at_cost("a", 100, 7 * std::pow(100, -2)), at_cost("a", 1600, 7 * std::pow(1600, -2))};
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(a_table_is_text_and_markdown_names_left_and_numbers_right) {
   BOOST_TEST(cells().text() ==

@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 // Pictures: data and script are written, and drawn where gnuplot is there.
-#include <boost/test/unit_test.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <limits>
 #include <set>
 #include <sstream>
 
@@ -50,6 +43,22 @@ figure two_panels() {
       .log_log = true,
       .curves = {{"b", {1, 10}, {1e-2, 1e-4}, {1e-3, nothing}, true}, {"c", {1, 10}, {1e-1, 1e-3}}}};
   return {"picture", {lines, points}};
+}
+
+/// Numbers that are told beside an axis, 'x' or 'y'; empty where gnuplot chooses.
+std::vector<double> ticks_of(const std::string& axis, const std::vector<double>& costs,
+                             const std::vector<double>& errors, bool log_log = true) {
+  panel plot;
+  plot.log_log = log_log;
+  plot.curves.push_back({"a", costs, errors});
+  const auto script = detail::plot_script({"picture", {plot}});
+  const auto from = script.find("set " + axis + "tics (");
+  if (from == std::string::npos) return {};
+  const auto open = script.find('(', from);
+  std::istringstream text(script.substr(open + 1, script.find(')', open) - open - 1));
+  std::vector<double> result;
+  for (std::string number; std::getline(text, number, ',');) result.push_back(std::stod(number));
+  return result;
 }
 
 }  // namespace
@@ -243,26 +252,6 @@ BOOST_AUTO_TEST_CASE(intervals_are_shaded_behind_the_curves) {
   BOOST_TEST(script.find("unset object", script.find("set object 3")) != std::string::npos);
   BOOST_TEST(script.find("set object 4") == std::string::npos);
 }
-
-namespace {
-
-/// Numbers that are told beside an axis, 'x' or 'y'; empty where gnuplot chooses.
-std::vector<double> ticks_of(const std::string& axis, const std::vector<double>& costs,
-                             const std::vector<double>& errors, bool log_log = true) {
-  panel plot;
-  plot.log_log = log_log;
-  plot.curves.push_back({"a", costs, errors});
-  const auto script = detail::plot_script({"picture", {plot}});
-  const auto from = script.find("set " + axis + "tics (");
-  if (from == std::string::npos) return {};
-  const auto open = script.find('(', from);
-  std::istringstream text(script.substr(open + 1, script.find(')', open) - open - 1));
-  std::vector<double> result;
-  for (std::string number; std::getline(text, number, ',');) result.push_back(std::stod(number));
-  return result;
-}
-
-}  // namespace
 
 // gnuplot writes numbers beside powers of ten alone, and there may be none.
 BOOST_AUTO_TEST_CASE(a_logarithmic_axis_always_has_numbers) {

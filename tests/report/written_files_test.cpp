@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 // A file is written whole or not at all, and each folder has one manifest, in which concurrent writers lose
 // no entry.
-#include <boost/test/unit_test.hpp>
-
 #include <sys/stat.h>
 
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "../../src/comparison/inputs.hpp"
 #include "../../src/comparison/refusal.hpp"
@@ -164,25 +160,6 @@ BOOST_AUTO_TEST_CASE(entries_of_other_files_stay_and_its_own_is_replaced) {
   const scratch no_command("manifest_none");
   write_result(no_command / "a.csv", "1\n", {});
   BOOST_TEST((no_command.files() == names{"a.csv"}));
-}
-
-BOOST_AUTO_TEST_CASE(many_that_write_at_once_lose_nothing) {
-  const scratch folder("manifest_at_once");
-  constexpr int writers = 8;
-  constexpr int files = 10;
-  std::vector<std::thread> all;
-  for (int i = 0; i < writers; ++i) {
-    all.emplace_back([&folder, i] {
-      for (int k = 0; k < files; ++k) {
-        const std::string name = std::to_string(i) + "_" + std::to_string(k);
-        write_result(folder / name, "x", made_by(name));
-      }
-    });
-  }
-  for (auto& one : all) one.join();
-  const json found = entries(folder);
-  BOOST_TEST(found.size() == static_cast<std::size_t>(writers * files));
-  for (const auto& [name, entry] : found.items()) BOOST_TEST(entry["command"] == name);
 }
 
 // Were the entries read before the lock is taken, that of the other process would be lost.

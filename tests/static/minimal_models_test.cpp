@@ -2,33 +2,14 @@
 // The least model of each concept, which docs/concepts shows: scalar, system with its optional members, bath,
 // noise, flow, word, family, method, reference, ensemble, observer, loss, objective and error measure; and
 // that they do their work.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "nysalt/analysis/error_measure.hpp"
-#include "nysalt/derivatives/symplecticity.hpp"
+#include "nysalt/core.hpp"
 #include "nysalt/detail/requirements.hpp"
 #include "nysalt/ensemble.hpp"
-#include "nysalt/families/composition.hpp"
-#include "nysalt/integrate.hpp"
 #include "nysalt/losses/own_loss.hpp"
 #include "nysalt/losses/squares.hpp"
-#include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/noises/counter_noise.hpp"
-#include "nysalt/phase_point.hpp"
 #include "nysalt/reference.hpp"
-#include "nysalt/system.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
-#include "nysalt/systems/in_bath.hpp"
 
 namespace {
 
