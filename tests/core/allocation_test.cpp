@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // The loop allocates nothing, however many steps it takes, alone and in lanes.
-#include "../support/allocations.hpp"
-
 #include "../laws/compiled_specimens.hpp"
+#include "../support/allocations.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/ensembles/lennard_jones_liquid_law.hpp"

@@ -3,7 +3,6 @@
 // as each would alone, also where one diverges, is in data/ensembles_test.cpp.
 #include <boost/numeric/odeint/integrate/integrate_const.hpp>
 #include <boost/numeric/odeint/integrate/integrate_n_steps.hpp>
-
 #include "../laws/laws.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/core.hpp"
@@ -207,18 +206,6 @@ BOOST_AUTO_TEST_CASE(a_bath_that_heats_has_no_bound) {
     BOOST_TEST(diverged(one(bad, 1.0)));
   }
 }
-
-namespace {
-
-struct at_most_four : henon_heiles {
-  static constexpr int lanes = 4;
-};
-static_assert(lanes_of<henon_heiles> == default_lanes && lanes_of<at_most_four> == 4 &&
-              lanes_of<black_box> == 1);
-static_assert(std::is_same_v<scalar_of_lanes<1>, double>);
-static_assert(std::is_same_v<scalar_of_lanes<4>, pack<double, 4>>);
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(any_system_goes_in_lanes) {
   draws random;

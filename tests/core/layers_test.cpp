@@ -2,10 +2,8 @@
 // Includes go only downwards, in no circle, and every header begins as the house wants it.
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 
 namespace {
 
@@ -108,15 +106,6 @@ std::vector<std::string> breaches(const texts& files) {
   return found;
 }
 
-/// The libraries that it needs, by whatever includes them.
-std::set<std::string> needs_of(const texts& files, const std::string& path) {
-  auto result = libraries_of(files.at(path));
-  for (const auto& other : reached_from(files, path)) {
-    if (files.contains(other)) result.merge(libraries_of(files.at(other)));
-  }
-  return result;
-}
-
 texts files_below(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   const fs::path root = fs::path(NYSALT_SOURCE_DIR) / folder;
@@ -194,31 +183,22 @@ BOOST_AUTO_TEST_CASE(sources_include_downwards) {
   BOOST_TEST(upward_includes({{"attic/a.cpp", ""}}).size() == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(what_steps_needs_eigen_alone) {
-  const int integrate = layer_of("integrate.hpp");
-  for (const auto& [path, text] : headers) {
-    if (layer_of(path) > integrate && path != "core.hpp") continue;
-    for (const auto& library : needs_of(headers, path)) BOOST_ERROR(path + " needs " + library);
-  }
-}
-
-// What is dear to parse is for the sources in src/nysalt.
+// What is dear to parse is for the sources in src/nysalt, and what steps needs Eigen alone.
 BOOST_AUTO_TEST_CASE(headers_include_eigens_core_at_most) {
+  const auto is_of_others = [](const std::string& path) {
+    return path.starts_with("references/odeint") || path == "communicators/mpi.hpp";
+  };
   static const std::regex of_eigen(R"re(#\s*include\s*["<](Eigen/[^">]*)[">])re");
   for (const auto& [path, text] : headers) {
-    const bool is_of_others = path.starts_with("references/odeint") || path == "communicators/mpi.hpp";
-    if (is_of_others) continue;
+    if (is_of_others(path)) continue;
     auto found = libraries_of(text);
     found.merge(found_in(text, of_eigen));
     found.erase("Eigen/Core");
     for (const auto& library : found) BOOST_ERROR(path + " includes " + library);
   }
+  for (const auto& path : reached_from(headers, "core.hpp")) BOOST_TEST(!is_of_others(path), path);
   BOOST_TEST(found_in("#include <Eigen/Dense>\n", of_eigen).contains("Eigen/Dense"));
-}
-
-BOOST_AUTO_TEST_CASE(a_library_is_found_wherever_it_is_included) {
-  const texts files{{"a.hpp", "#include <vector>\n#include <Eigen/Core>\n#include \"nysalt/b.hpp\"\n"},
-                    {"b.hpp", "# include <fmt/format.h>\n#include \"nysalt/a.hpp\"\n#include <mpi.h>\n"}};
-  BOOST_TEST((needs_of(files, "a.hpp") == std::set<std::string>{"fmt/format.h", "mpi.h"}));
-  BOOST_TEST(needs_of({{"a.hpp", "#include <vector>\n#include <Eigen/Core>\n"}}, "a.hpp").empty());
+  const auto found =
+      libraries_of("# include <fmt/format.h>\n#include <vector>\n#include <mpi.h>\n#include <Eigen/Core>\n");
+  BOOST_TEST((found == std::set<std::string>{"fmt/format.h", "mpi.h"}));
 }

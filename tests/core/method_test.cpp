@@ -5,7 +5,6 @@
 #include "../support/rounding.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/losses/squares.hpp"
-#include "nysalt/model.hpp"
 #include "nysalt/run_time_family.hpp"
 
 using namespace nysalt;

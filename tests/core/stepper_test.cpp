@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 // What a stepper does, what it refuses, in a bath too, and what noise it draws.
-#include <map>
 #include <set>
-
-#include "../support/draws.hpp"
 #include "../support/noises.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "../support/systems.hpp"
 #include "nysalt/core.hpp"
-#include "nysalt/ensemble_run.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/model.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -62,40 +55,7 @@ std::set<place> different(const std::vector<noise_place>& places) {
   return all;
 }
 
-const tabulated euler("Euler", run_time_word("BA"), {1.0, 1.0}, {1, false, false});
-
 }  // namespace
-
-// Symplectic Euler, kick first: nothing merges, nothing is reused.
-BOOST_AUTO_TEST_CASE(a_word_that_does_not_merge_runs_as_its_plain_steps_to_the_bit) {
-  const pendulum system;
-  const counted watched(system);
-  const auto fixed = make_stepper(watched, euler, 0.1);
-  auto run = fixed.open(near_rest());
-  BOOST_TEST(same_bits(fixed.synchronous(run), near_rest()));
-  fixed.advance(run, 50);
-  BOOST_TEST(run.step == 50);
-  BOOST_TEST(watched.evaluations == 50);
-  auto x = near_rest();
-  const auto plain = make_stepper(system, euler, 0.1);  // counting changes nothing
-  for (int n = 0; n < 50; ++n) plain.step(x);
-  BOOST_TEST(same_bits(fixed.synchronous(run), x));
-}
-
-// g++ 12 took template parameters that are arrays of equal length for one another: words of one length that
-// were stepped in one program then shared the plan of the first of them.
-BOOST_AUTO_TEST_CASE(words_of_equal_length_step_as_types_with_the_bits_of_data) {
-  const in_bath system(fpu_chain<3>(10.0), bath::of_sigma(0.3, 0.1));
-  draws random;
-  const auto x = random.state(system, 0.5);
-  const auto finish = [&](const auto& method) {
-    return integrate(make_stepper(system, method, 0.02, counter_noise(1)), x, 20).finish;
-  };
-  BOOST_TEST(same_bits(finish(baoab()), finish(by_baoab)));
-  BOOST_TEST(same_bits(finish(obabo()), finish(by_obabo)));
-  BOOST_TEST(same_bits(finish(aboba()), finish(tabulated(aboba()))));
-  BOOST_TEST(!same_bits(finish(baoab()), finish(aboba())));
-}
 
 BOOST_AUTO_TEST_CASE(a_run_from_q_and_p_is_an_open_run_to_the_bit) {
   for (const auto& method : {by_baoab, by_obabo}) {
@@ -225,52 +185,4 @@ BOOST_AUTO_TEST_CASE(looking_at_a_run_draws_for_the_look_alone) {
   BOOST_TEST(notes.halves.size() == 1U);
   BOOST_TEST(notes.halves.front().step == 5);
   BOOST_TEST((same_bits(fixed.synchronous(run), once)));
-}
-
-namespace {
-
-constexpr std::int64_t trajectories = 3;
-using seen_momenta = std::map<std::pair<std::int64_t, std::int64_t>, double>;  // by trajectory and step
-
-/// Of 100 steps, saved and taken up again at `cut`, but for what `change` does to the saved numbers; without
-/// a cut if it is 0.
-seen_momenta resumed(const tabulated& method, std::int64_t cut, const auto& change) {
-  const auto fixed = make_stepper(warm, method, 0.1, counter_noise(2));
-  using run_type = ensemble_run<double, std::remove_const_t<decltype(fixed)>>;
-  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(1);
-  const normal_around<Eigen::Dynamic> starts({rest, rest}, 0.1, 0.1);
-  seen_momenta seen;
-  const auto go_on = [&](run_type& run, std::int64_t end) {
-    run.go_on(
-        end, 5, 1, [](const auto& x, std::span<double> numbers) { numbers[0] = x.p[0]; },
-        [&](std::int64_t m, std::int64_t n, std::span<const double> numbers) {
-          seen[{m, n}] = numbers[0];
-        });
-  };
-  run_type run(fixed, starts, 1, 0, trajectories);
-  if (cut == 0) {
-    go_on(run, 100);
-    return seen;
-  }
-  go_on(run, cut);
-  saved_runs saved = run.save();
-  change(saved);
-  run_type further(fixed, starts, 1, 0, trajectories, saved);
-  go_on(further, 100);
-  return seen;
-}
-
-}  // namespace
-
-// OBABO begins a step with a kick by the force that the step before ended with, as O moves no position. Of
-// most other words the first force of a step is a new one, whatever was saved.
-BOOST_AUTO_TEST_CASE(a_run_is_taken_up_again_with_the_force_that_it_had) {
-  const auto unchanged = [](saved_runs&) {};
-  const auto without_force = [](saved_runs& saved) {  // q, p and the force of each
-    for (std::size_t m = 0; m < trajectories; ++m) saved.numbers[3 * m + 2] = 0.0;
-  };
-  const auto whole = resumed(by_obabo, 0, unchanged);
-  BOOST_TEST(whole.size() == 3U * 21U);
-  for (const std::int64_t cut : {5, 7, 64, 99}) BOOST_TEST((resumed(by_obabo, cut, unchanged) == whole));
-  BOOST_TEST((resumed(by_obabo, 7, without_force) != whole));
 }

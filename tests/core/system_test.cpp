@@ -3,9 +3,7 @@
 // modal coordinates and back. That they diagonalise it is a law (systems/system_laws_test.cpp).
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "../support/systems.hpp"
 #include "nysalt/core.hpp"
-#include "nysalt/systems/linear_chain.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

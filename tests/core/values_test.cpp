@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Lists of points hold copies, one after the other, and items are the points where they lie. Numbers in
 // sentences are written as fmt writes them.
-#include <cstdlib>
-
 #include "nysalt/core.hpp"
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/phase_points.hpp"

@@ -2,10 +2,7 @@
 // What a word knows of itself: its costs, where it evaluates forces, where its letters O are, and who serves
 // it. A word as a type and as data know the same.
 #include "../support/refusal.hpp"
-#include "../support/systems.hpp"
 #include "nysalt/core.hpp"
-#include "nysalt/model.hpp"
-#include "nysalt/systems/linear_chain.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
 using namespace nysalt;
@@ -150,16 +147,6 @@ void has_letters_o(const char* plain, placement where, const char* letters, cons
   BOOST_TEST(found == expected, boost::test_tools::per_element());
 }
 
-template <placement P>
-void type_has_the_letters_o_of_data() {
-  using plain = word<drift, kick, drift, kick, drift>;
-  using with_o = thermostatted_word<plain, P>;
-  const std::array c{.1, .2, .5, .3, .4};
-  const auto by_type = thermostatted_coefficients<with_o>(P, c);
-  has_letters_o("ABABA", P, with_o::letters().c_str(), {by_type.begin(), by_type.end()},
-                {c.begin(), c.end()});
-}
-
 static_assert(placements == std::array{end, symmetric, middle});
 static_assert(to_string(end) == "end" && to_string(symmetric) == "symmetric" &&
               to_string(middle) == "middle");
@@ -174,9 +161,6 @@ BOOST_AUTO_TEST_CASE(letters_o_are_added_where_they_are_placed) {
   has_letters_o("BA", end, "BAO", {1., 1., 1.}, {1., 1.});
   has_letters_o("BA", symmetric, "OBAO", {.5, 1., 1., .5}, {1., 1.});
   has_letters_o("A", middle, "AOA", {.5, 1., .5}, {1.});
-  type_has_the_letters_o_of_data<end>();
-  type_has_the_letters_o_of_data<symmetric>();
-  type_has_the_letters_o_of_data<middle>();
   BOOST_TEST(refuses<wrong>([] { thermostatted(run_time_word("BA"), middle); },
                             {"BA", "a central letter", "end", "symmetric"}));
   for (const placement where : placements) {

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O1: 1.1 s at -O0, 0.1 s at -O1.
 // What an observer of many trajectories is given is what an observer of each would see, in a bath too, in
-// whatever lanes; and trajectories that are saved and resumed go on as if nothing had happened.
+// whatever lanes. That they go on where they were saved is a law of invariance/runs_test.cpp.
 #include "../support/refusal.hpp"
-#include "../support/systems.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/ensemble_run.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/integrate_ensemble.hpp"
-#include "nysalt/model.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -68,30 +66,9 @@ seen together(const auto& stepper, std::int64_t every = 7) {
   return all;
 }
 
-/// Saved at some steps, and resumed in lanes of T and of double in turn.
-template <class T, class Stepper>
-seen cut(const Stepper& stepper, const std::vector<std::int64_t>& cuts) {
-  seen all;
-  saved_runs saved;
-  const auto go_on = [&]<class P>(P, std::int64_t end) {
-    using run_type = ensemble_run<P, Stepper>;
-    auto run = saved.step == 0 ? run_type(stepper, law, 1, 0, trajectories)
-                               : run_type(stepper, law, 1, 0, trajectories, saved);
-    run.go_on(end, all.every, 2, read_two<P>, all.take(), 2);
-    saved = run.save();
-  };
-  bool odd = false;
-  for (const std::int64_t end : cuts) {
-    odd = !odd;
-    odd ? go_on(T(), end) : go_on(0.0, end);
-  }
-  all.diverged_at = saved.diverged_at;
-  return all;
-}
-
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(each_trajectory_is_as_if_alone_and_goes_on_where_it_was_saved) {
+BOOST_AUTO_TEST_CASE(each_trajectory_is_as_if_alone) {
   const model quiet = galaxy;
   const model warm = in_bath(galaxy, bath::of_sigma(0.05, 0.05));
   for (const auto& [system, method] :
@@ -105,8 +82,6 @@ BOOST_AUTO_TEST_CASE(each_trajectory_is_as_if_alone_and_goes_on_where_it_was_sav
       BOOST_TEST(diverged < trajectories - 2);
       BOOST_TEST((together<double>(stepper) == expected));
       BOOST_TEST((together<detail::lanes>(stepper) == expected));
-      BOOST_TEST((cut<detail::lanes>(stepper, {128, steps}) == expected));
-      BOOST_TEST((cut<detail::lanes>(stepper, {64, 64, 192, 256, steps}) == expected));
       BOOST_TEST((alone(stepper, 7, 1) == expected) == (system == &quiet));  // each has its own noise
     }
   }

@@ -3,23 +3,15 @@
 // States of Gibbs ensembles, by chains and by the modes of linear systems, have its law, are independent, and
 // are a function of seed and number. What pilots find, and what they do not let pass; states of one
 // trajectory have the law if it was burned in, and more if not.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-
+#include "nysalt/ensembles/gibbs.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
-#include "../support/systems.hpp"
 #include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/ensembles/gibbs_of_modes.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/ensembles/one_long_trajectory.hpp"
-#include "nysalt/systems/in_bath.hpp"
-#include "nysalt/systems/linear_chain.hpp"
-#include "nysalt/systems/pendulum.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -67,9 +59,6 @@ double off(std::vector<double> x, double deviation) {
   for (double& value : x) value /= deviation;
   return kolmogorov_smirnov(x);
 }
-double in_standard_errors(double correlation) {
-  return std::abs(correlation) * std::sqrt(static_cast<double>(count));
-}
 
 }  // namespace
 
@@ -88,25 +77,8 @@ BOOST_AUTO_TEST_CASE(stiff_modes_and_momenta_are_normal) {
       BOOST_TEST(off(q, sd / omega) <= allowed);
       BOOST_TEST(off(q, 1.5 * sd / omega) > allowed);
     }
-    BOOST_TEST(in_standard_errors(correlation(q, p)) <= standard_errors(each));
+    BOOST_TEST(correlation_off(q, p) <= standard_errors(each));
   }
-}
-
-BOOST_AUTO_TEST_CASE(trajectories_and_seeds_are_independent) {
-  const auto neighbours = [](std::vector<double> x) {
-    std::vector<double> next(x.begin() + 1, x.end());
-    x.pop_back();
-    return correlation(x, next);
-  };
-  const double allowed = standard_errors(false_alarms / 3);
-  const auto slow = [](const auto& x) { return x.q[0] + x.q[1]; };
-  const auto fast = [](const auto& x) { return x.q[1] - x.q[0]; };
-  const auto other = states_of(in_the_papers_bath, papers(), seed(8));
-  BOOST_TEST(in_standard_errors(neighbours(numbers(papers_states(), slow))) <= allowed);
-  BOOST_TEST(in_standard_errors(neighbours(numbers(papers_states(), fast))) <= allowed);
-  const auto mine = numbers(papers_states(), slow);
-  BOOST_TEST(in_standard_errors(correlation(mine, numbers(other, slow))) <= allowed);
-  BOOST_TEST(in_standard_errors(correlation(mine, mine)) > allowed);
 }
 
 // Two masses between walls: <p_i^2> = m_i kT and <q q^T> = kT K^{-1}, whatever the masses.
@@ -354,7 +326,7 @@ BOOST_AUTO_TEST_CASE(a_start_is_a_function_of_seed_and_number_and_one_of_few_sta
   BOOST_TEST(ensemble(1, 3).q != ensemble(2, 3).q);
   const std::vector<double> front(seen.begin(), seen.end() - 1);
   const std::vector<double> back(seen.begin() + 1, seen.end());
-  BOOST_TEST(std::abs(correlation(front, back)) * std::sqrt(2000.0) <= standard_errors(false_alarms));
+  BOOST_TEST(correlation_off(front, back) <= standard_errors(false_alarms));
   std::sort(seen.begin(), seen.end());
   const auto different = std::unique(seen.begin(), seen.end()) - seen.begin();
   // of 100 states each is missed by 2000 picks with a probability of e^{-20}

@@ -3,30 +3,11 @@
 // exact flow of the quadratic part, with masses and with a frequency of zero. G and H are their formula,
 // p += b h f + 2 c h^3 f'(q) M^-1 f, and cost two evaluations, of a black box three; D is
 // p += b h f(q + c h^2 M^-1 f(q)). O does to a momentum what the bath says, each mass in its measure.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <string>
-#include <tuple>
-#include <vector>
-
 #include "../laws/models.hpp"
-#include "../support/draws.hpp"
 #include "../support/refusal.hpp"
-#include "../support/rounding.hpp"
-#include "../support/systems.hpp"
 #include "nysalt/derivatives/check_letter.hpp"
-#include "nysalt/detail/served_letters.hpp"
 #include "nysalt/detail/step_on_oscillator.hpp"
-#include "nysalt/families/fd_chin.hpp"
-#include "nysalt/families/fg4.hpp"
-#include "nysalt/families/fg_chin.hpp"
 #include "nysalt/references/exact_linear.hpp"
-#include "nysalt/run_time_word.hpp"
-#include "nysalt/scalars/pack.hpp"
-#include "nysalt/stepper.hpp"
-#include "nysalt/systems/counted.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -356,17 +337,6 @@ static_assert(Flow<ornstein_uhlenbeck> && StochasticFlow<ornstein_uhlenbeck>);
 static_assert(!ornstein_uhlenbeck::additive && !ornstein_uhlenbeck::moves_q &&
               ornstein_uhlenbeck::reads == field::none);
 
-BOOST_AUTO_TEST_CASE(a_momentum_decays_and_is_kicked_at_random) {
-  const auto noisy = bath::of_sigma(0.4, 0.9);
-  const auto flow = ornstein_uhlenbeck::prepare(0.5, 0.2, noisy);
-  BOOST_TEST(flow.decay == noisy.decay(0.1));
-  BOOST_TEST(flow.deviation == noisy.deviation(0.1));
-  const auto x = after_o(henon_heiles(), flow, {1.0, -2.0}, {0.7, 0.0});
-  BOOST_TEST(x.p[0] == flow.decay + 0.7 * flow.deviation);
-  BOOST_TEST(x.p[1] == -2.0 * flow.decay);
-  BOOST_TEST((x.q == vector<double, 2>(0.3, -0.2)));
-}
-
 // sigma M^{1/2} dW: with mass 4 the noise is twice as large, and p^2/m has the same temperature.
 BOOST_AUTO_TEST_CASE(a_heavier_mass_gets_more_noise) {
   const auto flow = ornstein_uhlenbeck::prepare(1.0, 0.2, bath::of_sigma(0.4, 0.9));
@@ -375,15 +345,6 @@ BOOST_AUTO_TEST_CASE(a_heavier_mass_gets_more_noise) {
   const auto x = after_o(system, flow, {0.0, 0.0}, {1.0, 1.0});
   BOOST_TEST(x.p[0] == flow.deviation);
   BOOST_TEST(x.p[1] == 2.0 * flow.deviation);
-}
-
-BOOST_AUTO_TEST_CASE(without_noise_it_damps) {
-  const auto flow = ornstein_uhlenbeck::prepare(1.0, 0.2, bath::of_sigma(0.4, 0.0));
-  BOOST_TEST(flow.deviation == 0.0);
-  flow_state<double, 2> x{{{0.3, -0.2}, {1.0, -2.0}}, {0.0, 0.0}};
-  ornstein_uhlenbeck::damp(two_masses(), flow.decay, x);
-  BOOST_TEST(x.p[0] == flow.decay);
-  BOOST_TEST(x.p[1] == -2.0 * flow.decay);
 }
 
 BOOST_AUTO_TEST_CASE(a_letter_that_is_not_prepared_does_nothing) {

@@ -1,29 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 // Letters of one's own go where letters of the library go: into words as types and as data, over packs and
 // derivatives, and into learning; to the same bits.
-#include <boost/test/unit_test.hpp>
-
-#include <array>
-#include <cmath>
-#include <memory>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "../laws/laws.hpp"
 #include "../support/refusal.hpp"
-#include "../support/rounding.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/detail/named_letters.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/aba.hpp"
 #include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/methods/tabulated.hpp"
-#include "nysalt/references/fine_steps.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/pendulum.hpp"
-#include "nysalt/systems/phi4_chain.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -123,11 +108,9 @@ BOOST_AUTO_TEST_CASE(evaluations_are_those_of_the_word) {
   BOOST_TEST(as_data.letters() == "babab");
   BOOST_TEST(as_data.merges);
   BOOST_TEST(as_data.has_own_letters());
-  BOOST_TEST(as_data.evaluations_per_step == W::evaluations_per_step);
-  BOOST_TEST(as_data.evaluations_to_open == W::evaluations_to_open);
-  BOOST_TEST(as_data.evaluations_to_observe == W::evaluations_to_observe);
-  BOOST_TEST(as_data.evaluations_of_plain_step == W::evaluations_of_plain_step);
-  BOOST_TEST(!run_time_word("BAB").has_own_letters());
+  BOOST_TEST(as_data.evaluations_per_step == 2);
+  BOOST_TEST(as_data.evaluations_of_plain_step == 3);
+  BOOST_TEST((as_data.evaluations_to_open == 1 && as_data.evaluations_to_observe == 1));
 }
 
 BOOST_AUTO_TEST_CASE(letters_are_taken_from_a_list_by_their_names) {
@@ -158,11 +141,6 @@ BOOST_AUTO_TEST_CASE(what_a_file_states_of_a_letter_is_read_and_not_stepped) {
                                             {"of henon_heiles() must come with the system"}));
 }
 
-namespace {
-/// Another letter of the same name.
-struct other_drift : my_drift {};
-}  // namespace
-
 BOOST_AUTO_TEST_CASE(what_a_bound_word_cannot_do_is_refused) {
   using wrong = std::invalid_argument;
   const henon_heiles same;
@@ -172,6 +150,7 @@ BOOST_AUTO_TEST_CASE(what_a_bound_word_cannot_do_is_refused) {
   BOOST_TEST(refuses<wrong>([&] { make_stepper(other, method, 0.1); },
                             {"the word ababa must be made with the system pendulum(), got the letter a of "
                              "henon_heiles(); make the word with this system"}));
+  struct other_drift : my_drift {};  // of the same name
   using twice = word<my_drift, my_kick, other_drift>;
   BOOST_TEST(refuses<wrong>([] { run_time_word(twice{}, henon_heiles()); },
                             {"the word aba: letters of one's own must have different names, "

@@ -3,39 +3,20 @@
 // whole, merge, are counted part by part, and make r-RESPA. Kepler's motion is exact, and Wisdom's and
 // Holman's method errs by the masses of the planets times h^2. In a uniform magnetic field the helix is exact
 // and symplectic, and Boris' method keeps volume and no more.
-#include <boost/test/unit_test.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "../support/dense.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/check_force.hpp"
-#include "nysalt/derivatives/check_letter.hpp"
-#include "nysalt/derivatives/jacobian.hpp"
 #include "nysalt/derivatives/reversibility.hpp"
 #include "nysalt/derivatives/symplecticity.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/flows/cyclotron.hpp"
-#include "nysalt/flows/kepler_flow.hpp"
-#include "nysalt/flows/kick_of_parts.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/methods/magnetic.hpp"
 #include "nysalt/methods/r_respa.hpp"
 #include "nysalt/methods/wisdom_holman.hpp"
-#include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/bonded_chain.hpp"
 #include "nysalt/systems/charged_particle.hpp"
-#include "nysalt/systems/phi4_chain.hpp"
 #include "nysalt/systems/solar_system.hpp"
 
 using namespace nysalt;
@@ -285,17 +266,6 @@ BOOST_AUTO_TEST_CASE(forces_of_the_solar_system_are_gradients_and_add_up) {
   BOOST_CHECK_THROW(solar_system<1>({1.0, 0.1}, 0.0), std::invalid_argument);
 }
 
-// Symplecticity is that of its letters, which check_letter() tries in the units of each coordinate.
-BOOST_AUTO_TEST_CASE(wisdom_holman_is_reversible) {
-  const auto system = outer_solar_system();
-  const auto from = outer_solar_system_start();
-  BOOST_TEST(reversibility_defect(system, wisdom_holman(), 400.0, from) <= 1e3 * eps * size_of(from));
-  struct one_sided : wisdom_holman {
-    static std::array<double, 3> coefficients() { return {0.0, 1.0, 1.0}; }
-  };
-  BOOST_TEST(reversibility_defect(system, one_sided(), 400.0, from) > 1e-7);
-}
-
 // The known error, epsilon h^2 with epsilon the masses of the planets over that of the sun
 // [wisdom_holman_1991]: halving the step leaves a quarter, a tenth of the masses a tenth, each to a fifth, as
 // the next terms are h^2 and epsilon smaller. That of Verlet does not know of masses.
@@ -368,44 +338,10 @@ BOOST_AUTO_TEST_CASE(letters_of_the_field_are_what_they_state) {
   }
 }
 
-namespace {
-struct claims_turn : boris_turn {
-  static constexpr bool symplectic = true;
-};
-struct claims_drift : velocity_drift {
-  static constexpr bool symplectic = true;
-};
-struct claims_way_back : cyclotron_flow {
-  static constexpr bool reversible = true;
-};
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(what_letters_of_the_field_are_not_is_found) {
-  const auto report = []<class L>(L) { return check_letter<L>(trap, {ion}, 0.3).report(); };
-  BOOST_TEST(report(claims_turn()).starts_with("the letter w is not symplectic"));
-  BOOST_TEST(report(claims_drift()).starts_with("the letter v is not symplectic"));
-  BOOST_TEST(report(claims_way_back()).starts_with("the letter m is not reversible"));
-}
-
 BOOST_AUTO_TEST_CASE(the_trap_has_the_force_of_its_potential) {
   BOOST_TEST(check_force(trap.part<0>(), {ion.q, vector<double, 3>(2.0 * ion.q)}).passed());
   BOOST_CHECK_THROW(penning_trap(penning_potential(1.0), 0.0), std::invalid_argument);
   BOOST_CHECK_THROW(penning_potential(0.0), std::invalid_argument);
-}
-
-// After a turn the particle is where it was, but for its way along the field: some tens of roundings.
-BOOST_AUTO_TEST_CASE(without_electric_field_a_turn_closes) {
-  const double turn = 2.0 * std::numbers::pi / trap.cyclotron_frequency();
-  auto x = ion;
-  stepper<penning_trap, word<cyclotron_flow>>(trap, {1.0}, turn).step(x);
-  const auto v = trap.velocity_of(ion);
-  BOOST_TEST(std::abs(x.q[0] - ion.q[0]) <= 100.0 * eps);
-  BOOST_TEST(std::abs(x.q[1] - ion.q[1]) <= 100.0 * eps);
-  BOOST_TEST(std::abs(x.q[2] - ion.q[2] - turn * v[2]) <= 100.0 * eps);
-  BOOST_TEST(trap.velocity_of(x).isApprox(v, 100.0 * eps));
-  auto half = ion;
-  stepper<penning_trap, word<cyclotron_flow>>(trap, {0.5}, turn).step(half);
-  BOOST_TEST(distance(half, ion) > 0.1);
 }
 
 // J^T Omega J - Omega sums 6 products of entries of order ten, each off by some hundred roundings. Boris'
@@ -418,21 +354,6 @@ BOOST_AUTO_TEST_CASE(cyclotron_verlet_is_symplectic_and_boris_keeps_volume) {
   BOOST_TEST(std::abs(volume - 1.0) <= rounding);
 }
 
-BOOST_AUTO_TEST_CASE(in_a_magnetic_field_a_step_back_undoes_a_step) {
-  const auto there_and_back = [](const auto& method) {
-    auto x = ion;
-    make_stepper(trap, method, 0.2).step(x);
-    make_stepper(trap, method, -0.2).step(x);
-    return distance(x, ion);
-  };
-  BOOST_TEST(there_and_back(boris()) <= 100.0 * eps);
-  BOOST_TEST(there_and_back(cyclotron_verlet()) <= 100.0 * eps);
-  struct one_sided : cyclotron_verlet {
-    static std::array<double, 3> coefficients() { return {0.0, 1.0, 1.0}; }
-  };
-  BOOST_TEST(there_and_back(one_sided()) > 1e-3);
-}
-
 // Halving the step leaves a quarter of the error, to a tenth by the terms of h^4.
 BOOST_AUTO_TEST_CASE(magnetic_methods_are_of_order_two) {
   const auto exact = by_runge_kutta(0.0005, 4000);
@@ -443,14 +364,4 @@ BOOST_AUTO_TEST_CASE(magnetic_methods_are_of_order_two) {
   BOOST_TEST(std::abs(ratio(boris()) / 4.0 - 1.0) < 0.1);
   BOOST_TEST(std::abs(ratio(cyclotron_verlet()) / 4.0 - 1.0) < 0.1);
   BOOST_TEST(off(cyclotron_verlet(), 0.005, 400) < 0.5 * off(boris(), 0.005, 400));
-}
-
-BOOST_AUTO_TEST_CASE(in_a_magnetic_field_the_energy_stays_for_long) {
-  const auto largest = [](const auto& method, double step) {
-    return largest_change(
-        trap, method, step, ion, 40'000, [](const auto& x) { return trap.energy_of(x); }, 10);
-  };
-  // In the mean of h^2: a drift over 2,000 times of one would exceed it.
-  BOOST_TEST(largest(cyclotron_verlet(), 0.05) < 0.05 * 0.05);
-  BOOST_TEST(largest(boris(), 0.05) < 0.05 * 0.05 * 25.0);
 }

@@ -2,11 +2,6 @@
 // Compiled with -O1: 56 s at -O0, 4 s at -O1.
 // Statistics, errors, draws and fits have the same bits on any number of threads, in any lanes, on any ranks,
 // and cut.
-#include <array>
-#include <cstdint>
-#include <stdexcept>
-#include <vector>
-
 #include "law.hpp"
 #include "nysalt/analysis/acceptance.hpp"
 #include "nysalt/analysis/acceptance_step.hpp"
@@ -19,15 +14,7 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/hmc.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/losses/after_steps.hpp"
-#include "nysalt/losses/own_loss.hpp"
-#include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/state_error.hpp"
-#include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
-#include "nysalt/noises/counter_noise.hpp"
-#include "nysalt/references/fine_paths.hpp"
-#include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -1,37 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O1: 9 s at -O0, 0.5 s at -O1.
 // Trajectories have the same bits on any number of threads, in any lanes, on any ranks, and cut.
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
-
 #include "law.hpp"
-#include "nysalt/distributed_run.hpp"
 #include "nysalt/ensemble_run.hpp"
 #include "nysalt/ensembles/gibbs.hpp"
-#include "nysalt/ensembles/lennard_jones_liquid_law.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/judgement.hpp"
-#include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
-#include "nysalt/noises/counter_noise.hpp"
-#include "nysalt/noises/finer_noise.hpp"
-#include "nysalt/noises/recorded_path.hpp"
-#include "nysalt/references/fine_paths.hpp"
-#include "nysalt/references/fine_steps.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/lennard_jones_liquid.hpp"
-#include "nysalt/systems/phi4_chain.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -74,61 +52,6 @@ struct sightings {
   }
   std::vector<numbers> of_each;
 };
-
-result observed_run(const division& how, std::uint64_t seed) {
-  const model system = in_noise(how);
-  result all;
-  const auto observe = [&](std::int64_t n, const auto& x) { all.of_all << n << x; };
-  const auto before = obabo_of(system, 0.01, seed);
-  auto run = before.open(law(seed, 0), 3);
-  before.advance(run, how.is_cut ? 41 : steps, every, observe);
-  const auto after = obabo_of(system, 0.01, seed);
-  after.advance(run, steps - run.step, every, observe);
-  all.of_all << after.synchronous(run);
-  return all;
-}
-
-state rough_ring(std::uint64_t seed, Eigen::Index sites) {
-  state x{Eigen::VectorXd(sites), Eigen::VectorXd(sites)};
-  counter_noise(seed).normals(noise_place{0, 0, 0}, x.q);
-  counter_noise(seed).normals(noise_place{1, 0, 0}, x.p);
-  return x;
-}
-
-result run_in_tiles(const division& how, std::uint64_t seed) {
-  const model system = model(phi4_chain<>(20'000)).on_threads(how.threads);  // enough sites for two threads
-  const auto fixed = make_stepper(system, tabulated(verlet()), 0.05);
-  auto run = fixed.open(rough_ring(seed, 20'000));
-  if (how.is_cut) fixed.advance(run, 41);
-  fixed.advance(run, 70 - run.step);
-  result all;
-  all.of_all << fixed.synchronous(run);
-  return all;
-}
-
-result run_that_ranks_share(const division& how, std::uint64_t seed) {
-  const state x = rough_ring(seed, 10'000);
-  const model system = model(phi4_chain<>(10'000)).on_threads(how.threads);
-  const auto from = [](const auto& all) {
-    return [&all](Eigen::Index first, std::span<double> q, std::span<double> p) {
-      std::copy_n(all.q.data() + first, q.size(), q.begin());
-      std::copy_n(all.p.data() + first, p.size(), p.begin());
-    };
-  };
-  const tabulated method{verlet()};
-  distributed_run run(system, method, 0.05, from(x), *how.ranks);
-  if (how.is_cut) {  // what one rank has kept others go on with
-    distributed_run first(system, method, 0.05, from(x));
-    first.advance(41);
-    run.resume(first.step(), from(first.open().state));
-  }
-  run.advance(70 - run.step());
-  result all;
-  all.of_all << run.energy() << run.is_finite();
-  const state end = run.synchronous();
-  for (Eigen::Index i = 0; i < run.sites(); ++i) all.of_each[run.first_site() + i] << end.q[i] << end.p[i];
-  return all;
-}
 
 result resumed_ensemble(const division& how, std::uint64_t seed) {
   sightings seen(trajectories);
@@ -253,59 +176,11 @@ result judged(const division& how, std::uint64_t seed, const model& system, cons
   return all;
 }
 
-/// Numbers of trajectories 40 to 47 from sources that make those of the lanes of a pack together.
-result noise_of_sources(const division& how, std::uint64_t seed) {
-  std::array<numbers, 8> of_each;
-  const auto draw = [&]<class T>(T, std::uint64_t first) {
-    const auto keep = [&](const vector<T, 3>& xi) {
-      for (int k = 0; k < lanes_in<T>; ++k) of_each[first + static_cast<std::size_t>(k)] << lane(xi, k);
-    };
-    vector<T, 3> xi;
-    const counter_noise plain(seed);
-    const finer_noise finer(seed, 0.7, 3);
-    recorded_path<T, 3> path(0.1, 3.0, 40 + first);
-    for (std::int64_t n = 0; n < 5; ++n) {
-      const noise_place at{40 + first, n, 0};
-      plain.normals(at, xi);
-      keep(xi);
-      path.add(xi);
-      plain.halving(at, xi);
-      keep(xi);
-      finer.normals(at, xi);
-      keep(xi);
-    }
-    path.over(1, 5, xi);
-    keep(xi);
-  };
-  if (how.in_lanes) draw(pack<double, 8>(), 0);
-  for (std::uint64_t m = 0; !how.in_lanes && m < 8; ++m) draw(0.0, m);
-  result all;
-  for (std::size_t m = 0; m < of_each.size(); ++m) all.of_each[static_cast<std::int64_t>(m)] = of_each[m];
-  return all;
-}
-
-/// Cut by an object that has not seen the first part, and has no list of neighbours yet.
-result run_of_a_liquid(const division& how, std::uint64_t seed) {
-  const lennard_jones_liquid first(256, 0.8442, {.smoothness = 2, .threads = how.threads});
-  const lennard_jones_liquid second(256, 0.8442, {.smoothness = 2, .skin = 0.4, .threads = how.threads});
-  auto run = make_stepper(first, verlet{}, 0.004).open(lennard_jones_liquid_law(first, 1.44)(seed, 0));
-  if (how.is_cut) make_stepper(first, verlet{}, 0.004).advance(run, 15);
-  const auto rest = make_stepper(second, verlet{}, 0.004);
-  rest.advance(run, 30 - run.step);
-  const auto x = rest.synchronous(run);
-  result all;
-  all.of_all << x << second.potential(x.q) << second.virial(x.q);
-  return all;
-}
-
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(no_trajectory_depends_on_how_it_was_divided) {
   const auto quiet = [](const division& how) { return divided(chain, how); };
   require_invariance({
-      {"an observed run", by_cuts, observed_run},
-      {"a run in tiles", by_threads + by_cuts, run_in_tiles},
-      {"a run that ranks share", by_threads + by_ranks + by_cuts, run_that_ranks_share},
       {"an ensemble that is resumed", by_threads + by_lanes + by_cuts, resumed_ensemble},
       {"an ensemble", by_threads + by_lanes + by_ranks + by_cuts,
        [](const auto& how, auto seed) { return followed_ensemble(how, seed, galaxy_in_noise(how), wide); }},
@@ -323,8 +198,6 @@ BOOST_AUTO_TEST_CASE(no_trajectory_depends_on_how_it_was_divided) {
        [&](const auto& how, auto seed) { return judged(how, seed, quiet(how), tabulated(verlet())); }},
       {"a judgement in a bath", by_threads + by_lanes,
        [](const auto& how, auto seed) { return judged(how, seed, in_noise(how), tabulated(obabo())); }},
-      {"noise", by_lanes, noise_of_sources},
-      {"a liquid", by_threads + by_cuts, run_of_a_liquid},
   });
 }
 

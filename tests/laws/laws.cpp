@@ -228,14 +228,6 @@ double reversibility_broken(const model& system, const tabulated& method, double
   return reversibility_defect(system, method, step, x) / rounding;
 }
 
-double undoing_broken(const model& system, const tabulated& method, double step, const any_state& x) {
-  const double magnified = transient_growth(method, step, shears_at(system, x));
-  auto y = x;
-  make_stepper(system, method, step).step(y);
-  make_stepper(system, method, -step).step(y);
-  return distance(x, y) / (4.0 * roundings(method, x.size()) * eps * size_of(x) * magnified * magnified);
-}
-
 // Runs.
 
 static auto with_run(const run_of& of, const auto& f) {

@@ -71,8 +71,6 @@ double symplecticity_broken(const model& system, const tabulated& method, double
 double symplecticity_broken_by_euler(const model& system, double step, const any_state& x);
 double volume_broken(const model& system, const tabulated& method, double step, const any_state& x);
 double reversibility_broken(const model& system, const tabulated& method, double step, const any_state& x);
-/// A step back undoes a step.
-double undoing_broken(const model& system, const tabulated& method, double step, const any_state& x);
 
 // Runs.
 

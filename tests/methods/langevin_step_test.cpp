@@ -2,13 +2,6 @@
 // Methods and families that are thermostatted: what they say. One step of each Langevin method on the damped
 // oscillator, as a matrix and a covariance: against the word spelled out, against the solution without noise,
 // and the law that it keeps. The oracle of these tests is checked by formulas that it does not use.
-#include <boost/test/unit_test.hpp>
-
-#include <algorithm>
-#include <array>
-#include <complex>
-#include <stdexcept>
-
 #include "../support/draws.hpp"
 #include "../support/langevin.hpp"
 #include "../support/refusal.hpp"
@@ -83,17 +76,6 @@ BOOST_AUTO_TEST_CASE(a_thermostatted_family_is_the_family_with_the_bath_between)
   }
   BOOST_TEST(member<both_ends>::word::letters() == "OABABAO");
   BOOST_TEST(refuses<std::invalid_argument>([] { member<inside>({1.5, 0.4}); }, {"nystrom_middle", "b1"}));
-  using D = dual<double, 2>;
-  const std::array theta{D::variable(0.4, 0), D::variable(0.35, 1)};
-  const auto plain = nystrom::coefficients(theta);
-  const auto split = inside::coefficients(theta);
-  const auto [a, b, c, d, e] = nystrom::coefficients(std::array{0.4, 0.35});
-  BOOST_TEST((at_end::coefficients(std::array{0.4, 0.35}) == std::array{a, b, c, d, e, 1.0}));
-  BOOST_TEST((both_ends::coefficients(std::array{0.4, 0.35}) == std::array{0.5, a, b, c, d, e, 0.5}));
-  BOOST_TEST((inside::coefficients(std::array{0.4, 0.35}) == std::array{a, b, c * 0.5, 1.0, c * 0.5, d, e}));
-  BOOST_TEST((split[2].derivative[0] == plain[2].derivative[0] * 0.5));
-  BOOST_TEST((split[3].value == 1.0 && split[3].derivative == std::array{0.0, 0.0}));
-  BOOST_TEST((split[6].derivative == plain[4].derivative));
 }
 
 // On the damped oscillator.
@@ -141,31 +123,6 @@ BOOST_AUTO_TEST_CASE(the_solution_has_closed_form) {
         BOOST_TEST(std::abs(eta - variance) <= rounding * variance);
       }
     }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(without_friction_the_noise_has_a_limit) {
-  const damped_oscillator free{1e-9, 0.0, 2.0};  // Brownian motion and its integral
-  const double t = 1.5;
-  square<2> noise;
-  noise << t * t * t / 3.0, t * t / 2.0, t * t / 2.0, t;
-  BOOST_TEST(difference(free.exact(t).covariance, 4.0 * noise) <= 100.0 * eps * 4.0);
-}
-
-BOOST_AUTO_TEST_CASE(many_fine_intervals_are_a_coarse_one) {
-  for (const auto& x : oscillators) {
-    const auto fine = x.exact_with_bath(1e-3);
-    gaussian_step<3> composed;
-    for (int n = 0; n < 100; ++n) composed = then(composed, fine);
-    const auto coarse = x.exact_with_bath(0.1);
-    const double rounding = 100.0 * 40.0 * eps * (1.0 + x.omega * x.omega);
-    BOOST_TEST(difference(composed.map, coarse.map) <= rounding);
-    BOOST_TEST(difference(composed.covariance, coarse.covariance) <= rounding * x.sigma * x.sigma);
-    // Its factor gives it back, and an interval of another length is told apart.
-    const square<3> L = cholesky(fine.covariance);
-    BOOST_TEST(difference(L * L.transpose(), fine.covariance) <= 4.0 * eps * x.sigma * x.sigma);
-    BOOST_TEST(difference(composed.covariance, x.exact_with_bath(0.101).covariance) >
-               1e-4 * x.sigma * x.sigma);
   }
 }
 

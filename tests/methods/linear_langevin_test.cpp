@@ -3,20 +3,11 @@
 // Every formula and table of docs/theory-langevin-optimum.md: where the best two-stage step of a damped
 // oscillator is, and how it moves with friction. Along one Brownian path methods converge to the solution
 // with strong order 1.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <functional>
-#include <vector>
-
 #include "../support/langevin.hpp"
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/families/nystrom.hpp"
-#include "nysalt/families/thermostatted.hpp"
-#include "nysalt/lanes.hpp"
 #include "nysalt/noises/along_path.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/run_time_family.hpp"

@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 // Processed words: P(h)^-1 once, the kernel step by step, and P(-h) on what is looked at.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "../laws/laws.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/analysis/evaluations.hpp"
@@ -18,10 +11,6 @@
 #include "nysalt/methods/classical_methods.hpp"
 #include "nysalt/methods/repeated.hpp"
 #include "nysalt/methods/thermostatted.hpp"
-#include "nysalt/run_time_family.hpp"
-#include "nysalt/systems/counted.hpp"
-#include "nysalt/systems/fpu_chain.hpp"
-#include "nysalt/systems/pendulum.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

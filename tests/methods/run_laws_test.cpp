@@ -3,17 +3,8 @@
 // Runs of every method, with noise and without: merged letters change nothing but rounding; observing,
 // cutting and lanes change no bit; a method by its type is the method as data; and all costs what is
 // declared.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <vector>
-
-#include "../laws/laws.hpp"
 #include "../laws/models.hpp"
 #include "nysalt/families/thermostatted.hpp"
-#include "nysalt/methods/classical.hpp"
-#include "nysalt/systems/counted.hpp"
-#include "nysalt/systems/in_bath.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -54,18 +45,6 @@ BOOST_AUTO_TEST_CASE(merged_is_unmerged_to_rounding) {
   try_all(exact, quiet_methods(),
           [](const model& system, const tabulated& method, double step, const any_state& x) {
             BOOST_TEST((run_of{system, method, step}.merging_broken(x, 10)) <= 1.0);
-          });
-}
-
-// A run that is not made synchronous before it is looked at is ahead by a letter.
-BOOST_AUTO_TEST_CASE(an_open_run_is_not_where_the_plain_step_is) {
-  try_all(bound_specimens(), {tabulated(verlet())},
-          [](const model& system, const tabulated& method, double step, const any_state& x) {
-            const auto fixed = make_stepper(system, method, step);
-            const auto run = fixed.open(x);
-            const double rounding = 4.0 * eps * size_of(x) * shears_at(system, x).frequency();
-            BOOST_TEST(distance(fixed.synchronous(run), x) <= rounding);
-            BOOST_TEST(distance(any_state{run.state.q, run.state.p}, x) > 1e6 * rounding);
           });
 }
 
@@ -211,11 +190,6 @@ BOOST_AUTO_TEST_CASE(in_a_quiet_bath_a_step_is_that_of_the_word_without_letters_
       }
     }
   }
-  // By their types, too.
-  const in_bath idle(fpu_chain<3>(10.0), bath::of_sigma(0.0, 0.0));
-  const auto x = random.state(idle, 0.5);
-  BOOST_TEST(same_bits(finish(make_stepper(idle, obabo(), 0.02), x, 200),
-                       finish(make_stepper(idle.base(), verlet(), 0.02), x, 200)));
 }
 
 BOOST_AUTO_TEST_CASE(evaluations_are_those_declared) {

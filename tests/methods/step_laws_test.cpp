@@ -2,30 +2,14 @@
 // What one step of every method keeps, on every system: symplecticity, reversibility, consistency; and its
 // declared order, measured on nonlinear problems. Classical methods: their rows as types and as data, their
 // steps by formulas written out, several of them in one, and tables that cannot be.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <map>
-#include <numbers>
 #include <set>
-#include <string>
-#include <string_view>
-#include <utility>
-
 #include "../laws/laws.hpp"
 #include "../support/refusal.hpp"
-#include "../support/systems.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
-#include "nysalt/detail/palindrome.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/classical_methods.hpp"
 #include "nysalt/methods/repeated.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/pendulum.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -96,32 +80,13 @@ BOOST_AUTO_TEST_CASE(in_a_bath_steps_are_conformally_symplectic) {
 BOOST_AUTO_TEST_CASE(reversible_where_declared_symmetric_and_else_not) {
   try_all_methods(differentiable_specimens(), 2,
                   [](const model& system, const tabulated& method, double step, const any_state& x) {
-                    const double reversible = reversibility_broken(system, method, step, x);
-                    const double undone = undoing_broken(system, method, step, x);
+                    const double broken = reversibility_broken(system, method, step, x);
                     if (method.symmetric) {
-                      BOOST_TEST(reversible <= 1.0);
-                      BOOST_TEST(undone <= 1.0);
+                      BOOST_TEST(broken <= 1.0);
                     } else if (!describe(system).starts_with("lennard_jones")) {  // atoms hardly move
-                      BOOST_TEST(reversible > 1.0);
-                      BOOST_TEST(undone > 1.0);
+                      BOOST_TEST(broken > 1.0);
                     }
                   });
-}
-
-BOOST_AUTO_TEST_CASE(members_with_equal_kicks_are_reversible) {
-  draws random;
-  const auto& one = specimen_of("pendulum");
-  for (int n = 0; n < 20; ++n) {
-    const double beta1 = random.uniform(0.0, 0.5);
-    const auto x = one.at_random(random);
-    const auto broken = [&](double b1) {
-      return reversibility_broken(one.system, tabulated(member<nystrom>({b1, beta1})), 0.25, x);
-    };
-    BOOST_TEST_CONTEXT("beta1 = " << beta1) {
-      BOOST_TEST(broken(0.5) <= 1.0);
-      BOOST_TEST(broken(0.51) > 10.0);
-    }
-  }
 }
 
 // Consistency: kicks of every kind sum to 1, and so do drifts and rotations, and letters O. Declared
@@ -247,33 +212,11 @@ BOOST_AUTO_TEST_CASE(a_slip_in_a_table_lowers_the_order) {
   }
 }
 
-// Why orders are not measured on the oscillator. Its Lie algebra is small: this method solves the four
-// conditions on its matrix up to h^6 (by Newton's method) and no more.
-BOOST_AUTO_TEST_CASE(the_oscillator_alone_is_not_to_be_trusted) {
-  const auto c = palindrome<11>({0.18685656311551122, 0.5642486163110636,  //
-                                 0.5520581660514783, -0.23936270217732913});
-  const table method{run_time_word("BABABABABAB"), {c.begin(), c.end()}};
-  BOOST_TEST(std::abs(order_on("harmonic_oscillator", method) - 6.0) <= allowed);
-  BOOST_TEST(std::abs(order_on(split_pendulum, method) - 4.0) <= allowed);
-  BOOST_TEST(std::abs(order_on(galaxy, method) - 4.0) <= allowed);
-}
-
 // Classical methods.
 
 namespace {
 
 constexpr double h = 0.3;
-
-/// Some ten operations on numbers of size 1, in another order.
-constexpr double rounding = 10.0 * eps;
-
-/// Nothing of it is soft.
-struct two_oscillators : henon_heiles {
-  template <class T>
-  void soft_force(const vector<T, 2>&, vector<T, 2>& f) const {
-    f[0] = f[1] = T(0.0);
-  }
-};
 
 template <Method M>
 void must_be_row(const M& method) {
@@ -313,58 +256,6 @@ BOOST_AUTO_TEST_CASE(rivals_are_rows_without_a_bath_that_repeat_no_other) {
   BOOST_TEST(names.contains("impulse"));
   BOOST_TEST(!names.contains("baoab"));
   BOOST_TEST(!names.contains("verlet_2x"));
-}
-
-// Takahashi and Imada's, and Chin's. V = -cos q: f = -sin q, f' f = cos q sin q.
-BOOST_AUTO_TEST_CASE(gradient_methods_step_on_a_pendulum_by_their_formulas) {
-  const pendulum system;
-  const phase_point<double, 1> start{vector<double, 1>(0.7), vector<double, 1>(-0.4)};
-  auto x = start;
-  const auto drift = [&](double a) { x.q += a * h * x.p; };
-  const auto kick = [&](double b, double c) {
-    x.p[0] += -b * h * std::sin(x.q[0]) + 2.0 * c * h * h * h * std::cos(x.q[0]) * std::sin(x.q[0]);
-  };
-  const auto off = [&](const auto& method) {
-    auto y = start;
-    make_stepper(system, method, h).step(y);
-    return distance(x, y);
-  };
-  drift(0.5);
-  kick(1.0, 1.0 / 24.0);
-  drift(0.5);
-  BOOST_TEST(off(takahashi_imada()) <= rounding);
-  BOOST_TEST(off(verlet_aba()) > 1e6 * rounding);  // the gradient matters
-  x = start;
-  kick(1.0 / 6.0, 0.0);
-  drift(0.5);
-  kick(2.0 / 3.0, 1.0 / 72.0);
-  drift(0.5);
-  kick(1.0 / 6.0, 0.0);
-  BOOST_TEST(off(chin4a()) <= rounding);
-}
-
-// V = |q|^2/2 + q1^2 q2 - q2^3/3: two oscillators of frequency 1, and what is soft. Without a soft part the
-// impulse method is exact at any step.
-BOOST_AUTO_TEST_CASE(the_impulse_methods_step_on_a_galaxy) {
-  phase_point<double, 2> x{{0.2, -0.1}, {0.3, 0.15}};
-  const auto start = x;
-  auto y = x;
-  const henon_heiles system;
-  make_stepper(system, impulse(), h).step(x);
-  const auto half_kick = [&] {
-    y.p[0] -= 0.5 * h * 2.0 * y.q[0] * y.q[1];
-    y.p[1] -= 0.5 * h * (y.q[0] * y.q[0] - y.q[1] * y.q[1]);
-  };
-  half_kick();
-  y = {std::cos(h) * y.q + std::sin(h) * y.p, std::cos(h) * y.p - std::sin(h) * y.q};
-  half_kick();
-  BOOST_TEST(distance(x, y) <= rounding);
-  const two_oscillators linear;
-  x = start;
-  make_stepper(linear, impulse(), 2.0 * std::numbers::pi).step(x);
-  BOOST_TEST(distance(x, start) <= rounding);
-  make_stepper(linear, impulse(), std::numbers::pi).step(x);
-  BOOST_TEST(distance(x, start) > 0.1);
 }
 
 BOOST_AUTO_TEST_CASE(a_repeated_method_is_its_steps_one_after_the_other) {

@@ -3,27 +3,16 @@
 // The noise of many intervals in one is exactly that of the flow over all of them; the same path at half the
 // step, and again; and a run along a recorded path sees that path's noise, each letter O that of its own part
 // of the step.
-#include <boost/test/unit_test.hpp>
-
-#include <limits>
-
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/flows/ornstein_uhlenbeck.hpp"
-#include "nysalt/langevin.hpp"
-#include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/noises/along_path.hpp"
-#include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/noises/finer_noise.hpp"
-#include "nysalt/noises/recorded_path.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/in_bath.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -60,11 +49,6 @@ numbers after(const numbers& p, const bath& heat_bath, double time, const number
 }
 
 double largest(const auto& x) { return x.cwiseAbs().maxCoeff(); }
-
-/// A correlation in standard errors.
-double off(const sample& a, const sample& b) {
-  return std::abs(correlation(a, b)) * std::sqrt(static_cast<double>(a.size()));
-}
 
 }  // namespace
 
@@ -212,12 +196,12 @@ BOOST_AUTO_TEST_CASE(halves_are_standard_normal_and_independent) {
         BOOST_TEST(mean_off(x[0], 0.0, 1.0) <= allowed);
         BOOST_TEST(deviation_off(x[0], 1.0) <= allowed);
         BOOST_TEST(kolmogorov_smirnov(x[0]) <= kolmogorov_smirnov_limit(each));
-        BOOST_TEST(off(x[0], x[1]) <= allowed);
-        BOOST_TEST(off(x[1], x[2]) <= allowed);
+        BOOST_TEST(correlation_off(x[0], x[1]) <= allowed);
+        BOOST_TEST(correlation_off(x[1], x[2]) <= allowed);
         for (const std::int64_t by : {1, 2, 3, 4, 8}) {
           const auto [now, later] = shifted(by);
-          BOOST_TEST(off(now, later) <= allowed);
-          BOOST_TEST(off(squares(now), squares(later)) <= allowed);
+          BOOST_TEST(correlation_off(now, later) <= allowed);
+          BOOST_TEST(correlation_off(squares(now), squares(later)) <= allowed);
         }
       }
     }
@@ -237,12 +221,12 @@ BOOST_AUTO_TEST_CASE(neighbours_of_all_levels_are_independent) {
   double worst = 0.0;
   for (std::size_t n = 0; n < x.size(); ++n) {
     worst = std::max(worst, deviation_off(x[n], 1.0));
-    for (std::size_t k = 0; k < n; ++k) worst = std::max(worst, off(x[n], x[k]));
+    for (std::size_t k = 0; k < n; ++k) worst = std::max(worst, correlation_off(x[n], x[k]));
   }
   const double allowed = standard_errors(false_alarms / 300);  // 24 deviations, 276 correlations
   BOOST_TEST(worst <= allowed);
   for (std::size_t k = 0; k < count; ++k) x[17][k] += 0.2 * x[3][k];  // 12 standard errors
-  BOOST_TEST(off(x[17], x[3]) > allowed);
+  BOOST_TEST(correlation_off(x[17], x[3]) > allowed);
 }
 
 BOOST_AUTO_TEST_CASE(what_halves_is_no_noise_of_a_run) {

@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Ranks that share trajectories: which rank has which, sums with the bits of one rank, and what fails on one
 // rank fails on all, in the same words.
-#include <Eigen/Core>
-
-#include <bit>
-#include <mutex>
-#include <new>
-#include <numeric>
-
 #include "../support/ranks_as_threads.hpp"
 #include "nysalt/detail/collectively.hpp"
 #include "nysalt/shard.hpp"

@@ -2,8 +2,6 @@
 // Compiled with -O1: 20 s at -O0, 1 s at -O1.
 // A trajectory whose sites are shared has the bits of a plain loop: by tiles, on threads, and by ranks, also
 // where it is saved and resumed by other ranks.
-#include <mutex>
-
 #include "../laws/compiled_specimens.hpp"
 #include "../support/draws.hpp"
 #include "../support/local_systems.hpp"
@@ -110,11 +108,12 @@ BOOST_AUTO_TEST_CASE(any_number_of_ranks_has_the_bits_of_a_loop) {
       if (system.sites() < 4096) return;
       draws random;
       const state start = random.state(system, 0.5);
+      const model on_two = model(system).on_threads(2);
       for (const auto& method : words) {
         const auto loop = integrate(make_stepper(system, method, h), start, 71).finish;
-        const auto alone = on_ranks(system, S::components, method, start, 1, 1);
+        const auto alone = on_ranks(on_two, S::components, method, start, 1, 1);
         for (const auto& [before, after] : {std::pair(2, 3), {4, 2}, {3, 1}}) {
-          const auto shared = on_ranks(system, S::components, method, start, before, after);
+          const auto shared = on_ranks(on_two, S::components, method, start, before, after);
           const bool same = same_bits(shared.finish, loop) && shared.energy == alone.energy;
           BOOST_TEST(same, describe(system)
                                << ", " << method.name() << ", " << before << " ranks and " << after);
@@ -126,7 +125,7 @@ BOOST_AUTO_TEST_CASE(any_number_of_ranks_has_the_bits_of_a_loop) {
       }
     }
   };
-  for_each_local_system(check, 5000);
+  for_each_local_system(check, 10'000);  // enough sites for two threads of one rank
 }
 
 namespace {

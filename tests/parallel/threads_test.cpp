@@ -3,9 +3,7 @@
 // black box with memory is used by one thread at a time, and no handler of signals runs where it must wait.
 #include <chrono>
 #include <future>
-
 #include "../support/refusal.hpp"
-#include "../support/systems.hpp"
 #include "nysalt/analysis/error_measures/energy.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/detail/held_signals.hpp"

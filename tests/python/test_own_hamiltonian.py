@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
-"""A Hamiltonian by functions of Python: the theta of the compiled one, and what goes wrong in functions."""
+"""A Hamiltonian by functions of Python: the theta of the compiled one, what goes wrong in functions, and functions over
+many trajectories, which give the bits of one after the other."""
 import gc
 import traceback
 import warnings
@@ -95,11 +96,8 @@ def test_what_a_function_raises_comes_through(after):
     (dict(force=lambda q: 1.0), r"force\(q\) must have the shape \(2,\), got \(\)"),
     (dict(force=lambda q: None), r"force\(q\) must return numbers, got None; end it with a return"),
     (dict(force=lambda q: "two numbers"), r"force\(q\) must hold real numbers, got text"),
-    (dict(force=lambda q: -q + 1j), r"force\(q\) must hold real numbers, got complex ones"),
-    (dict(force=lambda q: [None, 1.0]), "must hold real numbers, got objects"),
     (dict(force=lambda q: q), "the force is not -grad V: coordinate [12] is off"),
     (dict(potential=lambda q: "deep"), r"potential\(q\) must hold real numbers, got text"),
-    (dict(potential=lambda q: q @ q + 1j), r"potential\(q\) must hold real numbers, got complex ones"),
     (dict(potential=lambda q: None), r"potential\(q\) must return a number, got None; end it with a return"),
     (dict(potential=lambda q: 0.5 * q**2), r"potential\(q\) must be one number, got the shape \(2,\)"),
     (dict(starts=lambda seed, n: ([0.1], [0.0, 0.0])), r"q of starts\(seed, n\) must have the shape \(2,\), got \(1,\)"),
@@ -186,3 +184,68 @@ def test_systems_of_a_kind_share_schemes_with_a_warning():
     for other in (wells(3), wells(3, kind="other wells")):
         with pytest.raises(ValueError, match="must run on wells"):
             nysalt.run(other, scheme, step=0.3, horizon=3, trajectories=2)
+
+
+def cubic(q):
+    return -q - q**3
+
+
+def three_wells(force, batched, **bath):
+    """Of functions over (trajectories, dimension) if batched: one call a kick."""
+    return nysalt.hamiltonian("wells", dimension=3, potential=lambda q: (0.5 * q**2 + 0.25 * q**4).sum(axis=-1), force=force,
+                              starts=lambda seed, n: np.random.default_rng([seed, n]).normal(0, 0.5, (2, 3)), frequency=3.0,
+                              inverse_mass=[1.0, 0.5, 2.0], batched=batched, **bath)
+
+
+@pytest.mark.parametrize("method", ["verlet", "mclachlan5", "srkn6b", "srkn11b", "chin4a", "baoab", "obabo", "verlet@end"])
+@pytest.mark.parametrize("steps", [1, 64, 100])
+def test_batched_bits_are_those_of_one_after_the_other(method, steps):
+    is_in_bath = method in ("baoab", "obabo", "verlet@end")
+    bath = dict(friction=0.7, temperature=0.4) if is_in_bath else {}
+    q, p = three_wells(cubic, False).starts(7)
+    one = nysalt.integrate(three_wells(cubic, False, **bath), method, 0.2, q, p, steps, seed=5)
+    many = nysalt.integrate(three_wells(cubic, True, **bath), method, 0.2, q, p, steps, seed=5)
+    assert (one[0] == many[0]).all() and (one[1] == many[1]).all()
+    assert not (one[0] == q).any()
+    other = nysalt.integrate(three_wells(cubic, True, **bath), method, 0.2, q, p, steps, seed=6)
+    assert (other[1] == many[1]).any() != is_in_bath
+
+
+def test_batched_there_is_one_call_a_kick():
+    shapes = []
+
+    def counted(q):
+        shapes.append(q.shape)
+        return cubic(q)
+
+    wells = three_wells(counted, True)
+    q, p = wells.starts(1000)
+    shapes.clear()
+    nysalt.integrate(wells, "srkn6b", 0.2, q, p, 10)
+    assert shapes == [(1000, 3)] * 61
+
+
+def test_batched_one_that_is_lost_leaves_the_others():
+    q, p = three_wells(cubic, False).starts(5)
+    q[2] *= 1e3  # far out the step is much too long
+    one, many = (nysalt.integrate(three_wells(cubic, batched), "verlet", 0.2, q, p, 200) for batched in (False, True))
+    assert np.isnan(one[0][2]).all() and np.isnan(many[0][2]).all()
+    kept = [0, 1, 3, 4]
+    assert (one[0][kept] == many[0][kept]).all() and np.isfinite(many[1][kept]).all()
+
+
+def test_batched_a_wrong_shape_is_refused():
+    q, p = three_wells(cubic, False).starts(4)
+    with pytest.raises(ValueError, match=r"force\(q\) must have the shape \(1, 3\)"):
+        three_wells(lambda q: cubic(q)[0], True)
+    wells = three_wells(lambda q: cubic(q)[:1], True)  # right for one trajectory alone
+    with pytest.raises(ValueError, match=r"force\(q\) must have the shape \(4, 3\)"):
+        nysalt.integrate(wells, "verlet", 0.1, q, p, 10)
+    with pytest.raises(ZeroDivisionError):
+        nysalt.integrate(three_wells(lambda q: cubic(q) if len(q) == 1 else 1 / 0, True), "verlet", 0.1, q, p, 10)
+
+
+def test_batched_it_learns_as_the_plain_one():
+    fits = [nysalt.learn(three_wells(cubic, batched), "nystrom", step=0.3, horizon=3, trajectories=5,
+                         effort="quick", loss="state:1").theta for batched in (False, True)]
+    assert (fits[0] == fits[1]).all()

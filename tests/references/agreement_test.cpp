@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // References that share nothing agree, on a chain with masses and a zero frequency, and tell their own error,
 // which is of the right size.
-#include <boost/test/unit_test.hpp>
-
-#include "../laws/laws.hpp"
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
-#include "../support/rounding.hpp"
-#include "nysalt/methods/tabulated.hpp"
-#include "nysalt/reference.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/references/odeint.hpp"
-#include "nysalt/systems/counted.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
-#include "nysalt/systems/in_bath.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -2,22 +2,13 @@
 // Compiled with -O1: 10 s at -O0, 0.2 s at -O1.
 // Paths in a bath: the states, the noise that goes with them, and the same path seen more finely.
 #include "nysalt/references/fine_paths.hpp"
-
-#include <boost/test/unit_test.hpp>
-
-#include <limits>
-
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
-#include "../support/systems.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/references/fine_steps.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/in_bath.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -125,16 +116,6 @@ BOOST_AUTO_TEST_CASE(a_path_goes_on_where_it_was) {
   BOOST_TEST(test::distance(at_once.x, again_and_again) > 1e-3);  // with the first noise six times
 }
 
-BOOST_AUTO_TEST_CASE(keeping_noise_changes_no_bit) {
-  const fine_paths reference(0.01);
-  const auto none = follow(reference, 0.12, 5, 0);
-  BOOST_TEST(none.xi.empty());
-  for (const std::size_t parts : {1U, 2U, 3U, 12U}) {
-    BOOST_TEST(same_bits(follow(reference, 0.12, 5, parts).x, none.x));
-  }
-  BOOST_TEST(!same_bits(follow(fine_paths(0.02), 0.12, 5, 0).x, none.x));
-}
-
 BOOST_AUTO_TEST_CASE(finer_sees_the_same_path) {
   const fine_paths coarse(0.01);
   BOOST_TEST(coarse.finer().description() == "baoab with step 0.005");
@@ -199,20 +180,6 @@ BOOST_AUTO_TEST_CASE(other_methods_with_one_letter_follow_the_same_path) {
   check(aboba());
   check(thermostat<placement::end>(mclachlan2()));
   check(thermostat<placement::middle>(mclachlan2()));
-}
-
-BOOST_AUTO_TEST_CASE(a_dynamic_dimension_is_served) {
-  const in_bath ring(dynamic_potential(), bath::of_sigma(0.5, 0.3));
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(3);
-  phase_point<double, Eigen::Dynamic> x{zero, zero};
-  std::vector<vector<double, Eigen::Dynamic>> xi(2, zero);
-  fine_paths(0.01).finer().advance(ring, x, 0.1, path_place{1, 0, 0}, std::span(xi));
-  BOOST_TEST(is_finite(x));
-  // The ring began at rest: the momentum is that of the noise alone, but for forces of its third power.
-  const bath& heat_bath = ring.bath();
-  const Eigen::VectorXd expected = (xi[0] * heat_bath.decay(0.05) + xi[1]) * heat_bath.deviation(0.05);
-  BOOST_TEST((x.p - expected).norm() < 0.1 * expected.norm());
-  BOOST_TEST(expected.norm() > 0.0);
 }
 
 BOOST_AUTO_TEST_CASE(without_sigma_there_is_no_noise) {

@@ -6,29 +6,15 @@
 // comparison rejects. And effective draws are not too many, however short the chains and however long their
 // memory.
 #include "nysalt/hmc.hpp"
-
-#include <boost/test/unit_test.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <vector>
-
 #include "../support/autoregression.hpp"
 #include "../support/refusal.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
-#include "nysalt/analysis/autocovariance.hpp"
 #include "nysalt/analysis/integrated_time.hpp"
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/gaussian.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
-#include "nysalt/systems/linear_chain.hpp"
-#include "nysalt/systems/phi4_chain.hpp"
 #include "nysalt/systems/phi4_lattice.hpp"
 
 using namespace nysalt;
@@ -410,12 +396,6 @@ double distance_of_hmc(const model& system, double step, double length, const mo
   return worst_distance(means, exact);
 }
 
-Eigen::VectorXd gaussian_moments(const Eigen::VectorXd& q) {
-  Eigen::VectorXd f(9);
-  f << q, q.cwiseAbs2(), q.array().pow(4).matrix();
-  return f;
-}
-
 Eigen::VectorXd lattice_moments(const Eigen::VectorXd& q) {
   Eigen::VectorXd f(4);
   f << q[0], q[0] * q[0], q[0] * q[3], q[1] * q[1] * q[2] * q[2];
@@ -475,26 +455,6 @@ draws_of_chains autoregressions(double phi, std::uint64_t of_seed, std::uint64_t
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_CASE(moments_of_a_gaussian) {
-  const Eigen::Array3d frequencies(0.5, 1.0, 2.0);
-  constexpr double step = 0.7;
-  const auto moments = [](const Eigen::Array3d& variances) {
-    Eigen::VectorXd all(9);
-    all << Eigen::Vector3d::Zero(), variances.matrix(), (3.0 * variances.square()).matrix();
-    return all;
-  };
-  const Eigen::Array3d variances = frequencies.square().inverse();
-  const double allowed = standard_errors(false_alarms / (9 * seeds), chains - 1);  // 9 moments
-  const auto distance = [&](const Eigen::VectorXd& from, std::uint64_t number) {
-    return distance_of_hmc(gaussian(frequencies.matrix()), step, 2.0, gaussian_moments, from, number);
-  };
-  for (std::uint64_t number = 1; number <= seeds; ++number)
-    BOOST_TEST(distance(moments(variances), number) < allowed);
-  // The law that Verlet's map keeps, which draws would have if every proposal were accepted.
-  const Eigen::Array3d of_map = variances / (1.0 - 0.25 * step * step * frequencies.square());
-  BOOST_TEST(distance(moments(of_map), 1) > 2.0 * allowed);
-}
 
 BOOST_AUTO_TEST_CASE(moments_of_a_small_lattice) {
   const wrong_energy wrong;

@@ -46,12 +46,16 @@ inline double correlation(const std::vector<double>& x, const std::vector<double
   return covariance(x, y) / std::sqrt(covariance(x, x) * covariance(y, y));
 }
 
-/// Mean and deviation of normal numbers, in standard errors: sd/sqrt(n) and sd/sqrt(2 n).
+/// Mean and deviation of normal numbers and the correlation of independent ones, in standard errors:
+/// sd/sqrt(n), sd/sqrt(2 n) and 1/sqrt(n).
 inline double mean_off(const std::vector<double>& x, double expected, double sd) {
   return std::abs(mean(x) - expected) / sd * std::sqrt(static_cast<double>(x.size()));
 }
 inline double deviation_off(const std::vector<double>& x, double sd) {
   return std::abs(std::sqrt(covariance(x, x)) / sd - 1.0) * std::sqrt(2.0 * static_cast<double>(x.size()));
+}
+inline double correlation_off(const std::vector<double>& x, const std::vector<double>& y) {
+  return std::abs(correlation(x, y)) * std::sqrt(static_cast<double>(x.size()));
 }
 
 /// The standard normal distribution.

@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // f'(q) v by dual numbers, by the system's own word, and by differences; and its own derivatives. A system's
 // own kick is that of its force, and is used where the force is not needed again.
-#include <boost/test/unit_test.hpp>
-
-#include <cstring>
-
-#include "../laws/laws.hpp"
 #include "../laws/models.hpp"
 #include "../support/local_systems.hpp"
-#include "../support/systems.hpp"
 #include "nysalt/derivatives/check_force.hpp"
-#include "nysalt/lanes.hpp"
-#include "nysalt/methods/classical.hpp"
-#include "nysalt/systems/counted.hpp"
-#include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/gaussian.hpp"
 #include "nysalt/systems/lennard_jones_cluster.hpp"
-#include "nysalt/systems/phi4_lattice.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -344,16 +333,6 @@ BOOST_AUTO_TEST_CASE(runs_do_not_depend_on_a_kick_of_ones_own) {
           [&](const model& system, const tabulated& method, double, const any_state& x) {
             BOOST_TEST(runs_alike(system, other, method, 0.01, x));
           });
-  // By their types.
-  const auto start = random.state(chain, 0.5);
-  const without_kick plain(chain);
-  const auto finish = [&](const auto& system) {
-    const auto fixed = make_stepper(system, verlet(), 0.01);
-    auto run = fixed.open(start);
-    for (const int steps : {20, 30}) fixed.advance(run, steps);
-    return fixed.synchronous(run);
-  };
-  BOOST_TEST(same_bits(finish(chain), finish(plain)));
 }
 
 // Such a chain steps by its own force.

@@ -2,27 +2,13 @@
 // Systems around systems: in a bath, or with a quadratic part split off, a system is what it was. With the
 // time as a coordinate, which drifts carry, driven motion has its order, is symplectic and reversible, and is
 // learned.
-#include <boost/test/unit_test.hpp>
-
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <vector>
-
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
-#include "../support/rounding.hpp"
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/symplecticity.hpp"
-#include "nysalt/energy.hpp"
 #include "nysalt/ensembles/listed.hpp"
-#include "nysalt/families/aba.hpp"
 #include "nysalt/integrate.hpp"
-#include "nysalt/lanes.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/references/fine_steps.hpp"
-#include "nysalt/systems/counted.hpp"
-#include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/in_time.hpp"
 
 using namespace nysalt;
@@ -186,17 +172,6 @@ BOOST_AUTO_TEST_CASE(masses_of_driven_systems_count) {
   BOOST_TEST(check_force(system, {x.q}, {x.p}).passed());
 }
 
-BOOST_AUTO_TEST_CASE(words_have_their_orders_on_driven_motion) {
-  const auto exact = after(blanes_moan_s6(), 0.005, 1000);
-  const auto order = [&](const auto& method, double step, int steps) {
-    return std::log2(distance(after(method, step, steps), exact) /
-                     distance(after(method, step / 2, 2 * steps), exact));
-  };
-  // The next even power of the step changes the ratio by less than a tenth of an order here.
-  BOOST_TEST(std::abs(order(verlet(), 0.05, 100) - 2.0) < 0.1);
-  BOOST_TEST(std::abs(order(forest_ruth(), 0.05, 100) - 4.0) < 0.2);
-}
-
 // Four products a sum, of entries of order one, each off by some hundred roundings.
 BOOST_AUTO_TEST_CASE(steps_are_symplectic_and_go_back) {
   BOOST_TEST(symplecticity_defect(pendulum_in_time, pefrl(), 0.2, start) <= 4.0 * 100.0 * eps);
@@ -205,13 +180,6 @@ BOOST_AUTO_TEST_CASE(steps_are_symplectic_and_go_back) {
   BOOST_TEST(distance(x, start) > 0.01);
   make_stepper(pendulum_in_time, pefrl(), -0.2).step(x);
   BOOST_TEST(distance(x, start) <= 100.0 * eps);
-}
-
-// H changes, as work is done, and H + p_t hardly does.
-BOOST_AUTO_TEST_CASE(the_energy_with_that_of_the_drive_stays) {
-  const auto end = after(verlet(), 0.01, 1000);
-  BOOST_TEST(std::abs(energy<double>(pendulum_in_time, end)) < 1e-4);
-  BOOST_TEST(std::abs(end.p[1] - start.p[1]) > 0.01);
 }
 
 BOOST_AUTO_TEST_CASE(a_method_is_learned_on_driven_motion) {
