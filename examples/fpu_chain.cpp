@@ -53,7 +53,7 @@ int main() {
 }
 
 // Expected output:
-// b1    = 0.50933 +- 5e-04
+// b1    = 0.50933 +- 6e-04
 // beta1 = 0.40168 +- 3e-04
 // usable: yes
 //

@@ -129,7 +129,7 @@ int main() {
 }
 
 // Expected output:
-// a1 = 0.2230 +- 0.0009, usable: yes
+// a1 = 0.2230 +- 0.0008, usable: yes
 //                 accepted           <q . grad V>, 4 is exact
 // aba2         0.9695 +- 0.0006    4.004 +- 0.027
 // mclachlan2   0.9166 +- 0.0009    4.002 +- 0.030

@@ -67,4 +67,4 @@ int main() {
 //
 // Stable for z in [0.000000, 2.581989] [3.162278, 4.082483]; sqrt(20/3) = 2.581989
 // 0.999 of the limit: bounded over 1000000 steps
-// 1.001 of the limit: diverged at step 81
+// 1.001 of the limit: diverged at step 88

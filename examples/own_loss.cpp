@@ -90,7 +90,7 @@ int main() {
 
 // Expected output:
 // the error of the state: c = 0.014237 +- 1e-05, usable: yes
-// the turning: c = 0.014573 +- 8e-08, usable: yes
+// the turning: c = 0.014573 +- 6e-08, usable: yes
 //
 // after a hundred revolutions the ellipse has turned by, and the planet is off by
 // error of the state -0.11044 +- 0.00000   0.059

@@ -31,7 +31,7 @@ nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observ
 #   search                26 starts; this is from 'one step'
 #   stability             declared bands [0, 5.94242] [49, 51.345]
 #   judgement             good
-#   trial                 128 trajectories of 20000 steps, none lost (at most 2.3 %); energy errs by 1.35e-03 of the kinetic energy (median), 3.30e-03 (95 %), 5.02e-03 (largest)
+#   trial                 128 trajectories of 20000 steps, none lost (at most 2.3 %); energy errs by 1.37e-03 of the kinetic energy (median), 3.33e-03 (95 %), 5.07e-03 (largest)
 #   phase-fitted          the frequency 50, declared
 #   one-step error        8.344e-04, the reference's own 2.385e-13
 #   trajectory error      3.830e-03 at the end of held-out trajectories
@@ -49,7 +49,7 @@ nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observ
 #   window 0 .. 3.14279661
 #   window 3.309630287 .. 4.171642181
 #   good
-#   trial: 128 trajectories of 20000 steps, none lost (at most 2.3 %); energy errs by 1.35e-03 of the kinetic energy (median), 3.30e-03 (95 %), 5.02e-03 (largest)
+#   trial: 128 trajectories of 20000 steps, none lost (at most 2.3 %); energy errs by 1.37e-03 of the kinetic energy (median), 3.33e-03 (95 %), 5.07e-03 (largest)
 #   highest frequency along the motion 50.3383, z = 2.26522 (declared bands [0, 5.94242] [49, 51.345])
 #   linear margin 27.9 %
 #   frequencies 0 .. 5.8259 of fpu_chain(pairs=3, omega=50) at step 0.045: margin 91.7 %

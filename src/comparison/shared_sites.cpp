@@ -105,8 +105,18 @@ class shared_trajectory {
 
   std::int64_t step() const { return run_.step(); }
   std::optional<std::int64_t> diverged_at() const { return diverged_at_; }
-  /// |H - H_0| where it is, as far as ranks can sum it.
-  double energy_error() const { return energy_error_; }
+  /// |H - H_0| of the whole state where it is, with the bits of one process. Called by all ranks.
+  double energy_error() {
+    const state x = whole();
+    double result = 0.0;
+    collectively(*ranks_, [&] {
+      if (!ranks_->is_first()) return;
+      diverged_(x);
+      result = diverged_.last_change();
+    });
+    broadcast(*ranks_, result);
+    return result;
+  }
 
   /// q, p and f of the open run at rank 0, elsewhere nothing. f is the force at q, which is what words keep
   /// that keep one.
@@ -159,7 +169,6 @@ class shared_trajectory {
   bool has_diverged() {
     if (has_energy_ && run_.is_finite()) {
       const double change = std::abs(run_.energy() - initial_);
-      energy_error_ = change;
       if (change <= 0.999 * diverged_.largest_change()) return false;
     } else if (!has_energy(*system_)) {
       return !run_.is_finite();
@@ -185,7 +194,6 @@ class shared_trajectory {
   divergence<model, double> diverged_;
   bool has_energy_;  // that ranks can sum
   double initial_;   // the sum of the ranks
-  double energy_error_ = 0.0;
   std::optional<std::int64_t> diverged_at_;
 };
 
@@ -260,7 +268,7 @@ double run_on_shared_sites(const initial_value_problem& made, const initial_stat
       }
       report_reached(plan, {first, std::move(here), energy_error}, ranks);
     }
-    for (const auto& one : runs) {
+    for (auto& one : runs) {
       if (!one.diverged_at()) energy_error = std::max(energy_error, one.energy_error());
     }
     first += count;

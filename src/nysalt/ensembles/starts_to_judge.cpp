@@ -29,7 +29,13 @@ phase_points starts_to_judge(const model& system, const initial_states& ensemble
     }
     return made;
   });
-  constexpr std::size_t in_bath = 192;  // as each has noise of its own
+  const auto is_first = [&](std::size_t k) {
+    return result[k].q == result[0].q && result[k].p == result[0].p;
+  };
+  std::size_t equal = 1;
+  while (equal < result.size() && is_first(equal)) ++equal;
+  if (equal == result.size()) result.resize(1);  // one start, again and again
+  constexpr std::size_t in_bath = 192;           // as each has noise of its own
   const std::size_t given = result.size();
   for (std::size_t k = 0; system.bath().acts() && given > 0 && result.size() < in_bath; ++k) {
     result.push_back(phase_point<double, Eigen::Dynamic>(result[k % given]));

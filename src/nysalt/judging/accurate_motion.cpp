@@ -46,10 +46,13 @@ template <class T>
 accurate_motion follow_at(double step, const model& system, const states& starts, std::int64_t evaluations,
                           const judging_options& options) {
   constexpr std::int64_t most_trajectories = 64;
-  constexpr std::int64_t samples = 8;  // states of each trajectory
-  constexpr double share = 0.03;       // of the work of a trial
+  constexpr std::int64_t fewest = 4;
+  constexpr std::int64_t coordinates = 1'000'000;  // of all trajectories, as their states are kept
+  constexpr std::int64_t samples = 8;              // states of each trajectory
+  constexpr double share = 0.03;                   // of the work of a trial
   const tabulated accurate(blanes_moan_s6{});
-  const std::int64_t trajectories = std::min<std::int64_t>(most_trajectories, std::ssize(starts));
+  const std::int64_t trajectories = std::min<std::int64_t>(
+      std::clamp(coordinates / size(system), fewest, most_trajectories), std::ssize(starts));
   const double cost = static_cast<double>(accurate.letters().evaluations_per_step * trajectories);
   const auto steps = std::clamp<std::int64_t>(
       static_cast<std::int64_t>(share * static_cast<double>(evaluations) / cost), samples, most_steps);
@@ -107,8 +110,11 @@ accurate_motion follow(const model& system, const states& starts, double step, s
   constexpr double finer = 0.25;
   return with_scalar_of(system, [&]<class T>(T) {
     const double shortest = finest_step * step;
-    double length =
-        step * std::max(1.0, static_cast<double>(options.steps) / static_cast<double>(most_steps));
+    // Functions of others may refuse the states that too coarse a step leads to: they are asked near the
+    // motion.
+    constexpr double fine = 0.125;
+    const double coarsest = static_cast<double>(options.steps) / static_cast<double>(most_steps);
+    double length = step * (is_black_box(system) ? fine : std::max(1.0, coarsest));
     accurate_motion motion = follow_at<T>(length, system.base(), starts, evaluations, options);
     while (!motion.is_followed && length > shortest) {
       length = std::max(shortest, finer * length);

@@ -102,9 +102,14 @@ BOOST_AUTO_TEST_CASE(a_plugin_has_the_numbers_of_the_bundled_system) {
         "compare --steps 0.02,0.04 --methods verlet,learned:nystrom --metric state,exchange,path "
         "--trajectories 32 --learn-trajectories 8 --threads 3",
         "stability --method bcss3 --step 0.04"}) {
-    const auto bundled = document(command + " --system fpu", folder);
-    const auto own = document(command + " --system ./own.hpp", folder);
-    BOOST_TEST(without_times(own.dump(1)) == without_times(bundled.dump(1)), command);
+    const auto of = [&](const std::string& system) {
+      json found = document(command + " --system " + system, folder);
+      for (const char* name : {"system", "checksum"}) {  // schemes name their system
+        for (auto& one : found.contains("fits") ? found["fits"] : json::array()) one["scheme"].erase(name);
+      }
+      return without_times(found.dump(1));
+    };
+    BOOST_TEST(of("./own.hpp") == of("fpu"), command);
   }
   const std::string sampled =
       "run --method srkn6b --step 0.02 --horizon 20 --trajectories 33 "

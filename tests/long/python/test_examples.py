@@ -36,11 +36,10 @@ def test_own_hamiltonian_learns_and_compares(capsys):
     found = runpy.run_path(str(EXAMPLES / "own_hamiltonian.py"))
     assert found["scheme"].usable and not found["morse"].frequency_bands
     assert {row["metric"] for row in found["found"]["rows"]} == {"state", "energy"}
-    # 20 trajectories at the step 0.3, and examples/new_hamiltonian.cpp learns from 100 others at 0.4: the errors of
-    # both, and what the step changes, add up to less than five of these.
-    theirs = np.array([0.5199, 0.4113])
-    errors = np.array(list(found["scheme"].standard_errors.values()))
-    assert (abs(found["scheme"].theta - theirs) <= 5 * errors + 1e-4).all()
+    # examples/new_hamiltonian.cpp prints these at the step .4, from other data: the optimum moves with the square of the
+    # step, by some (.4^2 - .3^2)/.4^2 of its distance from the best at small steps, (.5, .4).
+    theirs = np.array([0.4939, 0.3873])
+    assert (abs(found["scheme"].theta - theirs) <= 0.03).all()
     assert "mclachlan2" in capsys.readouterr().out
 
 
