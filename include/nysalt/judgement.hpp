@@ -37,8 +37,8 @@ constexpr std::string_view to_string(step_verdict v) {
 /// How much a judge may do. Two judges of equal options, system, starts and step give equal judgements.
 struct judging_options {
   std::int64_t steps = 20'000;  ///< largest number of steps of a trajectory
-  /// Largest number of force evaluations times coordinates, some tenths of a second in lanes; of a black box,
-  /// whose cost is not known, of force evaluations a two-thousandth of it.
+  /// Largest number of force evaluations times force_cost(), some tenths of a second in lanes, as a rule; of
+  /// a black box, whose cost is not known, of force evaluations a two-thousandth of it.
   std::int64_t work = 400'000'000;
   std::uint64_t seed = 1;      ///< seed of the noise, in a bath
   int threads = 1;             ///< changes no bit

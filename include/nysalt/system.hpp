@@ -22,7 +22,9 @@
 //   normal_modes modes() const;  std::vector<frequency_band> frequency_bands() const;
 //   template <class T> void soft_force(const vector<T, N>& q, vector<T, N>& f) const;
 //                                          that of V less q K q/2, which modes() diagonalises
-//   std::string description() const;  std::string kind() const;          the description without the size
+//   double force_cost() const;             what a force costs, where that is not in proportion to the
+//   coordinates std::string description() const;  std::string kind() const;          the description without
+//   the size
 #pragma once
 
 #include <concepts>
@@ -180,6 +182,13 @@ concept HasFrequencyBands = requires(const S& s) {
   { s.frequency_bands() } -> std::same_as<std::vector<frequency_band>>;
 };
 
+/// The system states what an evaluation of its force costs, in coordinates of a cheap force, some nanoseconds
+/// each.
+template <class S>
+concept HasForceCost = requires(const S& s) {
+  { s.force_cost() } -> std::same_as<double>;
+};
+
 namespace detail {
 template <class T>
 inline constexpr bool is_dual_of_double = false;
@@ -290,6 +299,25 @@ Eigen::Index size(const S& system) {
     return system.size();
   } else {
     return S::dimension;
+  }
+}
+
+/// What an evaluation of the force costs, in coordinates of a cheap force: as stated, else the coordinates,
+/// and of a potential that is differentiated coordinate by coordinate four times their square. It bounds the
+/// work of trials, and measures nothing.
+template <System S>
+double force_cost(const S& system) {
+  const auto coordinates = static_cast<double>(size(system));
+  if constexpr (ErasedSystem<S>) {
+    return system.facts().force_cost;
+  } else if constexpr (HasForceCost<S>) {
+    return system.force_cost();
+  } else if constexpr (requires {
+                         { system.base() } -> System;
+                       }) {
+    return force_cost(system.base());
+  } else {
+    return HasForce<S, double> ? coordinates : 4.0 * coordinates * coordinates;
   }
 }
 

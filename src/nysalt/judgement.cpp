@@ -34,8 +34,9 @@ constexpr double most = 0.95;  // quantile of energy errors, and confidence of t
 
 /// Force evaluations that a judge may spend on one method.
 std::int64_t evaluations_of(const model& system, const judging_options& options) {
-  constexpr std::int64_t of_black_box = 2000;
-  return std::max<std::int64_t>(1, options.work / (is_black_box(system) ? of_black_box : size(system)));
+  constexpr double of_black_box = 2000.0;
+  const double cost = is_black_box(system) ? of_black_box : force_cost(system);
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(static_cast<double>(options.work) / cost));
 }
 
 /// Slope of some numbers, one for each window, over all windows: the median of the slopes between any two

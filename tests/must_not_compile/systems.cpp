@@ -115,6 +115,7 @@ inline void use(const wall& system) {
 // expect: nysalt: kick is not of the form `template <class T, class C> void kick(q, p, c) const`
 // expect: nysalt: frequency_bands is not of the form `std::vector<nysalt::frequency_band> frequency_bands()
 //   const`
+// expect: nysalt: force_cost is not of the form `double force_cost() const`
 // expect: nysalt: bath is not of the form `const nysalt::bath& bath() const`; see systems/in_bath.hpp
 // expect: nysalt: velocity(p, v) must be differentiable, and takes double only; make it a template
 namespace members_of_another_form {
@@ -144,6 +145,11 @@ struct banded : well {
   std::vector<double> frequency_bands() const { return {1.0}; }
   // [/frequency_bands_of_another_type]
 };
+struct priced : well {
+  // [force_cost_of_another_type]
+  int force_cost() const { return 5; }
+  // [/force_cost_of_another_type]
+};
 struct in_a_bath : well {
   // [bath_of_another_type]
   double bath() const { return 0.1; }
@@ -160,7 +166,7 @@ void step_all() {
   (step(either<well, Systems>()), ...);
 }
 inline void use(const nysalt::phase_point<double, 1>& x) {
-  step_all<mass, kinetic, kicked, banded, in_a_bath>();
+  step_all<mass, kinetic, kicked, banded, priced, in_a_bath>();
   nysalt::symplecticity_defect(either<well, half_differentiable>(), nysalt::verlet(), 0.1, x);
 }
 }  // namespace members_of_another_form

@@ -105,6 +105,7 @@ class any_system {
 /// What is known of a system at run time; concepts say the same of the type.
 struct model_facts {
   Eigen::Index size = 0;
+  double force_cost = 0.0;
   std::string description{};
   std::string base_description{};  ///< without its bath
   bath in = bath::of_sigma(0.0, 0.0);

@@ -32,6 +32,8 @@ template <class S>
 concept MentionsFrequencyBands = requires { &S::frequency_bands; } || requires(S& s) { s.frequency_bands(); };
 
 template <class S>
+concept MentionsForceCost = requires { &S::force_cost; } || requires(S& s) { s.force_cost(); };
+template <class S>
 concept MentionsBath = requires { &S::bath; } || requires(S& s) { s.bath(); };
 
 }  // namespace detail
@@ -68,6 +70,8 @@ constexpr void require_suited() {
   static_assert(HasFrequencyBands<S> || !detail::MentionsFrequencyBands<S>,
                 "nysalt: frequency_bands is not of the form "
                 "`std::vector<nysalt::frequency_band> frequency_bands() const`");
+  static_assert(HasForceCost<S> || !detail::MentionsForceCost<S>,
+                "nysalt: force_cost is not of the form `double force_cost() const`");
   static_assert(
       HasBath<S> || !detail::MentionsBath<S>,
       "nysalt: bath is not of the form `const nysalt::bath& bath() const`; see systems/in_bath.hpp");

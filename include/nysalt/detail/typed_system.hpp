@@ -343,6 +343,7 @@ template <class S>
 model_facts facts_of(const S& system) {
   model_facts facts;
   facts.size = nysalt::size(system);
+  facts.force_cost = nysalt::force_cost(system);
   facts.description = facts.base_description = describe(system);
   if constexpr (requires { describe(system.base()); }) facts.base_description = describe(system.base());
   if constexpr (HasBath<S>) facts.in = static_cast<const bath&>(system.bath());

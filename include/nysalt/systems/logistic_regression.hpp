@@ -90,6 +90,11 @@ class logistic_regression {
 
   /// Frequency band from the frequency of the prior to the upper bound of the curvature.
   std::vector<frequency_band> frequency_bands() const { return {{std::sqrt(precision_), fastest_}}; }
+  /// Two passes over the predictors, and an exponential a row, which costs as much as some twenty
+  /// coordinates.
+  double force_cost() const {
+    return static_cast<double>(rows()) * (2.0 * static_cast<double>(size()) + 20.0);
+  }
   /// Made once: it takes all the data.
   std::string description() const { return description_; }
 

@@ -47,9 +47,10 @@ accurate_motion follow_at(double step, const model& system, const states& starts
                           const judging_options& options) {
   constexpr std::int64_t most_trajectories = 64;
   constexpr std::int64_t fewest = 4;
-  constexpr std::int64_t coordinates = 1'000'000;  // of all trajectories, as their states are kept
-  constexpr std::int64_t samples = 8;              // states of each trajectory
-  constexpr double share = 0.03;                   // of the work of a trial
+  constexpr std::int64_t coordinates =
+      1'000'000;                       // of all trajectories; large systems have many parts in each
+  constexpr std::int64_t samples = 8;  // states of each trajectory
+  constexpr double share = 0.03;       // of the work of a trial
   const tabulated accurate(blanes_moan_s6{});
   const std::int64_t trajectories = std::min<std::int64_t>(
       std::clamp(coordinates / size(system), fewest, most_trajectories), std::ssize(starts));
@@ -58,8 +59,10 @@ accurate_motion follow_at(double step, const model& system, const states& starts
       static_cast<std::int64_t>(share * static_cast<double>(evaluations) / cost), samples, most_steps);
   const std::int64_t every = steps / samples;
   const bool knows_kinetic = has_energy(system);
+  constexpr Eigen::Index few = 1000;
+  const bool keeps_states = size(system) <= few;  // a larger system has all its frequencies in each start
   std::vector<shown_motion> shown(static_cast<std::size_t>(trajectories));
-  const auto n = static_cast<std::size_t>(size(system));
+  const auto n = static_cast<std::size_t>(keeps_states ? size(system) : 0);
   const auto read = [&](const phase_point<T, Eigen::Dynamic>& x, std::span<T> numbers) {
     for (std::size_t i = 0; i < n; ++i) {
       numbers[i] = x.q[static_cast<Eigen::Index>(i)];
@@ -78,10 +81,11 @@ accurate_motion follow_at(double step, const model& system, const states& starts
       if (!one.holds(numbers[2 * n + 1], numbers[2 * n])) return;
       one.kinetic.push_back(numbers[2 * n]);
     }
+    if (!keeps_states || at % every != 0) return;
     phase_point<double, Eigen::Dynamic> x{Eigen::VectorXd(size(system)), Eigen::VectorXd(size(system))};
     std::copy_n(numbers.begin(), n, x.q.begin());
     std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(n), n, x.p.begin());
-    if (at % every == 0 && is_finite(x)) one.seen.push_back(x);
+    if (is_finite(x)) one.seen.push_back(x);
   };
   const auto stepper = make_stepper(system, accurate, step, counter_noise(options.seed));
   integrate_ensemble<T>(stepper, listed<Eigen::Dynamic>(starts),
@@ -97,6 +101,8 @@ accurate_motion follow_at(double step, const model& system, const states& starts
     all.insert(all.end(), one.kinetic.begin(), one.kinetic.end());
     result.seen.insert(result.seen.end(), one.seen.begin(), one.seen.end());
   }
+  if (!keeps_states)
+    result.seen.assign(starts.begin(), starts.begin() + std::min(samples, std::ssize(starts)));
   const std::int64_t reads = trajectories * (every * samples + 1);
   result.is_followed = !knows_kinetic || 2 * std::ssize(all) >= reads;
   result.kinetic_energy = std::max(0.0, median_of(all));
@@ -108,7 +114,7 @@ accurate_motion follow_at(double step, const model& system, const states& starts
 accurate_motion follow(const model& system, const states& starts, double step, std::int64_t evaluations,
                        const judging_options& options) {
   constexpr double finer = 0.25;
-  return with_scalar_of(system, [&]<class T>(T) {
+  return in_lanes_if_filled(system, std::ssize(starts), [&]<class T>(T) {
     const double shortest = finest_step * step;
     // Functions of others may refuse the states that too coarse a step leads to: they are asked near the
     // motion.

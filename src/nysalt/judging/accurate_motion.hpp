@@ -16,6 +16,13 @@ using states = std::vector<phase_point<double, Eigen::Dynamic>>;
 /// Median of some numbers, which are put into another order; 0 of none.
 double median_of(std::vector<double>& numbers);
 
+/// f(T()), of packs where so many trajectories fill them, and their states stay in the cache.
+decltype(auto) in_lanes_if_filled(const model& system, std::int64_t trajectories, const auto& f) {
+  constexpr Eigen::Index large = 20'000;
+  if (trajectories < default_lanes / 4 || size(system) > large) return f(double());
+  return with_scalar_of(system, f);
+}
+
 /// What an accurate motion shows.
 struct accurate_motion {
   double kinetic_energy = 0.0;  // median over trajectories and times; 0: not known

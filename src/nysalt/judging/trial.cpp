@@ -22,8 +22,9 @@ trial_plan plan_of(std::int64_t evaluations, int of_step, std::int64_t starts, s
   constexpr std::int64_t long_enough = 5'000;
   constexpr std::int64_t shortest = 500;
   const std::int64_t steps_in_all = evaluations / std::max(1, of_step);
+  const std::int64_t least = std::clamp<std::int64_t>(steps_in_all / shortest, 1, fewest);
   trial_plan plan;
-  plan.trajectories = std::clamp(steps_in_all / std::min(long_enough, most_steps), fewest, enough);
+  plan.trajectories = std::clamp(steps_in_all / std::min(long_enough, most_steps), least, enough);
   plan.trajectories = std::min(plan.trajectories, starts);
   plan.steps = std::min(most_steps, std::max(shortest, steps_in_all / plan.trajectories));
   return plan;
@@ -180,7 +181,7 @@ std::vector<course> run_trial(const model& system, const tabulated& method, doub
 std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
                               const trial_plan& plan, const accurate_motion& motion, bool watches,
                               const judging_options& options, unconfined_starts& unconfined) {
-  return with_scalar_of(system, [&]<class T>(T) {
+  return in_lanes_if_filled(system, plan.trajectories, [&]<class T>(T) {
     return run_trial<T>(system, method, step, starts, plan, motion, watches, options, unconfined);
   });
 }

@@ -31,7 +31,8 @@ struct trial_plan {
 };
 
 /// Of `evaluations` in all: from the first 512 starts if each is followed for some thousand steps, else from
-/// fewer, and then over fewer steps. Fewer than eight trajectories or some hundred steps show nothing.
+/// fewer, and then over fewer steps: eight trajectories of 500, and where that is too much fewer
+/// trajectories, as a system so large has many parts in each.
 trial_plan plan_of(std::int64_t evaluations, int of_step, std::int64_t starts, std::int64_t most_steps);
 
 /// A trajectory of a trial.
