@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "../src/comparison/refusal.hpp"
 #include "arrays.hpp"
@@ -65,6 +66,17 @@ double number_in(const py::object& found) {
   refuse("potential(q) must be one number, got the shape {}", shape_text(shape_of(numbers)));
 }
 
+/// find(), which puts numbers into `to`; NaN where a function overflows, and may.
+void put_or_nan(const functions_of_python& kept, std::span<double> to, const auto& find) {
+  try {
+    find();
+  } catch (py::error_already_set& problem) {
+    const bool overflows = problem.matches(PyExc_OverflowError) || problem.matches(PyExc_FloatingPointError);
+    if (!kept.may_overflow || !overflows) throw;
+    std::ranges::fill(to, std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
 std::string name_in(const argument_reader& arguments) {
   std::string name;
   arguments.take("name", name);
@@ -100,12 +112,15 @@ std::vector<double> inverse_masses_in(const argument_reader& arguments, std::int
 /// Functions of arrays (trajectories, dimension).
 void take_many(own_functions& functions, const std::shared_ptr<functions_of_python>& kept) {
   functions.potentials = [kept](std::span<const double> q, std::int64_t count, std::span<double> v) {
-    put(answer(kept->potential, py::make_tuple(rows(q, count))), "potential(q)", v);
+    put_or_nan(*kept, v,
+               [&] { put(answer(kept->potential, py::make_tuple(rows(q, count))), "potential(q)", v); });
     require_no_signal();
   };
   functions.forces = [kept](std::span<const double> q, std::int64_t count, std::span<double> f) {
-    put(answer(kept->force, py::make_tuple(rows(q, count))), "force(q)",
-        {count, static_cast<std::int64_t>(f.size()) / count}, f);
+    put_or_nan(*kept, f, [&] {
+      put(answer(kept->force, py::make_tuple(rows(q, count))), "force(q)",
+          {count, static_cast<std::int64_t>(f.size()) / count}, f);
+    });
     require_no_signal();
   };
   functions.potential = [all = functions.potentials](std::span<const double> q) {
@@ -140,12 +155,14 @@ own_functions own_functions_of(const argument_reader& arguments, std::shared_ptr
     take_many(functions, kept);
   } else {
     functions.potential = [kept](std::span<const double> q) {
-      const double found = number_in(answer(kept->potential, py::make_tuple(column(q))));
+      double found = 0.0;
+      put_or_nan(*kept, {&found, 1},
+                 [&] { found = number_in(answer(kept->potential, py::make_tuple(column(q)))); });
       require_no_signal();
       return found;
     };
     functions.force = [kept](std::span<const double> q, std::span<double> f) {
-      put(answer(kept->force, py::make_tuple(column(q))), "force(q)", f);
+      put_or_nan(*kept, f, [&] { put(answer(kept->force, py::make_tuple(column(q))), "force(q)", f); });
       require_no_signal();
     };
   }

@@ -12,11 +12,13 @@ struct functions_of_python {
   pybind11::object potential;
   pybind11::object force;
   pybind11::object starts;
+  bool may_overflow = false;  // since they were examined at some starts
 };
 
 /// Of the arguments name, dimension, potential, force, starts, inverse_mass and frequency. Throws refusal for
 /// bad values. What the functions raise is raised by their caller, and what they return in another
-/// shape, or what is no real number, is refused.
+/// shape, or what is no real number, is refused. Where they may overflow, an ArithmeticError is NaN: a
+/// trajectory diverges there.
 own_functions own_functions_of(const argument_reader& arguments, std::shared_ptr<functions_of_python>& kept);
 
 }  // namespace nysalt::python

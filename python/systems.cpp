@@ -40,6 +40,7 @@ std::unique_ptr<held_system> own(const py::dict& arguments) {
   auto made = std::make_unique<held_system>();
   auto functions = std::make_shared<own_functions>(own_functions_of(asked, made->functions));
   examine(*functions);
+  made->functions->may_overflow = true;
   made->own = functions;
   made->settings = system_of(asked);
   made->settings.start = "law";

@@ -2,6 +2,7 @@
 """A Hamiltonian by functions of Python: the theta of the compiled one, what goes wrong in functions, and functions over
 many trajectories, which give the bits of one after the other."""
 import gc
+import math
 import traceback
 import warnings
 import weakref
@@ -133,6 +134,32 @@ class Springs:
 
     def force(self, q):
         return -q
+
+
+def test_where_a_force_overflows_a_trajectory_diverges():
+    def of(force):
+        return nysalt.hamiltonian("cosh", dimension=1, potential=lambda q: math.cosh(q[0]) - 1, force=force,
+                                  starts=lambda seed, n: ([1.5], [0.1 + n % 7 / 100]), frequency=2)
+
+    overflows = []
+
+    def sinh(q):
+        try:
+            return [-math.sinh(q[0])]
+        except OverflowError:  # beyond q = 710
+            overflows.append(q[0])
+            raise
+
+    found = nysalt.judge(of(sinh), "verlet", 3.0)  # linearly stable up to 2, and less far out
+    assert found["verdict"] == "unstable" and found["diverged"] > 0 and overflows
+
+    def with_a_mistake(q):
+        if abs(q[0]) > 5:
+            raise IndexError("there is no such place")
+        return [-math.sinh(q[0])]
+
+    with pytest.raises(IndexError, match="no such place"):
+        nysalt.judge(of(with_a_mistake), "verlet", 3.0)
 
 
 def test_cycles_are_collected():
