@@ -368,6 +368,15 @@ const judgement& prepared_problem::judged(const tabulated& method, double step, 
   const std::string key =
       fmt::format("{} {} {}", method.letters().letters(), fmt::join(method.coefficients(), " "), step);
   if (const auto known = judged_.find(key); known != judged_.end()) return known->second;
+  // 500 steps of one trajectory would cost more than twice what a judge may do, as with 10^5 rows of data.
+  constexpr double most_cost = 2e6;
+  if (const double cost = force_cost(made_.system); cost > most_cost && !is_black_box(made_.system)) {
+    judgement found;
+    found.step = step;
+    found.reason =
+        fmt::format("an evaluation of the force costs {:.1e} coordinates, too much for a trial", cost);
+    return judged_.emplace(key, found).first->second;
+  }
   constexpr std::size_t most = 16;  // a judge keeps its starts
   if (judges_.size() == most) judges_.clear();
   auto judge = judges_.find(step);

@@ -52,11 +52,16 @@ accurate_motion follow_at(double step, const model& system, const states& starts
   constexpr std::int64_t samples = 8;  // states of each trajectory
   constexpr double share = 0.03;       // of the work of a trial
   const tabulated accurate(blanes_moan_s6{});
-  const std::int64_t trajectories = std::min<std::int64_t>(
-      std::clamp(coordinates / size(system), fewest, most_trajectories), std::ssize(starts));
-  const double cost = static_cast<double>(accurate.letters().evaluations_per_step * trajectories);
-  const auto steps = std::clamp<std::int64_t>(
-      static_cast<std::int64_t>(share * static_cast<double>(evaluations) / cost), samples, most_steps);
+  const double affordable = share * static_cast<double>(evaluations);
+  const int of_step = accurate.letters().evaluations_per_step;
+  std::int64_t trajectories =
+      std::min(static_cast<std::int64_t>(affordable / static_cast<double>(of_step * samples)),
+               coordinates / size(system));
+  trajectories =
+      std::min<std::int64_t>(std::clamp(trajectories, fewest, most_trajectories), std::ssize(starts));
+  const double cost = static_cast<double>(of_step * trajectories);
+  const auto steps =
+      std::clamp<std::int64_t>(static_cast<std::int64_t>(affordable / cost), samples, most_steps);
   const std::int64_t every = steps / samples;
   const bool knows_kinetic = has_energy(system);
   constexpr Eigen::Index few = 1000;
