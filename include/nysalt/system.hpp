@@ -22,9 +22,8 @@
 //   normal_modes modes() const;  std::vector<frequency_band> frequency_bands() const;
 //   template <class T> void soft_force(const vector<T, N>& q, vector<T, N>& f) const;
 //                                          that of V less q K q/2, which modes() diagonalises
-//   double force_cost() const;             what a force costs, where that is not in proportion to the
-//   coordinates std::string description() const;  std::string kind() const;          the description without
-//   the size
+//   double force_cost() const;             what a force costs, if not one a coordinate
+//   std::string description() const;  std::string kind() const;          the description without the size
 #pragma once
 
 #include <concepts>

@@ -222,6 +222,45 @@ BOOST_AUTO_TEST_CASE(a_judge_gives_equal_judgements_of_equal_coefficients) {
   BOOST_TEST(one.highest_frequency == other.highest_frequency);
 }
 
+// A start that never varies is judged once; in a bath each run has noise of its own.
+BOOST_AUTO_TEST_CASE(equal_starts_are_one) {
+  const auto count = [](double deviation, const model& system) {
+    const normal_around<1> law({vector<double, 1>(0.5), vector<double, 1>(0.0)}, deviation, deviation);
+    return starts_to_judge(system, initial_states(law)).size();
+  };
+  BOOST_TEST(count(0.0, pendulum{}) == 1U);
+  BOOST_TEST(count(1e-9, pendulum{}) == 512U);
+  BOOST_TEST(count(0.0, in_bath(pendulum{}, bath::of_temperature(0.1, 1.0))) == 192U);
+}
+
+// A pendulum by its potential alone is differentiated, and two pendula cost four times as much.
+template <int N>
+struct derived_pendula {
+  static constexpr int dimension = N;
+  template <class T>
+  T potential(const vector<T, N>& q) const {
+    using std::cos;
+    T sum(0.0);
+    for (Eigen::Index i = 0; i < N; ++i) sum += 1.0 - cos(q[i]);
+    return sum;
+  }
+};
+struct priced_pendulum : pendulum {
+  double force_cost() const { return 1000.0; }
+};
+BOOST_AUTO_TEST_CASE(a_trial_is_as_long_as_its_force_allows) {
+  BOOST_TEST(force_cost(pendulum{}) == 1.0);
+  BOOST_TEST(force_cost(derived_pendula<1>{}) == 4.0);
+  BOOST_TEST(force_cost(derived_pendula<2>{}) == 16.0);
+  BOOST_TEST(force_cost(in_bath(priced_pendulum{}, bath::of_temperature(0.1, 1.0))) == 1000.0);
+  const auto starts = starts_of(in_well, 64);
+  const auto steps = [&](const model& system) {
+    return judge(system, starts, tabulated(verlet{}), 0.15, {.work = 640'000}).steps;
+  };
+  BOOST_TEST(steps(pendulum{}) == 10'000);      // 64 trajectories of one evaluation a step
+  BOOST_TEST(steps(priced_pendulum{}) == 640);  // one trajectory
+}
+
 BOOST_AUTO_TEST_CASE(starts_of_an_ensemble_are_the_first_ones_whatever_a_command_seeds) {
   const initial_states law(in_well);
   const auto starts = starts_to_judge(pendulum{}, law);

@@ -45,7 +45,7 @@ figure two_panels() {
   return {"picture", {lines, points}};
 }
 
-/// Numbers that are told beside an axis, 'x' or 'y'; empty where gnuplot chooses.
+/// Tick labels of the axis 'x' or 'y'; empty where gnuplot chooses them.
 std::vector<double> ticks_of(const std::string& axis, const std::vector<double>& costs,
                              const std::vector<double>& errors, bool log_log = true) {
   panel plot;

@@ -23,7 +23,7 @@ double median_of(std::vector<double>& numbers) {
 
 namespace {
 
-/// What one trajectory shows, up to where its energy errs by more than a tenth of its largest kinetic energy,
+/// What one trajectory shows, up to where its energy errs by more than 1 % of its largest kinetic energy,
 /// as after a close encounter that is too close for the step: what comes then is not the motion.
 struct shown_motion {
   std::vector<double> kinetic;
@@ -47,10 +47,9 @@ accurate_motion follow_at(double step, const model& system, const states& starts
                           const judging_options& options) {
   constexpr std::int64_t most_trajectories = 64;
   constexpr std::int64_t fewest = 4;
-  constexpr std::int64_t coordinates =
-      1'000'000;                       // of all trajectories; large systems have many parts in each
-  constexpr std::int64_t samples = 8;  // states of each trajectory
-  constexpr double share = 0.03;       // of the work of a trial
+  constexpr std::int64_t coordinates = 1'000'000;  // of all trajectories: a large system needs few
+  constexpr std::int64_t samples = 8;              // states of each trajectory
+  constexpr double share = 0.03;                   // of the work of a trial
   const tabulated accurate(blanes_moan_s6{});
   const double affordable = share * static_cast<double>(evaluations);
   const int of_step = accurate.letters().evaluations_per_step;

@@ -16,7 +16,8 @@ using states = std::vector<phase_point<double, Eigen::Dynamic>>;
 /// Median of some numbers, which are put into another order; 0 of none.
 double median_of(std::vector<double>& numbers);
 
-/// f(T()), of packs where so many trajectories fill them, and their states stay in the cache.
+/// f(T()) with T a pack if there are enough trajectories for its lanes and a pack of states fits into the
+/// cache; else with T double.
 decltype(auto) in_lanes_if_filled(const model& system, std::int64_t trajectories, const auto& f) {
   constexpr Eigen::Index large = 20'000;
   if (trajectories < default_lanes / 4 || size(system) > large) return f(double());
