@@ -373,8 +373,8 @@ const judgement& prepared_problem::judged(const tabulated& method, double step, 
   if (const double cost = force_cost(made_.system); cost > most_cost && !is_black_box(made_.system)) {
     judgement found;
     found.step = step;
-    found.reason =
-        fmt::format("an evaluation of the force costs {:.1e} coordinates, too much for a trial", cost);
+    found.reason = fmt::format(
+        "an evaluation of the force costs as much as {:.1e} coordinates, too much for a trial", cost);
     return judged_.emplace(key, found).first->second;
   }
   constexpr std::size_t most = 16;  // a judge keeps its starts

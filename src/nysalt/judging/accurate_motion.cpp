@@ -100,6 +100,7 @@ accurate_motion follow_at(double step, const model& system, const states& starts
                          .threads = options.threads},
                         2 * n + 2, read, take);
   accurate_motion result;
+  result.step = step;
   std::vector<double> all;
   for (const shown_motion& one : shown) {
     all.insert(all.end(), one.kinetic.begin(), one.kinetic.end());

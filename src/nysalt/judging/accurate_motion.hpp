@@ -28,7 +28,8 @@ decltype(auto) in_lanes_if_filled(const model& system, std::int64_t trajectories
 struct accurate_motion {
   double kinetic_energy = 0.0;  // median over trajectories and times; 0: not known
   states seen;                  // states along it, typical ones first
-  bool is_followed = true;      // false: at no step that was tried the energy stays
+  double step = 0.0;            // the coarsest that was tried at which the energy stays
+  bool is_followed = true;      // false: at none it does
 };
 
 /// Finest step of the accurate motion, in steps of the trial.

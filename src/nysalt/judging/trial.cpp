@@ -11,7 +11,6 @@
 #include "nysalt/ensembles/listed.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/frequency_to_fit.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt::detail {
@@ -31,23 +30,6 @@ trial_plan plan_of(std::int64_t evaluations, int of_step, std::int64_t starts, s
 }
 
 namespace {
-
-/// Of more parts of a step no accurate motion is asked: the step is far too long.
-constexpr std::int64_t most_parts = 64;
-
-/// Parts of a step that an accurate method takes: of the highest frequency that is declared less than a
-/// radian each, far inside its window.
-std::int64_t parts_of_step(const model& system, double step) {
-  double highest = 0.0;
-  if (has_frequency_bands(system)) {
-    for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
-  } else if (has_modes(system)) {
-    highest = detail::frequency_to_fit(system);
-  }
-  constexpr double fewest = 8.0;
-  return static_cast<std::int64_t>(
-      std::clamp(std::ceil(std::abs(step) * highest), fewest, static_cast<double>(most_parts)));
-}
 
 /// Which of some trajectories an accurate method loses too: at a fine step and, so that it is not its own
 /// instability, at a finer one.
@@ -76,10 +58,14 @@ std::vector<bool> are_unconfined(const model& system, const states& at, double s
 /// first that the motion does not lose decides.
 template <class T>
 void leave_out_unconfined(const model& system, const states& starts, double step, std::int64_t steps,
-                          const judging_options& options, const std::vector<std::size_t>& diverged,
-                          unconfined_starts& known, std::vector<course>& courses) {
-  const std::int64_t parts = parts_of_step(system, step);
-  if (parts >= most_parts || system.bath().acts()) return;
+                          const accurate_motion& motion, const judging_options& options,
+                          const std::vector<std::size_t>& diverged, unconfined_starts& known,
+                          std::vector<course>& courses) {
+  constexpr double fewest_parts = 8.0;  // finer than a step at which the energy stays by chance
+  constexpr double most_parts = 64.0;   // of more parts nothing is asked: the step is far too long
+  const double wanted = std::max(fewest_parts, std::ceil(step / motion.step));
+  if (wanted >= most_parts || system.bath().acts()) return;
+  const auto parts = static_cast<std::int64_t>(wanted);
   constexpr std::size_t few = 8;
   for (std::size_t begin = 0; begin < diverged.size(); begin += few) {
     const std::size_t end = std::min(begin + few, diverged.size());
@@ -166,7 +152,7 @@ std::vector<course> run_trial(const model& system, const tabulated& method, doub
       courses[m].diverged_at = diverged_at[k];
       if (diverged_at[k]) diverged.push_back(m);
     }
-    leave_out_unconfined<T>(system, starts, step, plan.steps, options, diverged, unconfined, courses);
+    leave_out_unconfined<T>(system, starts, step, plan.steps, motion, options, diverged, unconfined, courses);
     for (std::int64_t m = first; m < first + count; ++m) {
       const course& one = courses[static_cast<std::size_t>(m)];
       if (one.diverged_at && !one.is_left_out) ++lost;
