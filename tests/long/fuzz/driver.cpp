@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <chrono>
@@ -102,30 +101,11 @@ void swap_two(std::string& text, const parts& all, dice& random) {
 /// lost, doubled, swapped or taken from another text, names exchanged, numbers replaced by what is no number,
 /// zero or too large. Numbers twice as often: they are where the program computes.
 void damage(std::string& text, const texts& corpus, dice& random) {
-  constexpr std::string_view telling("\"'{}[],:=#-@\\\n\0", 16);
-  constexpr std::array strange{"",
-                               "nan",
-                               "inf",
-                               "-inf",
-                               "1e999",
-                               "-0",
-                               "0",
-                               "-1",
-                               "1",
-                               "1e308",
-                               "1e-308",
-                               "5e-324",
-                               "0.5",
-                               "-0.5",
-                               "2",
-                               "3",
-                               "9223372036854775807",
-                               "9223372036854775808",
-                               "18446744073709551616",
-                               "1e17",
-                               "0x10",
-                               "1e",
-                               "null"};
+  constexpr std::string_view telling("\"'{}[],:=#-@\\\n\0", 15);
+  static const std::string strange =
+      "nan inf -inf 1e999 -0 0 -1 1 1e308 1e-308 5e-324 0.5 -0.5 2 3 9223372036854775807 9223372036854775808 "
+      "18446744073709551616 1e17 0x10 1e null";
+  static const parts strange_numbers = runs_of(strange, [](unsigned char c) { return c != ' '; });
   const parts lines = lines_of(text);
   const parts names = runs_of(text, [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; });
   const parts numbers = runs_of(text, [](unsigned char c) { return std::isdigit(c) != 0 || c == '.'; });
@@ -152,7 +132,8 @@ void damage(std::string& text, const texts& corpus, dice& random) {
   if (kind == 8 && !names.empty()) swap_two(text, names, random);
   if (kind >= 9 && !numbers.empty()) {
     const auto [first, length] = random.one_of(numbers);
-    text.replace(first, length, random.one_of(strange));
+    const auto [from, count] = random.one_of(strange_numbers);
+    text.replace(first, length, strange, from, count);
   }
 }
 
