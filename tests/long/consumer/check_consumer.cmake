@@ -48,12 +48,14 @@ function(refuses words name)
   endif()
 endfunction()
 
-# The program has the project's name, and its main.cpp says what it prints.
+# The program has the project's name, and its main.cpp, or that of another project, says what it prints.
 function(build_and_run name)
+  set(source ${name} ${ARGN})
+  list(GET source -1 source)
   run(${CMAKE_COMMAND} --build ${FOLDER}/${name})
   set(output "${output}" PARENT_SCOPE)
   run(${CMAKE_COMMAND} -D PROGRAM=${FOLDER}/${name}/${name}
-    -D SOURCE=${CMAKE_CURRENT_LIST_DIR}/${name}/main.cpp -P ${nysalt}/tests/check_example.cmake)
+    -D SOURCE=${CMAKE_CURRENT_LIST_DIR}/${source}/main.cpp -P ${nysalt}/tests/check_example.cmake)
 endfunction()
 
 # The libraries that the program loads, straight or through others.
@@ -176,26 +178,6 @@ if(PROCESSOR MATCHES "x86_64|AMD64")
   endforeach()
 endif()
 
-# What a user pays for a first program, and for one of core alone. No limit is set: it is told.
-find_program(python python3 REQUIRED)
-file(REMOVE ${FOLDER}/costs.txt)
-configure(first_program -D CMAKE_BUILD_TYPE=Release -D SOURCE=${nysalt}/examples/first_steps.cpp
-  -D PYTHON=${python} -D COST=${nysalt}/bench/compile_time/cost.py -D COSTS=${FOLDER}/costs.txt)
-run(${CMAKE_COMMAND} --build ${FOLDER}/first_program -j 1)
-foreach(pair IN ITEMS first_program:${nysalt}/examples/first_steps.cpp
-    core_program:${CMAKE_CURRENT_LIST_DIR}/core/main.cpp)
-  string(REPLACE ":" ";" pair ${pair})
-  list(GET pair 0 program)
-  list(GET pair 1 source)
-  run(${CMAKE_COMMAND} -D PROGRAM=${FOLDER}/first_program/${program} -D SOURCE=${source}
-    -P ${nysalt}/tests/check_example.cmake)
-endforeach()
-file(STRINGS ${FOLDER}/costs.txt costs)
-foreach(cost IN LISTS costs)
-  require_match("${cost}" ": [0-9.]+ s CPU, [0-9]+ MB$")
-  message("compiling ${cost}")
-endforeach()
-
 # Boost's headers are enough for odeint, beside ours.
 set(installed of_headers)
 configure(odeint -D CMAKE_DISABLE_FIND_PACKAGE_fmt=ON -D CMAKE_DISABLE_FIND_PACKAGE_TBB=ON ${no_ceres}
@@ -296,7 +278,7 @@ require_include_dir(/there/include CMAKE_INSTALL_LIBDIR=/elsewhere)
 # nysalt as a subdirectory builds nothing that is not asked for, changes nothing around it and is not installed
 # with it, but if asked.
 configure(subdirectory -D NYSALT=${nysalt})
-build_and_run(subdirectory)
+build_and_run(subdirectory core)
 run(${CMAKE_COMMAND} --install ${FOLDER}/subdirectory --prefix ${FOLDER}/of_others)
 file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/of_others/*)
 require_no_match("${files}" "of_others")
