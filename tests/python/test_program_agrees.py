@@ -238,10 +238,3 @@ def test_the_header_promises_no_more_than_the_letters():
     assert "order 4." in displaced and "displaced kicks" in displaced and "ABADABA|" in displaced
     assert "order 6." in nysalt.export("srkn11b", "python", displaced=True)
     assert "displaced kicks" not in nysalt.export("srkn11b", "python", displaced=True)
-
-
-def test_what_a_host_does_not_take():
-    with pytest.raises(ValueError, match="did you mean python"):
-        nysalt.export("verlet", "pyton")
-    with pytest.raises(ValueError, match="displaced"):
-        nysalt.export("chin4a", "c")
