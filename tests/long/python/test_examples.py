@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: BSL-1.0
-"""The examples of docs/python.md run, and find what they say. Tier 1 has their calls in tests/python, and that
-fits are those of the program."""
+"""The examples of docs/python.md run, and find what they say; Ctrl-C ends a search of minima. Tier 1 has their calls in
+tests/python, that fits are those of the program, and Ctrl-C in data, runs and comparisons."""
+import os
 import pathlib
 import runpy
+import signal
+import threading
+import time
 
 import numpy as np
 import nysalt
+import pytest
 
 EXAMPLES = pathlib.Path(__file__).parents[3] / "examples/python"
 
@@ -42,3 +47,13 @@ def test_states(capsys):
     found = runpy.run_path(str(EXAMPLES / "states.py"))
     assert found["off"].max() < 0.5 and len(capsys.readouterr().out.splitlines()) == 10
     assert not np.array_equal(found["q"], found["chain"].starts(1000)[0])
+
+
+def test_a_long_search_ends():
+    began = time.monotonic()
+    timer = threading.Timer(0.4, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):  # few data, a long search
+        nysalt.learn(nysalt.system("fpu"), "fg4", step=0.03, trajectories=50, random_starts=10000)
+    assert time.monotonic() - began < 60  # it would take minutes; a pass over the starts is done before it ends
+    timer.join()
