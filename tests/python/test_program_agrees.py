@@ -8,8 +8,6 @@ import pytest
 import nysalt
 from conftest import without_times
 
-BATH = ["--friction", "0.01", "--sigma", "0.05"]
-
 
 def test_what_there_is_is_what_list_prints(program):
     listed = program("list")
@@ -98,10 +96,10 @@ def test_a_fit_of_a_comparison_is_a_scheme(program):
 
 
 RUNS = [
-    (dict(name="oscillator", friction=0.01, sigma=0.05), ["--system", "oscillator", *BATH], "baoab", 0.01, 40.0, 37,
-     70, ["energy", "q1", "p1"]),  # noise, and several blocks of lanes
-    (dict(name="henon_heiles", spread=2.5), ["--system", "henon_heiles", "--spread", "2.5"], "verlet", 0.3, 600.0, 40,
-     7, ["energy", "q2"]),  # some diverge
+    (dict(name="oscillator", friction=0.01, sigma=0.05), "--system oscillator --friction 0.01 --sigma 0.05", "baoab", 0.01,
+     40.0, 37, 70, ["energy", "q1", "p1"]),  # noise, and several blocks of lanes
+    (dict(name="henon_heiles", spread=2.5), "--system henon_heiles --spread 2.5", "verlet", 0.3, 600.0, 40, 7,
+     ["energy", "q2"]),  # some diverge
 ]
 
 
@@ -110,7 +108,7 @@ def test_samples_are_those_of_the_program(program, tmp_path, system, options, me
                                           every, observables):
     run = nysalt.run(nysalt.system(**system), method, step, horizon, trajectories=trajectories, sample_every=every,
                      observables=observables, threads=2)
-    asked = ["run", *options, "--method", method, "--step", str(step), "--horizon", str(horizon), "--trajectories",
+    asked = ["run", *options.split(), "--method", method, "--step", str(step), "--horizon", str(horizon), "--trajectories",
              str(trajectories), "--sample-every", str(every), "--observables", ",".join(observables)]
     program(*asked, "--output", "run.npy")
     values = np.load(tmp_path / "run.npy")

@@ -68,8 +68,9 @@ class Glossary(unittest.TestCase):
 
     def test_of_a_folder_with_a_mistake_is_told(self):
         sound = {
-            "docs/notation.md": "# Notation\n\n## Glossary\n\n### Machinery\n\n| term | meaning |\n|---|---|\n| lane | one element |\n"
-                                "| gradient kick | a flow, `rank_of` in names |\n\n## Letters\n\n| G | gradient kick |\n",
+            "docs/notation.md": "# Notation\n\n## Glossary\n\n### Machinery\n\n| term | meaning |\n|---|---|\n"
+                                "| lane | one element |\n| gradient kick | a flow, `rank_of` in names |\n\n"
+                                "## Letters\n\n| G | gradient kick |\n",
             "docs/page.md": "# Page\n\n[lanes](notation.md#machinery) and [the lane letters](notation.md#letters).\n",
             "include/a.hpp": "/// A gradient\n/// kick on lanes.\nint rank_of(int thing);\n"}
         no_term = "docs/page.md: '{}' is no term of docs/notation.md#machinery"
