@@ -9,7 +9,6 @@ budget, a test or a unit above its limit is named; the exit status is then 1 whe
 other work may have slowed the tests. Seconds are scaled by a yardstick, the compilation of a header that is of other
 libraries alone, as machines differ.
 """
-import argparse
 import os
 import pathlib
 import re
@@ -54,21 +53,16 @@ def folder_of(name, folders):
 
 
 def main():
-    parser = argparse.ArgumentParser(add_help=False)
-    parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("report", type=pathlib.Path)
-    parser.add_argument("--whole", action="store_true")
-    asked = parser.parse_args()
-
+    build, report, *whole = sys.argv[1:]
     tests = {case.get("name"): float(case.get("time"))
-             for case in xml.etree.ElementTree.parse(asked.report).getroot().iter("testcase")}
+             for case in xml.etree.ElementTree.parse(report).getroot().iter("testcase")}
     slowest = sorted(tests.items(), key=lambda one: -one[1])[:SLOWEST]
     print("-- the slowest, in seconds: " + ", ".join(f"{name} {seconds:.1f}" for name, seconds in slowest))
-    if not asked.whole:
+    if whole != ["--whole"]:
         return 0
 
     budget, reference = read_budget(pathlib.Path(__file__).parent.parent / "budget.txt")
-    units = read_units(asked.build / "tests/compile_costs.txt")
+    units = read_units(pathlib.Path(build, "tests/compile_costs.txt"))
     rulers = [seconds for unit, (seconds, _) in units.items()
               if unit.endswith(".gch") and target_of(unit).startswith("nysalt_test_plain_")]
     scale = sum(rulers) / len(rulers) / reference if rulers else 1.0

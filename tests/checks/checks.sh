@@ -65,8 +65,7 @@ recorded() {
   (set -e; "${@:3}")
   status=$?
   set -e
-  tests/checks/outcomes.py add build/check --check "$what" --piece "$piece" --commit "$commit" \
-    --status "$status" --seconds "$((SECONDS - began))" --counts "$(cat "$counts")"
+  tests/checks/outcomes.py add build/check "$what" "$piece" "$commit" "$status" $((SECONDS - began)) "$(cat "$counts")"
   rm -f "$counts"
   ((status == 0)) || exit "$status"
 }
@@ -148,7 +147,7 @@ check_seeds() {
   mapfile -t needed < <(ctest --preset "$preset" -N -L '^stochastic$' | sed -n 's/^ *Test *#[0-9]*: //p')
   build "${needed[@]}"
   say "${#needed[@]} tests, each at $1 seeds"
-  tests/checks/seeds.py "build/$preset" "$1" --counts "$counts"
+  tests/checks/seeds.py "build/$preset" "$1" "$counts"
 }
 
 # check_mutants [NUMBERS]: whether the tests of tier 1 find the mutants, or those of the numbers, such as 3,7-12.

@@ -3,13 +3,12 @@
 """Outcomes of the long checks: each with the date, commit, time and counts of the run, and a table of all.
 
 usage: outcomes.py commit            the commit of the sources, for `add`
-       outcomes.py add FOLDER --check NAME --piece PIECE --commit COMMIT --status STATUS --seconds SECONDS --counts TEXT
+       outcomes.py add FOLDER CHECK PIECE COMMIT STATUS SECONDS COUNTS
        outcomes.py count REPORT      the counts of a JUnit report of ctest, in words
        outcomes.py table FOLDER      print the table
 
-`add` keeps FOLDER/outcomes/NAME.PIECE.json, in place of an older outcome of that piece, and writes FOLDER/table.md.
+`add` keeps FOLDER/outcomes/CHECK_PIECE.json, in place of an older outcome of that piece, and writes FOLDER/table.md.
 """
-import argparse
 import datetime
 import json
 import os
@@ -64,26 +63,24 @@ def counted(report):
     return text + (f", {skipped} skipped" if skipped else "")
 
 
-def add(folder, arguments):
+def add(folder, check, piece, commit_before, status, seconds, counts):
     outcome = {
-        "check": arguments.check,
-        "piece": arguments.piece,
-        "passed": arguments.status == 0,
-        "counts": arguments.counts.strip(),
-        "seconds": arguments.seconds,
-        "commit": arguments.commit,
+        "check": check,
+        "piece": piece,
+        "passed": int(status) == 0,
+        "counts": counts.strip() or "it ended before anything was counted",
+        "seconds": int(seconds),
+        "commit": commit_before,
         "date": datetime.date.today().isoformat(),
     }
-    if not outcome["counts"]:
-        outcome["counts"] = "it ended before anything was counted"
     outcomes = folder / "outcomes"
     outcomes.mkdir(parents=True, exist_ok=True)
-    name = re.sub(r"[^a-z0-9_]+", "_of_", f"{arguments.check}_{arguments.piece}")
+    name = re.sub(r"[^a-z0-9_]+", "_of_", f"{check}_{piece}")
     unfinished = outcomes / f"{name}.json.{os.getpid()}"
     unfinished.write_text(json.dumps(outcome, indent=1) + "\n", encoding="utf-8")
     unfinished.replace(outcomes / f"{name}.json")
     (folder / "table.md").write_text(table(folder), encoding="utf-8")
-    print(f"{arguments.check} {arguments.piece}: {'passed' if outcome['passed'] else 'FAILED'}; {outcome['counts']}")
+    print(f"{check} {piece}: {'passed' if outcome['passed'] else 'FAILED'}; {outcome['counts']}")
 
 
 def not_run(name, found):
@@ -126,29 +123,16 @@ def table(folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    commands = parser.add_subparsers(dest="command", required=True)
-    adding = commands.add_parser("add")
-    adding.add_argument("folder", type=pathlib.Path)
-    adding.add_argument("--check", choices=CHECKS, required=True)
-    adding.add_argument("--piece", required=True)
-    adding.add_argument("--commit", required=True)
-    adding.add_argument("--status", type=int, required=True)
-    adding.add_argument("--seconds", type=float, required=True)
-    adding.add_argument("--counts", default="")
-    commands.add_parser("commit")
-    commands.add_parser("count").add_argument("report", type=pathlib.Path)
-    commands.add_parser("table").add_argument("folder", type=pathlib.Path)
-    arguments = parser.parse_args()
-    if arguments.command == "commit":
+    command, *words = sys.argv[1:]
+    if command == "commit":
         print(commit())
-    elif arguments.command == "add":
-        add(arguments.folder, arguments)
-    elif arguments.command == "count":
-        print(counted(arguments.report))
+    elif command == "add":
+        add(pathlib.Path(words[0]), *words[1:])
+    elif command == "count":
+        print(counted(words[0]))
     else:
-        print(table(arguments.folder), end="")
+        print(table(pathlib.Path(words[0])), end="")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

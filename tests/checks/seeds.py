@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: BSL-1.0
 """Stochastic test cases at many seeds: how often each fails, against the rate that tests/stochastic.md states.
 
-usage: seeds.py BUILD SEEDS [--first SHIFT] [--counts FILE]
+usage: seeds.py BUILD SEEDS COUNTS
 
 Runs the tests with the label `stochastic` of the folder BUILD, only the cases of the table, SEEDS times, with the
 environment variable NYSALT_TEST_SEED_SHIFT = 1, 2, ... Ends with 1 if a case failed more often than its rate
-allows: that many failures or more have a probability below 0.001. --counts writes the counts, in words.
+allows: that many failures or more have a probability below 0.001. Writes the counts, in words, to the file COUNTS.
 """
-import argparse
 import collections
 import concurrent.futures
 import json
@@ -88,19 +87,14 @@ def upper_bound(failures, runs):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("build")
-    parser.add_argument("seeds", type=int)
-    parser.add_argument("--first", type=int, default=1)
-    parser.add_argument("--counts", type=pathlib.Path)
-    arguments = parser.parse_args()
-    rates, known = stated(), commands(arguments.build)
+    build, number, file_of_counts = sys.argv[1:]
+    number = int(number)
+    rates, known = stated(), commands(build)
     missing = sorted(set(rates) - set(known)) + sorted(set(known) - set(rates))
     if missing:
         sys.exit(f"seeds.py: tests/stochastic.md and the label `stochastic` must have the same tests, got one only: "
                  f"{', '.join(missing)}")
-    shifts = range(arguments.first, arguments.first + arguments.seeds)
-    jobs = [(test, chosen(known[test], cases), list(cases), shift) for shift in shifts for test, cases in rates.items()]
+    jobs = [(test, chosen(known[test], cases), list(cases), shift) for shift in range(1, number + 1) for test, cases in rates.items()]
     counts, of_run = collections.Counter(), set()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for test, shift, failed, lines in pool.map(run, jobs):
@@ -108,17 +102,16 @@ def main():
                 counts[test, case] += 1
                 of_run.add(shift)
                 print(f"{test}/{case} failed at the shift {shift}", *lines, sep="\n  ", flush=True)
-    excessive = [one for one in counts if tail(counts[one], arguments.seeds, rates[one[0]][one[1]]) < CHANCE]
+    excessive = [one for one in counts if tail(counts[one], number, rates[one[0]][one[1]]) < CHANCE]
     for (test, case), count in counts.most_common():
-        print(f"{count:4} of {arguments.seeds}: {test}/{case}, stated rate {rates[test][case]:g}"
+        print(f"{count:4} of {number}: {test}/{case}, stated rate {rates[test][case]:g}"
               f"{', TOO OFTEN' if (test, case) in excessive else ''}")
     cases = sum(len(of_test) for of_test in rates.values())
-    text = (f"{arguments.seeds} seeds x {cases} cases: {sum(counts.values())} failed; rate of a run below "
-            f"{upper_bound(len(of_run), arguments.seeds):.2g} (95 %), stated "
+    text = (f"{number} seeds x {cases} cases: {sum(counts.values())} failed; rate of a run below "
+            f"{upper_bound(len(of_run), number):.2g} (95 %), stated "
             f"{sum(sum(of_test.values()) for of_test in rates.values()):.2g}")
     print(text)
-    if arguments.counts:
-        arguments.counts.write_text(text, encoding="utf-8")
+    pathlib.Path(file_of_counts).write_text(text, encoding="utf-8")
     return 1 if excessive else 0
 
 

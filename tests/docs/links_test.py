@@ -44,7 +44,7 @@ class Markdown(InAFolder):
         for text, told in {"[a](docs/three.md)\n": "there is no docs/three.md", "![a](picture.svg)\n": "there is no picture.svg",
                            "[a](docs/one.md#two)\n": "docs/one.md has no heading #two",
                            "[a](#a)\n": "two.md has no heading #a", "[a\nb](c.md)\n": "there is no c.md",
-                           "`a\nb` [c](d.md) `e`\n": "there is no d.md",
+                           "`a\nb` [c [d] `e`](f(g).md) `h`\n": "there is no f(g).md",
                            "see `examples/none.cpp`\n": "there is no examples/none.cpp",
                            "[a](../outside.md)\n": "there is no ../outside.md"}.items():
             self.assertEqual(self.wrong_with(text)[0], f"two.md: {told}")

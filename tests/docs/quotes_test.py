@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""The code that the documents show is that of files that are compiled and run; headings and links are those that a forge sees."""
+"""The code that the documents show is that of files that are compiled and run."""
 import sys
 import tempfile
 import unittest
@@ -91,18 +91,6 @@ class Quotations(unittest.TestCase):
         self.assertEqual(mistakes("```sh\na\n```\n```text\nb\n```\n```\nc\n```\n"), [])
         # A quote belongs to the line below it alone.
         self.assertIn("cpp without a line", mistakes("<!-- quote main.cpp inner -->\n\n```cpp\nb\n```\n")[1])
-
-
-class Pages(unittest.TestCase):
-    def test_have_the_anchors_of_a_forge(self):
-        self.assertEqual(markdown.slug("Where it *pays*: [a](b.md) & more"), "where-it-pays-a--more")
-        self.assertEqual(markdown.headings("# A b\n## C `d`, e\n```sh\n## f\n```\n## C `d`, e"),
-                         [(1, "A b", "a-b"), (2, "C `d`, e", "c-d-e"), (2, "C `d`, e", "c-d-e-1")])
-
-    def test_have_links_over_two_lines_and_none_in_code(self):
-        self.assertEqual(list(markdown.links("[a\nb](c.md) on [0, 1)\n- ![d](e.svg) `[f](g.md)`\n\n```\n[h](i.md)\n```\n")),
-                         ["c.md", "e.svg"])
-        self.assertEqual(list(markdown.links("`a\nb` [c [d] `e`](f(g).md)")), ["f(g).md"])
 
 
 if __name__ == "__main__":

@@ -21,12 +21,3 @@ function(require_no_match text pattern)
     message(FATAL_ERROR "'${pattern}' should not be in:\n${text}")
   endif()
 endfunction()
-
-# Whether a text has the path, and not as the end of another.
-function(names_path text path result)
-  string(REGEX REPLACE "([][+.*()^$?|\\\\])" "\\\\\\1" path "${path}")
-  set(${result} FALSE PARENT_SCOPE)
-  if("${text}" MATCHES "(^|[^a-z0-9}])${path}")
-    set(${result} TRUE PARENT_SCOPE)
-  endif()
-endfunction()

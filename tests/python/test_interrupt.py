@@ -24,7 +24,7 @@ def long_integration():
 LONG = dict(
     run=lambda: nysalt.run(CHAIN, "verlet", 1e-3, 1e8, sample_every=10**9),  # hours, of one trajectory
     integrate=long_integration,
-    learn=lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, trajectories=10**4),  # tests/long/python has the search
+    learn=lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, trajectories=10**4),  # tests/long/python/test_examples.py has the search
     compare=lambda: nysalt.compare(CHAIN, ["verlet", "srkn6b"], [0.01, 0.02], trajectories=10**6, horizon=5),
     slow_path=lambda: nysalt.learn(henon_heiles_by_functions(), "nystrom", step=0.4, horizon=40, trajectories=100))
 

@@ -69,7 +69,7 @@ def test_a_scheme_is_of_the_name(tmp_path):
         nysalt.run(henon_heiles_by_functions("yours"), loaded, 0.4, 4)
 
 
-@pytest.mark.parametrize("after", [0, 1500, 10**9])
+@pytest.mark.parametrize("after", [0, 1500])
 def test_what_a_function_raises_comes_through(after):
     calls = []
 
@@ -80,14 +80,8 @@ def test_what_a_function_raises_comes_through(after):
         x, y = q
         return -x - x * y * 2, -y - x * x + y * y
 
-    def learned():
-        return nysalt.learn(henon_heiles_by_functions(force=raises), **LEARNING)
-
-    if after == 10**9:
-        assert learned().theta.size == 2
-        return
     with pytest.raises(ZeroDivisionError, match="the mass is zero") as caught:
-        learned()
+        nysalt.learn(henon_heiles_by_functions(force=raises), **LEARNING)
     assert any(frame.name == "raises" for frame in traceback.extract_tb(caught.value.__traceback__))
     assert len(calls) == after + 1  # no further call
 

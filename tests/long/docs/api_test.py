@@ -36,7 +36,8 @@ class Names(unittest.TestCase):
                            ("enum class a { b };", "Enum nysalt::a"), ("inline int a = 1;", "Variable nysalt::a"),
                            ("template <class T>\nconcept a = true;", "Concept a"),
                            ("/// An a.\nclass a {\n public:\n  void f();\n};", "Function nysalt::a::f"),
-                           ("/// Of ints.\nint f(int);\nint g();\nfloat f(float);", "Function nysalt::g")):
+                           ("/// Of ints.\nint f(int);\nint g();\nfloat f(float);", "Function nysalt::g"),
+                           ("/// @code{.txt}\n///   a    b\n/// @endcode\ntemplate <class T>\nconcept a = true;", "Concept a")):
             with self.subTest(text):
                 sentences = [sentence for _, _, sentence in self.found(text)]
                 self.assertEqual(sentences[0].replace("nysalt::", ""), f"{name} has no comment".replace("nysalt::", ""))
@@ -44,21 +45,16 @@ class Names(unittest.TestCase):
     def test_need_none_where_it_is_plain(self):
         for text in ("/// An a.\nstruct a {\n  a();\n  ~a();\n  int b;  // of it\n};",
                      "/// An a.\nstruct a {\n private:\n  int c;\n  struct d {\n    int e;\n  };\n};",
+                     "/// An a.\n///\n///   b    c\ntemplate <class T>\nconcept a = true;",
                      "/// Adds.\nint f(int);\nfloat f(float);", "namespace detail {\nint f();\n}",
                      "/// Refers.\nvoid f(const int&);\nvoid g(int&&) = delete;  // it would be gone",
                      "/// An a.\ntemplate <class T>\nstruct a {\n  explicit a(T);\n};\ntemplate <class T>\na(T) -> a<T>;"):
             with self.subTest(text):
                 self.assertEqual(self.found(text), [])
 
-    def test_of_concepts_begin_with_a_sentence(self):
-        concept = "template <class T>\nconcept a = true;"
-        self.assertEqual(self.found("/// An a.\n///\n///   b    c\n" + concept), [])
-        self.assertEqual(len(self.found("/// @code{.txt}\n///   a    b\n/// @endcode\n" + concept)), 1)
-
     def test_of_plain_members_are_those_of_their_folder(self):
         text = "/// An a.\nstruct a {\n  int order;\n};"
-        self.assertEqual(self.found(text, "families/a.hpp"), [])
-        self.assertEqual(len(self.found(text, "learning/a.hpp")), 1)
+        self.assertEqual((self.found(text, "families/a.hpp"), len(self.found(text, "learning/a.hpp"))), ([], 1))
 
     def test_are_listed_with_their_lines(self):
         with tempfile.TemporaryDirectory() as folder:

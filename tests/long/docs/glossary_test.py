@@ -58,57 +58,37 @@ def mistakes(folder):
                     if len(re.findall(rf"(?<![a-z]){name}(?![a-z])", text)) < 2]
 
 
-class OfTheProject(unittest.TestCase):
-    def test_has_no_mistake(self):
+class Glossary(unittest.TestCase):
+    def test_of_the_project_has_no_mistake(self):
         self.assertEqual(mistakes(root), [])
-
-    def test_defines_and_links_many_terms(self):
         known = sections((root / "docs/notation.md").read_text())
         self.assertGreaterEqual(sum(len(terms) for terms, _ in known.values()), 80)
         links = [link for page in markdown.documents(root) for link in markdown.links(page.read_text())]
         self.assertGreaterEqual(sum(link.endswith(tuple(f"notation.md#{anchor}" for anchor in known)) for link in links), 10)
 
-
-class InAFolder(unittest.TestCase):
-    """A sound folder; a case plants something and says what must be found."""
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name).resolve()
-        for name in sources:
-            (self.root / name).mkdir()
-        (self.root / "docs/notation.md").write_text(
-            "# Notation\n\n## Glossary\n\n### Methods\n\n| term | meaning |\n|---|---|\n| gradient kick | a flow |\n\n"
-            "### Machinery\n\n| term | meaning |\n|---|---|\n| lane | one element |\n"
-            "| rank | one process, `rank_of` in names |\n\n"
-            "## Letters\n\n| letter | flow |\n|---|---|\n| G | gradient kick |\n")
-        (self.root / "include/a.hpp").write_text("/// A gradient\n/// kick on ranks.\nint rank_of(int thing);\n")
-        self.page = self.root / "docs/page.md"
-        self.page.write_text("# Page\n\n[lanes](notation.md#machinery) and [the lane letters](notation.md#letters).\n")
-        self.assertEqual(mistakes(self.root), [])
-
-    def test_an_undefined_term_is_found(self):
-        for text, anchor in (("phantom step", "methods"), ("lane", "methods"), ("the\nrank list", "machinery"),
-                             ("thing", "machinery")):
-            self.page.write_text(f"# Page\n\nA [{text}](notation.md#{anchor}).\n")
-            with self.subTest(text):
-                wrong = f"docs/page.md: '{' '.join(text.split())}' is no term of docs/notation.md#{anchor}"
-                self.assertIn(wrong, mistakes(self.root))
-
-    def test_a_wrong_definition_is_found(self):
-        notation = self.root / "docs/notation.md"
-        sound = notation.read_text()
-        for old, new, *wrong in (
-                ("| lane |", "| vector element |", "docs/page.md: 'lanes' is no term of docs/notation.md#machinery",
+    def test_of_a_folder_with_a_mistake_is_told(self):
+        sound = {
+            "docs/notation.md": "# Notation\n\n## Glossary\n\n### Machinery\n\n| term | meaning |\n|---|---|\n"
+                                "| lane | one element |\n| gradient kick | a flow, `rank_of` in names |\n\n"
+                                "## Letters\n\n| G | gradient kick |\n",
+            "docs/page.md": "# Page\n\n[lanes](notation.md#machinery) and [the lane letters](notation.md#letters).\n",
+            "include/a.hpp": "/// A gradient\n/// kick on lanes.\nint rank_of(int thing);\n"}
+        no_term = "docs/page.md: '{}' is no term of docs/notation.md#machinery"
+        for name, old, new, *wrong in (
+                ("docs/page.md", "", ""),
+                ("docs/page.md", "lanes", "phantom step", no_term.format("phantom step")),
+                ("docs/page.md", "lanes", "the\nlane list", no_term.format("the lane list")),
+                ("docs/page.md", "lanes", "thing", no_term.format("thing")),
+                ("docs/notation.md", "| lane |", "| vector element |", no_term.format("lanes"),
                  "'vector element' of the glossary is used nowhere"),
-                ("| lane |", "| flux capacitor | makes time travel possible |\n| lane |",
-                 "'flux capacitor' of the glossary is used nowhere"),
-                ("| lane |", "| rank | the same again |\n| lane |", "'rank' is defined 2 times"),
-                ("`rank_of`", "`rank_in`", "`rank_in` of the glossary is no name of ours")):
-            with self.subTest(wrong):
-                notation.write_text(sound.replace(old, new, 1))
-                self.assertEqual(mistakes(self.root), wrong)
+                ("docs/notation.md", "| lane |", "| gradient kick | again |\n| lane |", "'gradient kick' is defined 2 times"),
+                ("docs/notation.md", "`rank_of`", "`rank_in`", "`rank_in` of the glossary is no name of ours")):
+            with self.subTest(new), tempfile.TemporaryDirectory() as folder:
+                for one, text in sound.items():
+                    path = Path(folder).resolve() / one
+                    path.parent.mkdir(exist_ok=True)
+                    path.write_text(text.replace(old, new, 1) if one == name else text)
+                self.assertEqual(mistakes(Path(folder).resolve()), wrong)
 
 
 if __name__ == "__main__":

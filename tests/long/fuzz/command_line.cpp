@@ -7,7 +7,6 @@
 
 #include "offered_options.hpp"
 #include "program_run.hpp"
-#include "within_reach.hpp"
 
 namespace {
 

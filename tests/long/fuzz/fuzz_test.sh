@@ -5,11 +5,11 @@ set -euo pipefail
 folder=$(realpath -m "$1") sources=$2
 rm -rf "$folder"
 mkdir -p "$folder/empty"
-compile() {  # NAME SOURCE
-  clang++ -std=c++20 -g1 -O1 -fsanitize=fuzzer "$sources/$2" -o "$folder/$1" 2>"$folder/$1.messages"
+compile() {  # NAME [OPTION]
+  clang++ -std=c++20 -g1 -O1 -fsanitize=fuzzer "${@:2}" "$sources/planted.cpp" -o "$folder/$1" 2>"$folder/$1.messages"
 }
-compile sound sound.cpp || { echo "skipped: clang++ with libFuzzer is not here"; exit 77; }
-compile planted planted.cpp
+compile sound || { echo "skipped: clang++ with libFuzzer is not here"; exit 77; }
+compile planted -DPLANTED
 failed=0
 expect() {  # STATUS CASE WORDS PROGRAM CORPUS
   local status=0

@@ -5,7 +5,6 @@
 
 #include "offered_options.hpp"
 #include "program_run.hpp"
-#include "within_reach.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nysalt::fuzz;

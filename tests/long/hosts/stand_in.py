@@ -30,42 +30,15 @@ class state:
         self.q = [self.q[0] + c * self.p[0], self.q[1] + c * 0.5 * self.p[1]]
 
 
-def chroma(x, lam, n, length):
-    """LatColMatSTSMinNorm2RecursiveIntegrator: the first and last kicks of neighbouring steps are one."""
-    dtau = length / n
-    x.kick(lam * dtau)
+def second_order_minimum_norm(x, lam, n, length):
+    """What Chroma, tmLQCD and openQCD make of lambda: kicks of neighbouring steps are one."""
+    h = length / n
+    x.kick(lam * h)
     for i in range(n):
-        x.drift(dtau / 2)
-        x.kick((1 - 2 * lam) * dtau)
-        x.drift(dtau / 2)
-        x.kick(lam * dtau * (2 if i < n - 1 else 1))
-
-
-def tmlqcd(x, lam, n, length):
-    """2MN, step by step: the kick at the end of a step is double but in the last."""
-    eps = length / n
-    x.kick(lam * eps)
-    for i in range(1, n + 1):
-        x.drift(0.5 * eps)
-        x.kick((1 - 2 * lam) * eps)
-        x.drift(0.5 * eps)
-        x.kick((lam if i == n else 2 * lam) * eps)
-
-
-def openqcd(x, lam, n, length):
-    """OMF2 as a list of operations, whose neighbouring kicks are joined."""
-    tau = length / n
-    operations = []
-    for _ in range(n):
-        operations += [("p", lam * tau), ("u", tau / 2), ("p", (1 - 2 * lam) * tau), ("u", tau / 2), ("p", lam * tau)]
-    joined = []
-    for kind, c in operations:
-        if joined and joined[-1][0] == kind:
-            joined[-1] = (kind, joined[-1][1] + c)
-        else:
-            joined.append((kind, c))
-    for kind, c in joined:
-        (x.kick if kind == "p" else x.drift)(c)
+        x.drift(h / 2)
+        x.kick((1 - 2 * lam) * h)
+        x.drift(h / 2)
+        x.kick(lam * h * (2 if i < n - 1 else 1))
 
 
 def ordinarydiffeq(x, a, b, n, length):
@@ -127,7 +100,7 @@ def main():
     else:
         patterns = {"chroma": r"<lambda>(.*)</lambda>", "tmlqcd": r"Lambda0 = (.*)", "openqcd": r"lambda +(.*)"}
         lam = float(re.search("(?m)^ *" + patterns[host], text).group(1))
-        {"chroma": chroma, "tmlqcd": tmlqcd, "openqcd": openqcd}[host](x, lam, 10, 1.0)
+        second_order_minimum_norm(x, lam, 10, 1.0)
         end_q, end_p = numbers_after(text, "to q"), numbers_after(text[text.index("to q"):], "p")
     off = max(abs(u - v) for u, v in zip(x.q + x.p, end_q + end_p))
     print(f"{host}: off by {off:.1e}")

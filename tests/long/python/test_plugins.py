@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Systems of users that are compiled: by a source, whose letters make words that are methods and families by name, and by a
-potential as text. Tier 1: tests/smoke has one plug-in."""
+"""Systems of users that are compiled: by a source, whose letters make words that are families by name, and by a potential as
+text. What the words do, and which letters are refused, tests/smoke and tests/long/programs have. Tier 1: tests/smoke."""
 from pathlib import Path
 
 import numpy as np
@@ -16,27 +16,10 @@ def own_cache(tmp_path_factory, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.getbasetemp() / "cache"))
 
 
-def test_words_of_them_are_stepped():
-    well = nysalt.system(str(PLUGINS / "cubic_well.hpp"))
-    assert well.letters == ["t", "c"]
-    assert nysalt.system("pendulum").letters == []
-    q, p = np.array([0.1, -0.2]), np.array([0.3, 0.1])
-    end_q, end_p = nysalt.integrate(well, "word:tct", 0.5, q, p, 1)
-    # Half a turn, the kick, half a turn: the operations of the letters, in their order.
-    c, s = np.cos(0.25), np.sin(0.25)
-    def turned(q, p):
-        return q * c + p * s, p * c - q * s
-    x, y = turned(q, p)
-    y = y + 0.5 * np.array([-2 * x[0] * x[1], x[1]**2 - x[0]**2])
-    x, y = turned(x, y)
-    # NumPy's cosine may be another one: some ten roundings of numbers below 1/2.
-    assert np.allclose(end_q, x, rtol=0, atol=1e-15) and np.allclose(end_p, y, rtol=0, atol=1e-15)
-    other_q, _ = nysalt.integrate(well, "word:ctc", 0.5, q, p, 1)
-    assert not np.allclose(other_q, x, rtol=0, atol=1e-4)
-
-
 def test_what_is_learned_keeps_them_by_name(tmp_path):
     well = nysalt.system(str(PLUGINS / "cubic_well.hpp"))
+    assert well.letters == ["t", "c"] and nysalt.system("pendulum").letters == []
+    assert nysalt.system(str(PLUGINS / "bonds_and_charges.hpp")).letters == ["0", "1", "k"]
     scheme = nysalt.learn(well, "word:tctct", step=0.5, trajectories=16)
     assert scheme.letters == "tctct" and scheme.symmetric and scheme.evaluations_per_step == 2
     assert [one["letter"] for one in scheme.document["own_letters"]] == ["t", "c"]
@@ -49,25 +32,6 @@ def test_what_is_learned_keeps_them_by_name(tmp_path):
         nysalt.run(nysalt.system("pendulum"), again, step=0.5, horizon=5)
     with pytest.raises(ValueError, match="the letter t"):
         nysalt.export(again, "c")
-
-
-def test_parts_are_kicked_by_name():
-    chain = nysalt.system(str(PLUGINS / "bonds_and_charges.hpp"))
-    assert chain.letters == ["0", "1", "k"]
-    errors = nysalt.compare(chain, ["word:kA0A0A0Ak", "verlet"], [0.03], metric="state", trajectories=8, horizon=3)
-    respa, verlet = (row["error"] for row in errors["rows"])
-    assert respa < 0.5 * verlet  # of order 2 with four times as short steps of the bonds
-
-
-def test_letters_that_are_not_sound_are_refused(tmp_path):
-    source = (PLUGINS / "cubic_well.hpp").read_text()
-    weak = source.replace("x.p[i] += room.x[i] * t;", "x.p[i] += room.x[i] * t * 0.9;")
-    assert weak != source
-    (tmp_path / "weak.hpp").write_text(weak)
-    well = nysalt.system(str(tmp_path / "weak.hpp"))
-    with pytest.raises(ValueError, match="must add up to H"):
-        nysalt.run(well, "word:tct", step=0.5, horizon=5)
-    nysalt.run(well, "verlet", step=0.1, horizon=1)
 
 
 def test_a_source_is_built_and_loaded(tmp_path):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The least of (theta - 2)^2, by what searches for the learner. first_program/ learns.
+// The least of (theta - 2)^2, by what searches for the learner.
 #include "nysalt/learning/minimise.hpp"
 
 #include <cstdio>

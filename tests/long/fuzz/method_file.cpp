@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: BSL-1.0
-// The readers of a method file.
-#pragma once
+// Method files, tables of coefficients and schemes: as they are (a checksum refuses changes), and signed
+// again.
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json.hpp>
 
-#include <string>
-
+#include "../../support/forged.hpp"
 #include "comparison/method_file.hpp"
 #include "program_run.hpp"
 
-namespace nysalt::fuzz {
+using namespace nysalt::fuzz;
+
+namespace {
 
 /// The reader of all texts; commands, which take a hundred times as long, of some, and `compare` of few.
 /// Asked for with --force, so that a file for another step or system goes further.
-inline void try_method_file(const std::string& text) {
-  const bool is_taken = takes([&] { program::method_file_in(text, "method.json"); });
+void try_method_file(const std::string& text) {
+  const bool is_taken = takes([&] { nysalt::program::method_file_in(text, "method.json"); });
   if (!is_one_in(is_taken ? 16 : 256, text)) return;
   const input_file file{"method.json", text};
   const std::string step = "0.02";
@@ -26,4 +30,12 @@ inline void try_method_file(const std::string& text) {
       {file});
 }
 
-}  // namespace nysalt::fuzz
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  try_method_file(text);
+  const auto document = nlohmann::ordered_json::parse(text, nullptr, false);
+  if (document.is_object()) try_method_file(nysalt::test::forged(text, [](auto&) {}));
+  return 0;
+}
