@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Learned words in LAMMPS, on a crystal of 108 atoms, against LAMMPS's own integrators at equal force evaluations.
 
-usage: lammps_comparison.py PROGRAM FOLDER [--seeds N]
+usage: lammps.py PROGRAM FOLDER [--seeds N]
 
 Writes FOLDER/hosts.md: deviations of the energy with words without a bath, and errors of the mean potential energy with
 words in a bath. The words are learned for clusters of 13 atoms and for a chain of springs with the crystal's highest
@@ -11,11 +11,14 @@ frequency, and taken to the crystal, as one would.
 import argparse
 import math
 import os
+import pathlib
 import statistics
 import subprocess
+import sys
 
-import common
-import lammps_test as host
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tests/long/hosts"))
+import common  # noqa: E402
+import lammps_test as host  # noqa: E402
 
 CRYSTAL = """units lj
 atom_style atomic
@@ -97,7 +100,7 @@ def main():
     page = ["# Learned words in a host", "",
             "LAMMPS of 2022 (Debian 12), 108 atoms of Lennard and Jones in a periodic crystal (density 1.06, kT = 0.1, smooth cut-off",
             "2.1 to 2.4), each row with as many force evaluations as the others of its table.",
-            f"`tests/long/hosts/lammps_comparison.py` wrote this, with {asked.seeds} seeds a row.", "",
+            f"`bench/studies/hosts/lammps.py` wrote this, with {asked.seeds} seeds a row.", "",
             "## Energy, without a bath", "",
             "Deviation of the energy of an atom along 12000 force evaluations after 2000 to warm up, and its drift from the first tenth to",
             "the last. `bab3 learned` and `bab6 learned` are of `nysalt learn --system lennard_jones --space 3 --atoms 13 --spread 1.5",
