@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O1: 10 s at -O0, 2 s at -O1.
 // The program's numbers are those of the library, bit for bit: its methods are data, those here are types,
-// and numbers in JSON are printed so that they are read back whole.
+// and numbers in JSON are printed so that they are read back whole. Nothing is tested where it was learned.
 #include <boost/test/unit_test.hpp>
 
 #include <fmt/format.h>
@@ -106,21 +106,6 @@ BOOST_AUTO_TEST_CASE(compare_gives_the_errors_of_the_library) {
   must_all_be("--metric state", state_measure(chain));
   must_all_be("--metric exchange", exchange_measure(chain));
   must_all_be("--metric energy", energy_measure(chain));
-}
-
-BOOST_AUTO_TEST_CASE(compare_does_so_for_another_system) {
-  const vector<double, 2> rest(0.0, 0.0);
-  const henon_heiles system;
-  const auto expected = trajectory_errors(
-      system, fine_steps<>(.25 / 50), normal_around<2>({rest, rest}, .1, .1), mclachlan2(),
-      state_measure(system),
-      {.step = .25, .steps = 40, .trajectories = 7, .seed = seed_for(role::test, 1), .horizon = 10.0});
-  const auto all = document(
-      "compare --system henon_heiles --methods mclachlan2 --steps 0.25 --horizon 10 --trajectories 7 "
-      "--metric state --fine-step 0.005");
-  BOOST_TEST(all["references"][0]["reference"] == expected.reference);
-  BOOST_TEST(all["references"][0]["error"] == expected.reference_error->mean);
-  BOOST_TEST(all["rows"][0]["error"] == expected.methods[0].error.mean);
 }
 
 /// Where the second trajectory starts, and where a step of Verlet leads: energy, q1 and the last of p.
@@ -277,4 +262,20 @@ BOOST_AUTO_TEST_CASE(compare_learns_as_learn_does) {
   const auto fit = fitted(coordinates::energy);
   BOOST_TEST(all["fits"][0]["parameters"]["b1"] == fit.summary.parameters[0].value);
   BOOST_TEST(all["fits"][0]["held_out_loss"] == fit.summary.held_out_loss);
+}
+
+// Along an accurate trajectory the energy stays: it tells from which start the data are.
+BOOST_AUTO_TEST_CASE(no_test_starts_where_training_did) {
+  const auto energy_from = [](role which) { return energy<double>(chain, law(seed_for(which, 1), 0)); };
+  const auto learned =
+      json_of(nysalt::test::run("learn --family nystrom --step 0.02 --trajectories 1 --json"));
+  const auto training = learned["energy_range"].get<std::vector<double>>();
+  const auto test = document("run --method verlet --step 0.02 --horizon 0.02 --observables energy");
+  // Both hold exactly: the range has the start in it, and the first sample is the start.
+  BOOST_TEST(training[0] <= energy_from(role::training));
+  BOOST_TEST(energy_from(role::training) <= training[1]);
+  BOOST_TEST(test["rows"][0][3] == energy_from(role::test));
+  BOOST_TEST(training[1] - training[0] < 1e-9);
+  for (const auto other : {role::held_out, role::test})
+    BOOST_TEST((energy_from(other) < training[0] || energy_from(other) > training[1]));
 }

@@ -10,5 +10,4 @@
 
 namespace nysalt::test {
 constexpr bool under_address_sanitizer = NYSALT_TEST_HAS_FEATURE(address_sanitizer);
-constexpr bool under_thread_sanitizer = NYSALT_TEST_HAS_FEATURE(thread_sanitizer);
 }  // namespace nysalt::test

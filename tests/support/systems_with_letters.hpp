@@ -6,11 +6,9 @@
 #include <cmath>
 
 #include "nysalt/flows/exact_flow.hpp"
-#include "nysalt/flows/kepler_flow.hpp"
 #include "nysalt/flows/kick_of_parts.hpp"
 #include "nysalt/systems/bonded_chain.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/solar_system.hpp"
 
 namespace lettered {
 
@@ -84,11 +82,6 @@ struct walls {
 /// Stiff bonds and soft charges, a part each.
 struct charges : nysalt::bonded_chain<4> {
   charges() : nysalt::bonded_chain<4>(nysalt::stiff_bonds<4>(20.0), nysalt::soft_charges<4>(2.0)) {}
-};
-
-/// The sun and the outer planets, in astronomical units and days.
-struct planets : nysalt::solar_system<5> {
-  planets() : nysalt::solar_system<5>(nysalt::outer_solar_system()) {}
 };
 
 /// The new q goes into the new p.

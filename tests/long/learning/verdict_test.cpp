@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O1: 66 s at -O0, 15 s at -O1.
-// What is usable keeps its promise, over several steps. In tier 1: the verdicts, in learning/usable_test and
-// learning/stability_guard_test.
+// What is usable keeps its promise: where the kinetic energy is not quadratic, and beside a member that was
+// known. In tier 1: the verdicts, in learning/usable_test, stability_guard_test and judgement_test.
 #include <boost/test/unit_test.hpp>
 
 #include "../../support/learned.hpp"
@@ -31,30 +31,9 @@ std::int64_t lost_of(const S& system, const E& law, const run_time_family& famil
   return judge(system, starts, method, found.summary.step, {.steps = steps}).lost;
 }
 
-const phi4_chain<> chain(16);
-const auto chain_law = around_rest<Eigen::Dynamic>(0.5, 1.0, 16);
 const auto particle_law = around_rest<1>(0.5, 1.0);
 
 }  // namespace
-
-// The band that a system declares is no bound of what its starts meet.
-BOOST_AUTO_TEST_CASE(what_is_usable_keeps_its_trajectories) {
-  int refused = 0;
-  int kept = 0;
-  for (const double step : {0.3, 0.5, 0.6, 0.68}) {
-    for (const run_time_family& family : {run_time_family(nystrom{}), run_time_family(fg_chin{})}) {
-      const auto found = fit_of(family, chain, chain_law, fine_steps<>(0.02), step, 8.0);
-      BOOST_TEST_CONTEXT(found.summary.full()) {
-        const bool is_lost = lost_of(chain, chain_law, family, found, 4000) > 0;
-        BOOST_TEST(!(is_lost && found.summary.usable));
-        refused += !found.summary.usable;
-        kept += !is_lost;
-      }
-    }
-  }
-  BOOST_TEST(refused > 0);
-  BOOST_TEST(kept > 1);
-}
 
 BOOST_AUTO_TEST_CASE(a_kinetic_energy_that_is_not_quadratic_is_guarded_too) {
   int refused = 0;
