@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 // A search over 10^5 samples: compressed to one small block, against a Ceres block for each sample.
 #include <benchmark/benchmark.h>
+#include <ceres/cost_function.h>
+#include <ceres/problem.h>
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "../tests/support/losses.hpp"
@@ -16,6 +20,7 @@
 #include "nysalt/ensembles/fpu_law.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
+#include "nysalt/learning/minimise.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/stepper.hpp"
 #include "peers/roofs.hpp"
@@ -29,6 +34,59 @@ using chain_type = fpu_chain<3>;
 constexpr std::int64_t pairs_each = 100;
 constexpr std::int64_t trajectories = 1000;
 
+using is_defined = std::function<bool(const Eigen::VectorXd&)>;
+
+/// One window of test::sample_blocks as a Ceres cost.
+template <class Blocks>
+class sample_cost final : public ceres::CostFunction {
+ public:
+  sample_cost(const Blocks& blocks, std::size_t window, is_defined defined)
+      : blocks_(&blocks),
+        window_(window),
+        defined_(std::move(defined)),
+        share_(1.0 / std::sqrt(static_cast<double>(blocks.windows()))) {
+    set_num_residuals(blocks.residuals_of_window());
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(Blocks::parameters));
+  }
+
+  bool Evaluate(double const* const* at, double* residuals, double** jacobians) const override {
+    constexpr std::size_t count = Blocks::parameters;
+    std::array<double, count> theta;
+    for (std::size_t k = 0; k < count; ++k) theta[k] = at[0][k];
+    if (defined_ && !defined_(column_of(theta))) return false;
+    if (jacobians == nullptr || jacobians[0] == nullptr) {
+      for (const double r : blocks_->at(window_, theta)) *residuals++ = r * share_;
+      return true;
+    }
+    double* slope = jacobians[0];
+    for (const auto& r : blocks_->at(window_, Blocks::with_derivatives(at[0]))) {
+      *residuals++ = r.value * share_;
+      for (const double d : r.derivative) *slope++ = d * share_;
+    }
+    return true;
+  }
+
+ private:
+  const Blocks* blocks_;
+  std::size_t window_;
+  is_defined defined_;
+  double share_;
+};
+
+/// What minimise() does, block by block.
+template <class Blocks>
+minimum minimise_by_blocks(const Blocks& blocks, const is_defined& defined, const Eigen::VectorXd& start,
+                           const std::vector<Eigen::Index>& free, int max_iterations) {
+  minimum found{start};
+  ceres::Problem problem;
+  for (std::size_t n = 0; n < blocks.windows(); ++n) {
+    problem.AddResidualBlock(new sample_cost<Blocks>(blocks, n, defined), nullptr, found.theta.data());
+  }
+  nysalt::detail::descend(problem, free, max_iterations, found);
+  nysalt::detail::polish(std::cref(blocks), defined, free, found);
+  return found;
+}
+
 /// All that both searches share; it stays where it is, as the losses refer to it.
 class problem {
  public:
@@ -38,19 +96,18 @@ class problem {
         measure_(chain_, data_, coordinates::qp) {}
 
   minimum compressed() const {
-    const test::one_step<nystrom> loss(chain_, data_, measure_);
-    return minimise(objective_of(loss), test::defined_for<nystrom>(), start_, {0, 1}, iterations_);
+    return minimise(objective_of(*loss()), defined_, start_, {0, 1}, iterations_);
   }
   minimum block_per_sample() const {
     const test::sample_blocks<nystrom, chain_type> blocks(chain_, data_, measure_);
-    return test::minimise_by_blocks(blocks, test::defined_for<nystrom>(), start_, {0, 1}, iterations_);
+    return minimise_by_blocks(blocks, defined_, start_, {0, 1}, iterations_);
   }
   double samples() const { return static_cast<double>(data_.pairs()); }
 
   /// One pass over the data: loss, gradient and normal matrix.
-  squares pass(const test::one_step<nystrom>& loss) const { return squares_at(loss, start_); }
-  std::shared_ptr<const test::one_step<nystrom>> loss() const {
-    return std::make_shared<const test::one_step<nystrom>>(chain_, data_, measure_);
+  squares pass(const after_steps<>& loss) const { return squares_at(loss, start_); }
+  std::shared_ptr<const after_steps<>> loss() const {
+    return std::make_shared<const after_steps<>>(family_, model(chain_), data_, state_error(measure_));
   }
 
   /// Multiplications and additions that a pass does for one pair, counted: a step with two derivatives, the
@@ -93,6 +150,8 @@ class problem {
 
  private:
   static constexpr int iterations_ = 200;
+  run_time_family family_{nystrom()};
+  is_defined defined_ = [this](const Eigen::VectorXd& theta) { return family_.is_defined(theta); };
   chain_type chain_{50.0};
   flow_map_data data_;
   metric measure_;

@@ -55,30 +55,7 @@ const tabulated by_verlet{verlet()};
 /// A mistake in Verlet: the kick is a little too weak, which is not even consistent.
 const tabulated weak_kick("weak_kick", run_time_word("BAB"), {0.499, 1.0, 0.499}, {2, true, false});
 
-using galaxy_in_bath = in_bath<henon_heiles>;
-const galaxy_in_bath warm(henon_heiles(), bath::of_sigma(0.5, 0.1));
-const galaxy_in_bath damped(henon_heiles(), bath::of_sigma(0.5, 0.0));
-const galaxy_in_bath at_rest(henon_heiles(), bath::of_sigma(0.0, 0.0));
-
-std::int64_t counted_through(const auto& system, const auto& method, std::int64_t steps) {
-  const counted watched(system);
-  const auto stepper = make_stepper(watched, method, 0.1, counter_noise(0));
-  auto run = stepper.open(star);
-  stepper.advance(run, steps);
-  stepper.synchronous(run);  // costs nothing
-  return watched.evaluations;
-}
-
-void check(const auto& system, const auto& method, std::int64_t to_open, std::int64_t of_a_step) {
-  for (const std::int64_t steps : {0, 1, 2, 3, 10}) {
-    BOOST_TEST_CONTEXT(method.name() << " over " << steps << " steps of " << describe(system)) {
-      const auto told = evaluations_of_run(system, method, 0.1, steps, star);
-      BOOST_TEST(told == counted_through(system, method, steps));
-      BOOST_TEST(told == to_open + steps * of_a_step);
-      BOOST_TEST(evaluations_of_run(system, tabulated(method), 0.1, steps, star) == told);
-    }
-  }
-}
+const in_bath warm(henon_heiles(), bath::of_sigma(0.5, 0.1));
 
 using planar = phase_point<double, 2>;
 const harmonic_oscillator oscillator(3.0);
@@ -241,19 +218,8 @@ BOOST_AUTO_TEST_CASE(steps_and_halvings_that_cannot_be_are_refused) {
   BOOST_TEST(refused(std::nan(""), 4, 2, "horizon"));
 }
 
-// The two kicks of A B O B A are at one q, with a letter between them: the force is asked for once.
-BOOST_AUTO_TEST_CASE(letters_of_the_bath_cost_no_force) {
-  for (const galaxy_in_bath& system : {warm, damped, at_rest}) {
-    check(system, baoab(), 1, 1);
-    check(system, baoab_2x(), 1, 2);
-    check(system, obabo(), 1, 1);
-    check(system, aboba(), 0, 1);
-    check(system, thermostat<placement::end>(mclachlan2()), 0, 2);
-    check(system, thermostat<placement::symmetric>(mclachlan2()), 0, 2);
-    check(system, thermostat<placement::middle>(mclachlan2()), 0, 2);
-    check(system, thermostat<placement::symmetric>(verlet()), 1, 1);
-  }
-  // Steps are not taken to be counted.
+// By the costs of the word, which are counted in methods/run_laws_test.cpp.
+BOOST_AUTO_TEST_CASE(evaluations_of_a_run_are_known_without_its_steps) {
   BOOST_TEST(evaluations_of_run(warm, baoab(), 0.1, 1'000'000'000'000, star) == 1'000'000'000'001);
   const auto refused = [](const auto& method, double step, std::int64_t steps) {
     return refuses<std::invalid_argument>([&] { evaluations_of_run(warm, method, step, steps, star); }, {});

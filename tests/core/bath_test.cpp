@@ -196,8 +196,8 @@ struct meeting {
   merged_half_steps<double> seam{end, begin, heat_bath.sigma() > 0.0};
 };
 
-cursor at(std::uint64_t trajectory, std::int64_t step, bool bath_is_warm = true) {
-  return {&source, trajectory, step, 2, bath_is_warm, {}, {}};
+cursor at(std::uint64_t trajectory, std::int64_t step) {
+  return {&source, trajectory, step, 2, true, {}, {}};
 }
 state moving(double p) { return {{{0.1, 0.2}, {p, p}}, {0.0, 0.0}}; }
 
@@ -263,29 +263,6 @@ BOOST_AUTO_TEST_CASE(what_crosses_the_seam_is_its_two_halves) {
       BOOST_TEST((merged.q == moving(0.0).q));
     }
   }
-}
-
-BOOST_AUTO_TEST_CASE(before_the_first_step_there_is_only_the_half_that_begins_it) {
-  const auto& two = meetings.front();
-  for (std::uint64_t m = 0; m < 10; ++m) {
-    BOOST_TEST((across(two, m, 0) == begin_of(two, m, 0)));
-    BOOST_TEST((across(two, m, 1) != begin_of(two, m, 1)));
-    BOOST_TEST((end_of(two, m, 0) == vector<double, 2>::Zero()));
-  }
-}
-
-BOOST_AUTO_TEST_CASE(a_cold_bath_damps_and_draws_nothing) {
-  const meeting two{bath::of_sigma(0.8, 0.0)};
-  cursor where{nullptr, 0, 3, 2, false, {}, {}};  // a draw would crash
-  const auto damped_by = [&](auto&& part) {
-    auto x = moving(1.0);
-    part(x);
-    return x.p[0];
-  };
-  BOOST_TEST(damped_by([&](auto& x) { two.seam.cross(system_of_unit_masses, where, x); }) ==
-             two.begin.decay * two.end.decay);
-  BOOST_TEST(damped_by([&](auto& x) { two.seam.end(system_of_unit_masses, where, x); }) == two.end.decay);
-  BOOST_TEST(damped_by([&](auto& x) { two.seam.begin(system_of_unit_masses, where, x); }) == two.begin.decay);
 }
 
 // Letters O with coefficient 0 at both ends are odd, but not NaN.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // A learned method knows where it is valid; a family as data is the family as a type, in a bath too.
+#include <map>
+
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
@@ -246,10 +248,20 @@ BOOST_AUTO_TEST_CASE(parameters_have_ranges_of_which_some_are_open) {
   BOOST_TEST(is_defined(0.5, 0.5));
   BOOST_TEST(is_defined(0.5, 0.7));  // beyond a bound that may be attained
   for (const double outside : {0.0, 1.0, std::nan("")}) BOOST_TEST(!is_defined(outside, 0.4));
-  const auto out_of_range = [&](double b1, double beta1, said words) {
-    return refuses<wrong>([&] { require_in_range(family, Eigen::Vector2d(b1, beta1)); }, words);
-  };
-  BOOST_TEST(!out_of_range(0.5, 0.5, {}));
-  BOOST_TEST(out_of_range(1.0, 0.4, {"nystrom", "b1", "(0, 1)", "got 1"}));
-  BOOST_TEST(out_of_range(0.5, 0.6, {"nystrom", "beta1", "[0, 0.5]", "got 0.6"}));
+  const std::string of_b1 = "nystrom: the parameter b1 must lie in (0, 1), got ";
+  const std::string of_beta1 = "nystrom: the parameter beta1 must lie in [0, 0.5], got ";
+  const std::map<std::array<double, 2>, std::string> refused{{{0.0, 0.4}, of_b1 + "0"},
+                                                             {{1.0, 0.4}, of_b1 + "1"},
+                                                             {{-0.5, 0.4}, of_b1 + "-0.5"},
+                                                             {{0.5, -1e-9}, of_beta1 + "-1e-09"},
+                                                             {{0.5, 0.6}, of_beta1 + "0.6"},
+                                                             {{0.5, 0.0}, ""},
+                                                             {{0.5, 0.5}, ""}};
+  for (const auto& [theta, words] : refused) {  // the ends of beta1 may be attained
+    BOOST_TEST(refusal_of([&, &at = theta] { require_in_range(family, column_of(at)); }) == words);
+    BOOST_TEST(refusal_of([&, &at = theta] { member<nystrom>{at}; }) == words);
+  }
+  const double nan = std::nan("");
+  BOOST_TEST(refusal_of([&] { member<nystrom>({nan, 0.4}); }) == of_b1 + "nan");
+  BOOST_TEST(refusal_of([&] { member<nystrom>({0.5, nan}); }) == of_beta1 + "nan");
 }

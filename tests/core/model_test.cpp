@@ -172,15 +172,6 @@ int compare_all(const S& system, const std::vector<tabulated>& words, const Nois
   return compared;
 }
 
-std::string refusal_of(auto&& action) {
-  try {
-    action();
-  } catch (const wrong& e) {
-    return e.what();
-  }
-  return "";
-}
-
 /// f(system) for each of the systems by their types.
 void for_each_type(const auto& f) {
   f(fixed_chain);

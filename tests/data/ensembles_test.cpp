@@ -111,19 +111,6 @@ BOOST_AUTO_TEST_CASE(an_observable_is_read_in_any_number_of_lanes) {
   BOOST_TEST(found.first[0][1] == expected.values[0][2]);  // of which two are kept
 }
 
-BOOST_AUTO_TEST_CASE(no_steps_show_the_starts) {
-  int looks = 0;
-  const auto take = [&](std::int64_t m, std::int64_t n, double value) {
-    BOOST_TEST(n == 0);
-    BOOST_TEST(value == law(1, static_cast<std::uint64_t>(m)).q[0]);
-    ++looks;
-  };
-  integrate_ensemble(
-      model(galaxy), tabulated(verlet()), 0.1, law, {.trajectories = 5, .steps = 0},
-      [](const auto& x) { return x.q[0]; }, take);
-  BOOST_TEST(looks == 5);
-}
-
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const auto refused = [](const model& system, const tabulated& method, const initial_states& starts,
                           const ensemble_options& options, auto... said) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // The pairs that are learned from: made as told, in a bath with the noise that leads from one to the other,
 // and refused when they are not whole.
-#include <chrono>
+#include <atomic>
 #include <set>
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
@@ -177,8 +177,14 @@ BOOST_AUTO_TEST_CASE(a_reference_that_diverges_is_told_with_the_lowest_trajector
   BOOST_TEST(refuses<std::out_of_range>([&] { make(2, 40, 5); }, {"number 3 of"}));
 }
 
+// How progress is told: analysis/trajectory_errors_test.cpp.
 BOOST_AUTO_TEST_CASE(the_range_of_energies_is_that_of_all_starts_and_finishes) {
-  const auto data = made({.step = 0.02, .horizon = 0.1, .trajectories = 20, .threads = 2});
+  std::atomic<std::int64_t> most = 0;
+  const auto tell = [&](std::int64_t done) {
+    if (done > most) most = done;
+  };
+  const auto data = made({.step = 0.02, .horizon = 0.1, .trajectories = 20, .threads = 2, .progress = tell});
+  BOOST_TEST(most == 20);
   energy_range all;
   for (const auto* states : {&data.start, &data.finish}) {
     for (const auto& x : *states) all.include(energy<double>(quiet, state(x)));
@@ -188,54 +194,29 @@ BOOST_AUTO_TEST_CASE(the_range_of_energies_is_that_of_all_starts_and_finishes) {
   BOOST_TEST(all.low < all.high);
 }
 
-BOOST_AUTO_TEST_CASE(progress_counts_to_the_number_of_trajectories) {
-  for (const int threads : {1, 3}) {
-    std::mutex guard;
-    std::vector<std::int64_t> told;
-    const auto tell = [&](std::int64_t done) {
-      const std::lock_guard lock(guard);
-      told.push_back(done);
-    };
-    made({.step = 0.02, .horizon = 0.02, .trajectories = 30, .threads = threads, .progress = tell});
-    std::ranges::sort(told);  // several threads tell in any order
-    BOOST_REQUIRE(!told.empty());
-    BOOST_TEST(told.back() == 30);
-    BOOST_TEST((std::ranges::adjacent_find(told) == told.end()));
-  }
-}
-
-BOOST_AUTO_TEST_CASE(the_noise_is_that_of_the_path_in_parts) {
-  const auto data =
-      made_in_bath({.step = 0.012, .horizon = 0.06, .trajectories = 21, .seed = 7, .noise_parts = 3});
-  BOOST_TEST(data.noise.size() == 315U);
-  require_valid(data, warm);
-  for (std::size_t m = 0; m < 21; ++m) {
-    for (std::int64_t part = 0; part < 15; ++part) {  // five steps of three
-      const auto off = [&](std::int64_t begin) {
-        const Eigen::VectorXd xi = data.noise[3 * data.first_of[m] + static_cast<std::size_t>(part)];
-        return (xi - noise_between(7, m, begin, begin + 4)).cwiseAbs().maxCoeff();
-      };
-      BOOST_TEST(off(4 * part) <= 4 * 4 * eps);  // four additions of numbers below 4
-      BOOST_TEST(off(4 * part + 4) > 1e-3);
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(parts_change_no_state_and_are_of_one_path) {
+BOOST_AUTO_TEST_CASE(the_noise_is_that_of_the_path_in_parts_which_change_no_state) {
   const auto with = [](int parts) {
-    return made_in_bath({.step = 0.012, .horizon = 0.06, .trajectories = 5, .seed = 7, .noise_parts = parts});
+    return made_in_bath(
+        {.step = 0.012, .horizon = 0.06, .trajectories = 21, .seed = 7, .noise_parts = parts});
   };
   const auto none = with(0);
   BOOST_TEST(none.noise.size() == 0U);
-  const auto one = with(1);
-  for (const int parts : {1, 2, 3, 4, 6, 12}) {
-    const auto data = with(parts);
+  for (const std::int64_t parts : {1, 2, 3, 4, 6, 12}) {
+    const auto data = with(static_cast<int>(parts));
     BOOST_TEST((data.finish == none.finish));
-    for (std::size_t n = 0; n < data.pairs(); ++n) {
-      Eigen::VectorXd whole(6);
-      const auto count = static_cast<std::size_t>(parts);
-      coarse_graining(2.0 * 0.012 / parts).over(data.noise, n * count, count, whole);
-      BOOST_TEST((whole - one.noise[n]).cwiseAbs().maxCoeff() <= 12 * 4 * eps);
+    BOOST_TEST(data.noise.size() == 105U * static_cast<std::size_t>(parts));
+    require_valid(data, warm);
+    const std::int64_t each = 12 / parts;  // fine steps
+    for (std::size_t m = 0; m < 21; ++m) {
+      for (std::int64_t part = 0; part < 5 * parts; ++part) {
+        const auto off = [&](std::int64_t begin) {
+          const auto at = parts * static_cast<std::int64_t>(data.first_of[m]) + part;
+          const Eigen::VectorXd xi = data.noise[static_cast<std::size_t>(at)];
+          return (xi - noise_between(7, m, begin, begin + each)).cwiseAbs().maxCoeff();
+        };
+        BOOST_TEST(off(each * part) <= static_cast<double>(each) * 4 * eps);  // additions of numbers below 4
+        BOOST_TEST(off(each * part + each) > 1e-3);
+      }
     }
   }
 }

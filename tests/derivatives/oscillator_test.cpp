@@ -21,22 +21,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// q'' = -(omega^2 + kappa) q, of which kappa is called soft.
-struct split_oscillator {
-  static constexpr int dimension = 1;
-  double omega;
-  double kappa;
-  template <class T>
-  void force(const vector<T, 1>& q, vector<T, 1>& f) const {
-    f[0] = q[0] * -(omega * omega + kappa);
-  }
-  template <class T>
-  void soft_force(const vector<T, 1>& q, vector<T, 1>& f) const {
-    f[0] = q[0] * -kappa;
-  }
-  normal_modes modes() const { return {Eigen::MatrixXd::Ones(1, 1), Eigen::VectorXd::Constant(1, omega)}; }
-};
-
 tabulated classical_word(std::string_view name) {
   std::vector<classical_row> rows(std::begin(classical_table), std::end(classical_table));
   rows.insert(rows.end(), std::begin(processed_table), std::end(processed_table));
@@ -123,32 +107,6 @@ tabulated many_steps(int n) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_CASE(letters_act_as_in_a_step) {
-  draws random;
-  for (const char* letters : {"ABA", "BAGAB", "ABABABA", "RSR", "RSRSRSR", "SRHRS"}) {
-    for (const double omega : {0.0, 1.3}) {
-      const run_time_word word{std::string(letters)};
-      std::vector<double> c(word.slots);
-      for (double& x : c) x = random.uniform(-0.5, 1.0);
-      const double h = 0.7;
-      const split_oscillator system{omega, 2.0};
-      const stepper<split_oscillator, run_time_word> one(system, word, c, h);
-      phase_point<double, 1> x{vector<double, 1>(0.4), vector<double, 1>(-0.9)};
-      double q = x.q[0];
-      double p = h * x.p[0];  // in units of q/h
-      one.step(x);
-      step_on_oscillator(
-          word, c, h * omega, [&](double y) { return h * h * system.kappa * y; }, q, p);
-      BOOST_TEST_CONTEXT("word " << letters << ", omega " << omega) {
-        // Some ten operations a letter, on numbers that grow to 10 at most.
-        const double rounding = 100.0 * static_cast<double>(word.length) * eps;
-        BOOST_TEST(std::abs(q - x.q[0]) <= rounding);
-        BOOST_TEST(std::abs(p - h * x.p[0]) <= rounding);
-      }
-    }
-  }
-}
 
 // Velocity Verlet: trace/2 = 1 - x/2 with x = z^2; Takahashi and Imada's has x^2/24 more. Impulses: cos theta
 // - k sin(theta)/(2 theta). The bath is left out.

@@ -166,18 +166,6 @@ BOOST_AUTO_TEST_CASE(two_stages_end_by_the_formula) {
   BOOST_TEST(formula_holds > 50);
 }
 
-// The trace does not tell which letter comes first.
-BOOST_AUTO_TEST_CASE(the_same_coefficients_from_either_letter_have_the_same_windows) {
-  const auto a = chart_of("ABABA", bcss2::coefficients()).windows;
-  const auto b = chart_of("BABAB", bcss2::coefficients()).windows;
-  BOOST_REQUIRE(a.size() == b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    BOOST_TEST(a[i].low == b[i].low, nearly);
-    BOOST_TEST(a[i].high == b[i].high, nearly);
-  }
-  BOOST_TEST(std::abs(a[0].high - stability_limit(mclachlan2())) > 1e-3);
-}
-
 BOOST_AUTO_TEST_CASE(a_band_is_stable_within_one_window) {
   BOOST_TEST((is_stable(with_a_gap, 0.0, 2.58) && is_stable(with_a_gap, 3.2, 4.0)));
   BOOST_TEST(!is_stable(with_a_gap, 0.0, 2.6));

@@ -71,9 +71,11 @@ constexpr int inner = 16;
 using respa = r_respa<0, 1, inner>;
 constexpr double first_omega = 10.0;
 constexpr double second_omega = 6.0;
+/// With the first its sum and its difference are whole turns at steps where neither is half a turn alone.
+constexpr double of_other_ratio = 5.5;
 
-two_parts pair_coupled_by(double coupling) {
-  const Eigen::Vector2d squares(first_omega * first_omega, second_omega * second_omega);
+two_parts pair_coupled_by(double coupling, double second = second_omega) {
+  const Eigen::Vector2d squares(first_omega * first_omega, second * second);
   return two_parts(springs{squares.asDiagonal()},
                    springs{coupling * Eigen::Matrix2d{{1.0, 1.0}, {1.0, 1.0}}});
 }
@@ -141,13 +143,6 @@ struct examined {
     return guard.parts()->step(coefficients, h, guard.parts()->states());
   }
 };
-
-/// Two frequencies whose sum and difference are whole turns at steps where neither is half a turn alone.
-two_parts pair_of_other_ratio(double coupling) {
-  const Eigen::Vector2d squares(10.0 * 10.0, 5.5 * 5.5);
-  return two_parts(springs{squares.asDiagonal()},
-                   springs{coupling * Eigen::Matrix2d{{1.0, 1.0}, {1.0, 1.0}}});
-}
 
 /// The step in a range at which the two modes, each a block of M but for the coupling, turn by angles of the
 /// same cosine.
@@ -298,7 +293,7 @@ BOOST_AUTO_TEST_CASE(the_guard_refuses_a_tongue_and_what_grows_beside_it_and_adm
 // Angles that differ by a whole turn meet too, but with like signatures: a coupling of any small size parts
 // them along the circle. Where angles sum up to a whole turn the same coupling moves them off it.
 BOOST_AUTO_TEST_CASE(the_guard_admits_a_difference_resonance) {
-  const examined pair(pair_of_other_ratio(1e-5));
+  const examined pair(pair_coupled_by(1e-5, of_other_ratio));
   // Nearer than a guard that ignores signatures would admit.
   constexpr double met = 1e-5;
   static_assert(met < 2.0 / steps && met < word_on_parts::least_turn);
@@ -332,7 +327,7 @@ BOOST_AUTO_TEST_CASE(a_short_plan_refuses_resonances_and_no_slow_modes) {
   }
   BOOST_TEST(slower == 9);
   // Half a period of the first mode between kicks: a pair at -1. Its growth in ten steps is small.
-  const examined pair(pair_of_other_ratio(0.1), few);
+  const examined pair(pair_coupled_by(0.1, of_other_ratio), few);
   int refused = 0;
   for (int k = 0; k <= 400; ++k) {
     const double h = 0.30 + 0.02 * k / 400;  // pi/10, less the phase of Verlet

@@ -2,14 +2,17 @@
 // Families are what the concept asks for, their classical members are those methods, of every family that can
 // turn the oscillator exactly there is a member that does, and the two-stage family is the tableau of its
 // paper.
+#include <map>
+
 #include "../laws/laws.hpp"
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
-#include "../support/tableau.hpp"
 #include "nysalt/derivatives/jacobian.hpp"
 #include "nysalt/families/phase_fitted_start.hpp"
 #include "nysalt/families/thermostatted.hpp"
 #include "nysalt/methods/classical_methods.hpp"
+#include "nysalt/methods/r_respa.hpp"
+#include "nysalt/systems/bonded_chain.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -60,6 +63,42 @@ double largest_defect(const run_time_family& family, const Eigen::VectorXd& thet
       .lpNorm<Eigen::Infinity>();
 }
 
+/// The tableau of an explicit two-stage Nystrom method for unit masses, which shares no code with the library
+/// [li_lu_tao_ye_2023, equation (2.5)].
+struct tableau {
+  double c1, c2, a21, beta1, beta2, b1, b2;
+
+  /// The symplectic ones [li_lu_tao_ye_2023, equation (2.11)].
+  static tableau symplectic(double b1, double beta1) {
+    tableau t{};
+    t.b1 = b1;
+    t.b2 = 1.0 - b1;
+    t.beta1 = beta1;
+    t.beta2 = 0.5 - beta1;
+    t.c1 = 1.0 - t.beta1 / t.b1;
+    t.c2 = 1.0 - t.beta2 / t.b2;
+    t.a21 = t.b1 * (t.c2 - t.c1);
+    return t;
+  }
+
+  template <System S, Scalar T>
+  void step(const S& system, phase_point<T, S::dimension>& x, double h) const {
+    auto stage = x.q;
+    auto l1 = x.q;
+    auto l2 = x.q;
+    for (Eigen::Index i = 0; i < x.size(); ++i) stage[i] = x.q[i] + x.p[i] * (c1 * h);
+    force<T>(system, stage, l1);
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      stage[i] = x.q[i] + x.p[i] * (c2 * h) + l1[i] * (a21 * h * h);
+    }
+    force<T>(system, stage, l2);
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      x.q[i] += x.p[i] * h + (l1[i] * beta1 + l2[i] * beta2) * (h * h);
+      x.p[i] += (l1[i] * b1 + l2[i] * b2) * h;
+    }
+  }
+};
+
 /// Two kicks cannot: trace/2 = 1 - x/2 + K x^2 with x = z^2 and K <= 1/32, where cos z has x^2/24.
 bool can_turn(const run_time_family& family) {
   return family.letters.reads == field::whole && family.parameters() >= (family.symmetric ? 2 : 3);
@@ -87,20 +126,10 @@ BOOST_AUTO_TEST_CASE(classical_members_are_those_methods) {
   BOOST_TEST(tried >= 15);
 }
 
-BOOST_AUTO_TEST_CASE(searches_begin_at_consistent_members_within_the_ranges) {
+// That their coefficients add up, as those of all members do: methods/step_laws_test.cpp.
+BOOST_AUTO_TEST_CASE(searches_begin_within_the_ranges) {
   for (const auto& family : families_as_data()) {
-    const auto& first = family.starts.front().theta;
-    BOOST_TEST(family.is_in_range(first), family.name);
-    const auto c = family.coefficients(first);
-    for (const std::string kind : {"AR", "BDGSH"}) {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < family.letters.length; ++i) {
-        if (kind.find(family.letters.letters()[i]) != std::string::npos)
-          sum += c[family.letters.first_slot(i)];
-      }
-      // Each term rounds once.
-      BOOST_TEST(std::abs(sum - 1.0) <= static_cast<double>(c.size()) * eps, family.name);
-    }
+    BOOST_TEST(family.is_in_range(family.starts.front().theta), family.name);
   }
 }
 
@@ -218,19 +247,108 @@ BOOST_AUTO_TEST_CASE(the_word_of_nystrom_is_the_tableau_of_its_paper) {
   check(black_box(), 1.0);
 }
 
-BOOST_AUTO_TEST_CASE(out_of_range_is_said_with_the_parameters_name) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto refused = [](double b1, double beta1, auto... words) {
-    return refuses<std::invalid_argument>([&] { member<nystrom>({b1, beta1}); }, {"nystrom", words...});
-  };
-  BOOST_TEST(refused(0.0, 0.4, "b1", "(0, 1)", "got 0"));
-  BOOST_TEST(refused(1.0, 0.4, "b1", "(0, 1)", "got 1"));
-  BOOST_TEST(refused(-0.5, 0.4, "b1", "got -0.5"));
-  BOOST_TEST(refused(nan, 0.4, "b1", "nan"));
-  BOOST_TEST(refused(0.5, -1e-9, "beta1", "[0, 0.5]", "got -1e-09"));
-  BOOST_TEST(refused(0.5, 0.51, "beta1", "[0, 0.5]"));
-  BOOST_TEST(refused(0.5, nan, "beta1", "nan"));
-  for (const double end : {0.0, 0.5}) {  // the ends of beta1 may be attained
-    for (const double c : member<nystrom>({0.5, end}).coefficients()) BOOST_TEST(std::isfinite(c));
+// Words as data: any palindrome of letters, symmetric, with coefficients that add up to one for each part of
+// H, and equal steps to begin with.
+
+namespace {
+
+const bonded_chain<3> chain(stiff_bonds<3>(5.0), soft_charges<3>(1.0));
+/// A word that holds the letters 0, 1 and k.
+const run_time_word of_parts(word<kick_of_part<0>, drift, kick_of_part<1>, kick_of_parts<0, 1>>{}, chain);
+
+/// The part of H for each coefficient.
+std::string times_of(const std::string& letters) {
+  std::string times;
+  for (const char letter : letters) times += letter == 'k' ? "01" : std::string(1, letter);
+  return times;
+}
+run_time_family family_of(const std::string& letters) {
+  return symmetric_word("tried", of_parts.with_letters(letters), times_of(letters));
+}
+std::vector<double> start_of(const run_time_family& family) {
+  return family.coefficients(family.starts.front().theta);
+}
+
+/// A palindrome of 3 to 15 letters without equal neighbours.
+std::string random_word(std::mt19937& random) {
+  const std::string letters = "A01k";
+  std::string half;
+  const std::size_t length = 2 + random() % 7;
+  while (half.size() < length) {
+    const char next = letters[random() % letters.size()];
+    if (half.empty() || half.back() != next) half += next;
   }
+  return half + std::string(half.rbegin() + 1, half.rend());
+}
+
+void close(const std::vector<double>& found, const std::vector<double>& expected) {
+  BOOST_TEST_REQUIRE(found.size() == expected.size());
+  // Sums of at most 15 numbers below 4: some roundings of them.
+  for (std::size_t k = 0; k < found.size(); ++k) BOOST_TEST(std::abs(found[k] - expected[k]) < 1e-14);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(members_of_any_word_are_palindromes_that_add_up_to_one) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  for (int n = 0; n < 200; ++n) {
+    const std::string letters = random_word(random);
+    const std::string times = times_of(letters);
+    const auto family = family_of(letters);
+    BOOST_TEST_CONTEXT(letters) {
+      Eigen::VectorXd theta = family.starts.front().theta;
+      for (int member = 0; member < 2; ++member) {
+        const auto c = family.coefficients(theta);
+        BOOST_TEST(is_palindrome(family.letters, c));
+        std::map<char, double> sums;
+        for (std::size_t k = 0; k < c.size(); ++k) sums[times[k]] += c[k];
+        for (const auto& [part, sum] : sums) BOOST_TEST(std::abs(sum - 1.0) < 1e-13);
+        // Coefficients are affine in theta, so that a difference is exact but for rounding.
+        const Eigen::MatrixXd slopes = family.jacobian(theta);
+        for (Eigen::Index k = 0; k < theta.size(); ++k) {
+          Eigen::VectorXd moved = theta;
+          moved[k] += 1.0;
+          const auto there = family.coefficients(moved);
+          for (std::size_t i = 0; i < c.size(); ++i) {
+            BOOST_TEST(std::abs(there[i] - c[i] - slopes(static_cast<Eigen::Index>(i), k)) < 1e-13);
+          }
+        }
+        for (double& x : theta) x += normal(random);
+      }
+      BOOST_TEST((theta.size() == 0 || start_of(family) != family.coefficients(theta)));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_start_is_made_of_equal_steps) {
+  const auto listed = [](const auto& c) { return std::vector<double>(c.begin(), c.end()); };
+  const auto start_of_known = [](const std::string& letters) {
+    return start_of(symmetric_word("tried", run_time_word(letters), letters));
+  };
+  close(start_of_known("ABA"), {0.5, 1.0, 0.5});
+  close(start_of_known("ABABABABA"), listed(aba<4>::coefficients(aba<4>::start())));
+  close(start_of_known("BABABABABAB"), listed(bab<5>::coefficients(bab<5>::start())));
+  close(start_of(family_of("kA0Ak")), listed(r_respa<0, 1, 2>().coefficients()));
+  close(start_of(family_of("kA0A0A0A0Ak")), listed(r_respa<0, 1, 5>().coefficients()));
+  const auto nested = nested_kicks<0, 1, 3, 2>();
+  close(start_of(family_of("kA0A0AkA0A0Ak")), listed(nested.coefficients(nested.start())));
+  // With the kicks of a whole step apart, and slow kicks around the others.
+  close(start_of(family_of("10A0A01")), {0.5, 0.25, 0.5, 0.5, 0.5, 0.25, 0.5});
+  BOOST_TEST(family_of("kA0Ak").parameters() == 1);
+  BOOST_TEST(family_of("kA0A0A0Ak").parameter_names == (std::vector<std::string>{"01", "A1", "02"}),
+             boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(other_words_are_refused) {
+  const auto refused = [](const std::string& letters, const std::string& times, const char* why) {
+    BOOST_TEST(refuses<std::invalid_argument>(
+                   [&] { symmetric_word("tried", of_parts.with_letters(letters), times); }, {"tried", why}),
+               letters);
+  };
+  refused("A0A1", "A0A1", "must read the same from both ends");
+  refused("A00A", "A00A", "must not have two equal neighbours");
+  refused("A0A", "A0", "must have a part of H for each coefficient");
+  refused("kAk", "kAk", "must have a part of H for each coefficient");
+  refused("ABA|BABA", "ABABABA", "must have no processor");
 }

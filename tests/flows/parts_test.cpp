@@ -8,7 +8,6 @@
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/reversibility.hpp"
 #include "nysalt/derivatives/symplecticity.hpp"
-#include "nysalt/ensembles/listed.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/learn.hpp"
@@ -23,6 +22,8 @@ using namespace nysalt;
 using namespace nysalt::test;
 
 namespace {
+
+static_assert(Family<planetary<2>>);
 
 template <class... L>
 void must_be_what_they_state(const auto& system, const auto& points, double h) {
@@ -278,25 +279,6 @@ BOOST_AUTO_TEST_CASE(the_error_of_wisdom_holman_is_the_mass_of_the_planets_times
   const double of_verlet = energy_error(system, from, verlet(), 200.0);
   BOOST_TEST(std::abs(of_verlet / energy_error(light, light_start, verlet(), 200.0) - 1.0) < 0.2);
   BOOST_TEST(error < 0.01 * of_verlet);
-}
-
-BOOST_AUTO_TEST_CASE(words_of_the_letters_of_wisdom_and_holman_are_learned) {
-  const auto system = outer_solar_system();
-  auto later = outer_solar_system_start();
-  std::vector<phase_point<double, 15>> states;
-  for (int k = 0; k < 6; ++k) {
-    states.push_back(later);
-    later = integrate(system, srkn11b(), 100.0, later, 20).finish;
-  }
-  const auto data = [&](std::size_t from) {
-    const listed<15> starts({states.begin() + static_cast<std::ptrdiff_t>(from),
-                             states.begin() + static_cast<std::ptrdiff_t>(from) + 3});
-    return make_flow_map_data(system, starts, fine_steps<>(20.0),
-                              {.step = 400.0, .horizon = 2000.0, .trajectories = 3, .seed = 1});
-  };
-  const auto found =
-      learn(planetary<2>(), system, data(0), data(3), {.random_starts = 1, .planned_steps = 1000});
-  BOOST_TEST(found.summary.held_out_loss < 0.5 * found.summary.held_out_start_loss);
 }
 
 // A magnetic field.

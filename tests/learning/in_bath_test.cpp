@@ -44,17 +44,16 @@ listed<1> at_random(const damped_oscillator& x, std::uint64_t states) {
   return listed<1>(all);
 }
 
-/// Two stages with b1 = 1/2.
-fitted_parameter learn_beta1(placement where, const damped_oscillator& x, double z, const listed<1>& starts,
-                             std::int64_t trajectories) {
+/// Two stages with b1 = 1/2, learned with noise from the invariant law, at z = 1 and gamma = omega/10.
+fitted_parameter learned_beta1(placement where) {
+  const double g = 0.1;
+  const damped_oscillator x{omega, g * omega, std::sqrt(2.0 * g * omega)};
+  constexpr std::int64_t paths = 20000;
   const auto system = bathed_system(x);
-  const double step = z / omega;
-  const auto data = make_flow_map_data(system, starts, exact_paths(x),
-                                       {.step = step,
-                                        .horizon = step,
-                                        .trajectories = trajectories,
-                                        .seed = seed(1),
-                                        .noise_parts = x.sigma > 0.0 ? 2 : 0});
+  const double step = 1.0 / omega;
+  const auto data = make_flow_map_data(
+      system, at_random(x, paths), exact_paths(x),
+      {.step = step, .horizon = step, .trajectories = paths, .seed = seed(1), .noise_parts = 2});
   const run_time_family stages = thermostatted(run_time_family(nystrom()), where);
   const auto fit = learn(stages, system, data, data,
                          {.coordinates = coordinates::energy,
@@ -63,18 +62,6 @@ fitted_parameter learn_beta1(placement where, const damped_oscillator& x, double
                           .fixed = {0.5, std::nullopt},
                           .planned_steps = 100});
   return fit.summary.parameters[1];
-}
-
-/// Without noise, from the two unit states: the matrix alone.
-double of_the_matrix(placement where, double g, double z) {
-  const listed<1> unit_states({point(1.0 / omega, 0.0), point(0.0, 1.0)});
-  return learn_beta1(where, {omega, g * omega, 0.0}, z, unit_states, 2).value;
-}
-/// With noise, from the invariant law.
-fitted_parameter of_paths(placement where, double g, double z) {
-  const damped_oscillator x{omega, g * omega, std::sqrt(2.0 * g * omega)};
-  constexpr std::int64_t paths = 20000;
-  return learn_beta1(where, x, z, at_random(x, paths), paths);
 }
 
 }  // namespace
@@ -103,14 +90,6 @@ BOOST_AUTO_TEST_CASE(held_out_data_are_new_if_starts_or_noise_are_and_both_are_o
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_matrix_alone) {
-  // The table has six digits.
-  BOOST_TEST(std::abs(of_the_matrix(placement::end, .1, 1.0) - .360024) <= 1e-6);
-  BOOST_TEST(std::abs(of_the_matrix(placement::symmetric, .1, 1.0) - .400501) <= 1e-6);
-  BOOST_TEST(std::abs(of_the_matrix(placement::middle, .1, 1.0) - .400515) <= 1e-6);
-  BOOST_TEST(std::abs(of_the_matrix(placement::end, .01, 0.5) - .394247) <= 1e-6);
-}
-
 // By the same calculation as the tables: of the matrix .360024, .400501, .400515.
 BOOST_AUTO_TEST_CASE(with_the_noise_of_the_data) {
   const auto check = [](const fitted_parameter& found, double expected, double of_matrix) {
@@ -121,7 +100,7 @@ BOOST_AUTO_TEST_CASE(with_the_noise_of_the_data) {
     BOOST_TEST(std::abs(found.value - expected) <= allowed);
     if (of_matrix != expected) BOOST_TEST(std::abs(found.value - of_matrix) > allowed);
   };
-  check(of_paths(placement::end, .1, 1.0), .360024, .360024);
-  check(of_paths(placement::symmetric, .1, 1.0), .391594, .400501);
-  check(of_paths(placement::middle, .1, 1.0), .400744, .400744);
+  check(learned_beta1(placement::end), .360024, .360024);
+  check(learned_beta1(placement::symmetric), .391594, .400501);
+  check(learned_beta1(placement::middle), .400744, .400744);
 }

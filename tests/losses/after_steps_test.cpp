@@ -16,14 +16,7 @@ namespace {
 
 using wrong = std::invalid_argument;
 
-struct asked {
-  after_steps_options options{};
-  bool of_energy = false;
-};
-const asked five_steps{{.steps = {5}}};
-const asked apart{{.steps = {5}, .apart = 5}};
-const asked several_times{{.steps = {1, 2, 5}, .apart = 3}};
-const asked ten_of_energy{{.steps = {10}}, true};
+const after_steps_options five_steps{.steps = {5}};
 
 const henon_heiles galaxy;
 const run_time_family two_stages{nystrom()};
@@ -48,21 +41,17 @@ parameters_of<F> elsewhere() {
   return theta;
 }
 
-window_error<> error_of(const asked& what, const flow_map_data& data, const metric& measure) {
-  return what.of_energy ? energy_error(galaxy, data) : state_error(measure);
-}
-
 template <Family F>
-void check_bits(const asked& what, std::size_t windows) {
+void check_bits(const after_steps_options& options, std::size_t windows) {
   const auto data = uneven_data();
   const metric measure(galaxy, data, coordinates::qp);
-  const sample_blocks<F, henon_heiles> blocks(galaxy, data, measure, what.options, what.of_energy);
+  const sample_blocks<F, henon_heiles> blocks(galaxy, data, measure, options);
   const Eigen::VectorXd at = column_of(elsewhere<F>());
   const auto expected = blocks(at);
-  auto in_threads = what.options;
+  auto in_threads = options;
   in_threads.threads = 2;
-  const after_steps<> loss(run_time_family(F()), galaxy, data, error_of(what, data, measure), in_threads);
-  BOOST_TEST_CONTEXT(F::name << " over " << what.options.steps.back() << " steps") {
+  const after_steps<> loss(run_time_family(F()), galaxy, data, state_error(measure), in_threads);
+  BOOST_TEST_CONTEXT(F::name << " over " << options.steps.back() << " steps") {
     BOOST_TEST(blocks.windows() == windows);
     BOOST_TEST(same(squares_at(loss, at), expected));
     BOOST_TEST(loss_value(loss, at) == expected.value);
@@ -74,7 +63,7 @@ void check_bits(const asked& what, std::size_t windows) {
     const std::int64_t passes = 2 * ((F::parameters + 1) / 2) + 1;
     using word = typename F::word;
     const std::int64_t of_run =
-        word::evaluations_to_open + what.options.steps.back() * std::int64_t{word::evaluations_per_step};
+        word::evaluations_to_open + options.steps.back() * std::int64_t{word::evaluations_per_step};
     BOOST_TEST(loss.evaluations() == passes * of_run * static_cast<std::int64_t>(windows));
   }
 }
@@ -145,14 +134,14 @@ struct a_fork : potential_only {  // takes a branch, and says so
 
 }  // namespace
 
+// Those of the error of the energy: learning/own_loss_test.cpp.
 BOOST_AUTO_TEST_CASE(bits_are_those_of_window_after_window) {
   check_bits<nystrom>(five_steps, 1 + 7 + 8 + 5 + 36);
-  check_bits<nystrom>(apart, 1 + 2 + 2 + 1 + 8);
-  check_bits<nystrom>(several_times, 1 + 3 + 3 + 2 + 12);
-  check_bits<nystrom>(ten_of_energy, 2 + 3 + 31);
+  check_bits<nystrom>({.steps = {5}, .apart = 5}, 1 + 2 + 2 + 1 + 8);
+  check_bits<nystrom>({.steps = {1, 2, 5}, .apart = 3}, 1 + 3 + 3 + 2 + 12);
   check_bits<aba<4>>({}, 81);  // three parameters, two at a time
   check_bits<aba<4>>(five_steps, 57);
-  check_bits<aba<4>>(ten_of_energy, 36);
+  check_bits<aba<4>>({.steps = {10}}, 2 + 3 + 31);
   // One parameter. A run of five steps of B A B A B takes eleven evaluations, five plain ones fifteen.
   check_bits<bab<2>>(five_steps, 57);
   using word = bab<2>::word;

@@ -230,10 +230,3 @@ BOOST_AUTO_TEST_CASE(the_law_that_is_kept) {
     }
   }
 }
-
-// Exactness in q is a property of few words.
-BOOST_AUTO_TEST_CASE(most_words_do_not_keep_the_law_of_q) {
-  BOOST_TEST(std::abs(kept_by(tabulated(obabo()), 1.0, 0.3).q - 1.0) > 0.3);
-  BOOST_TEST(std::abs(kept_by(tabulated(two_stages<symmetric>()), 1.0, 0.3).q - 1.0) > 0.02);
-  BOOST_TEST(std::abs(kept_by(tabulated(two_stages<middle>()), 1.0, 0.3).q - 1.0) > 0.05);
-}

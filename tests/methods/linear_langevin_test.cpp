@@ -398,25 +398,6 @@ BOOST_AUTO_TEST_CASE(the_strong_order_is_one) {
   }
 }
 
-// e^{A s} carries an error of q to later times; the same linear equations add these up over the horizon.
-BOOST_AUTO_TEST_CASE(the_leading_terms_are_as_derived) {
-  square<2> A;
-  A << 0.0, 1.0, -oscillator.omega * oscillator.omega, -oscillator.gamma;
-  const square<2> of_q = Eigen::Vector2d(oscillator.sigma * oscillator.sigma, 0.0).asDiagonal();
-  const Eigen::Array2d integral = solve_linear<2>(A, of_q, horizon).covariance.diagonal();
-  const auto leading = [&](const tabulated& method) -> Eigen::Array2d {
-    constexpr int n = 4096;
-    constexpr double h = horizon / n;
-    const auto step = step_with_error(oscillator, spell(method), h);
-    return error_after(step, square<2>::Zero(), n).diagonal().array() / (h * h) / integral;
-  };
-  // Of relative order h = 1/2048, times some frequencies.
-  BOOST_TEST((leading(tabulated(obabo())) * 12.0 - 1.0).abs().maxCoeff() <= 0.005);
-  // With O at the end a step misses 4 times that, and what the map makes of it is not added up by chance
-  // alone.
-  BOOST_TEST((leading(tabulated(two_stages<end>())) * 12.0 - 4.0).abs().maxCoeff() < 1.0);
-}
-
 BOOST_AUTO_TEST_CASE(on_another_path_nothing_converges) {
   std::vector<Eigen::Array2d> on_another;
   for (const std::int64_t n : levels) {

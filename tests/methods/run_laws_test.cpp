@@ -92,23 +92,6 @@ BOOST_AUTO_TEST_CASE(observed_and_cut_runs_have_the_bits_of_one_go) {
   }
 }
 
-// Where letters merge, that is; in a bath it takes other noise.
-BOOST_AUTO_TEST_CASE(a_run_that_is_reopened_has_other_bits) {
-  const std::vector<tabulated> some{tabulated(verlet()),  tabulated(verlet_aba()),       tabulated(pefrl()),
-                                    tabulated(impulse()), tabulated(mclachlan_atela4()), tabulated(chin4a())};
-  try_all(bound_specimens(), some,
-          [](const model& system, const tabulated& method, double step, const any_state& x) {
-            const run_of run{system, method, step};
-            BOOST_TEST(same_bits(run.reopened(x, 2'000), run.finish(x, 2'000)) != method.letters().merges);
-          });
-  try_all(specimens_in_baths(), {tabulated(obabo())},
-          [](const model& system, const tabulated& method, double step, const any_state& x) {
-            if (system.bath().sigma() == 0.0) return;
-            const run_of run{system, method, step, fresh_noise(7)};
-            BOOST_TEST(!same_bits(run.reopened(x, 100), run.finish(x, 100)));
-          });
-}
-
 BOOST_AUTO_TEST_CASE(each_lane_has_the_bits_of_one_trajectory) {
   draws random;
   for (const auto& one : specimens_in_baths()) {
@@ -156,6 +139,7 @@ BOOST_AUTO_TEST_CASE(a_method_by_its_type_is_the_method_as_data) {
   const auto ring = split_ring();
   check(masses, verlet(), no_noise());
   check(masses, chin4a(), no_noise());
+  check(masses, member<fd_chin>(fd_chin::start()), no_noise());
   check(masses, impulse(), no_noise());
   check(ring, verlet(), no_noise());
   check(ring, member<r_fg4>(r_fg4::start()), no_noise());

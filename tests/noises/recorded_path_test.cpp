@@ -7,8 +7,6 @@
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
-#include "nysalt/detail/lockstep.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/thermostatted.hpp"
 #include "nysalt/noises/along_path.hpp"
@@ -311,13 +309,6 @@ void check_by_hand(const M& method) {
   // Some thirty operations a step of numbers below 1, which grow little in a time of 1.2.
   BOOST_TEST(distance(found, by_hand(path, method, 10, start)) <= 10 * 30 * eps);
   BOOST_TEST(distance(found, by_hand(path_of(4, 60), method, 10, start)) > 1e-3);
-  auto watched = along.open(start, 3);  // looked at and cut
-  along.advance(watched, 4, 1, [](auto&&...) {});
-  along.advance(watched, 6);
-  BOOST_TEST(same_bits(along.synchronous(watched), found));
-  state plain = start;
-  for (int n = 0; n < 10; ++n) along.step(plain, 3, n);
-  BOOST_TEST(distance(found, plain) <= 10 * 30 * eps);
 }
 
 }  // namespace
@@ -331,35 +322,6 @@ BOOST_AUTO_TEST_CASE(a_run_sees_the_noise_of_its_path) {
   check_by_hand(symmetric);
   check_by_hand(middle);
   check_by_hand(thirds);
-}
-
-BOOST_AUTO_TEST_CASE(lanes_are_singles_to_the_bit) {
-  using T = pack<double, 8>;
-  const auto path = path_of<T>(40, 60);
-  const auto check = [&](const auto& method) {
-    const auto along = stepper_of(path, method);
-    const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.1);
-    const auto all = gather<T, 2>(8, [&](int k) { return starts(1, static_cast<std::uint64_t>(k)); });
-    lockstep<std::remove_cvref_t<decltype(along)>, T> together(along, all, 8, 40);
-    together.go_on(10);
-    for (int k = 0; k < 8; ++k) {
-      const auto trajectory_of_lane = 40 + static_cast<std::uint64_t>(k);
-      const auto alone = [&](std::uint64_t trajectory) {
-        const auto own = path_of(trajectory, 60);
-        const auto single = stepper_of(own, method);
-        auto run = single.open(lane(all, k), trajectory);
-        single.advance(run, 10);
-        return single.synchronous(run);
-      };
-      BOOST_TEST(same_bits(lane(together.synchronous(), k), alone(trajectory_of_lane)));
-      BOOST_TEST(!same_bits(lane(together.synchronous(), k), alone(trajectory_of_lane + 1)));
-      auto one_of_several = along.open(lane(all, k), trajectory_of_lane);  // each lane is stepped by itself
-      along.advance(one_of_several, 10);
-      BOOST_TEST(same_bits(along.synchronous(one_of_several), alone(trajectory_of_lane)));
-    }
-  };
-  check(baoab());
-  check(symmetric);
 }
 
 BOOST_AUTO_TEST_CASE(a_path_of_another_length_or_trajectory_is_refused) {

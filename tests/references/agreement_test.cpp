@@ -131,28 +131,6 @@ BOOST_AUTO_TEST_CASE(the_exact_flow_is_of_the_system_it_was_made_for) {
   exact_linear(chain).advance(counted<linear_chain>(chain), y, 1.0);
 }
 
-// Of a fixed and of a dynamic dimension with masses, with a quadratic part split off, by a force over double
-// alone, and with another kinetic energy.
-BOOST_AUTO_TEST_CASE(good_references_report_small_errors) {
-  const tabulated method{srkn11b()};
-  draws random;
-  for (const std::string& name : {describe(henon_heiles()), describe(free_chain()), describe(split_ring()),
-                                  describe(black_box_with_derivative()), describe(relativistic())}) {
-    const auto& [system, reach] = specimen_of(name);
-    const auto x = random.state(system, reach);
-    const double time = 1.0;
-    // A step errs by at most the tolerance times 1 + |x|, and some 50 suffice; motion magnifies it by |J|,
-    // which is below the highest frequency, 10, or 1 + t.
-    BOOST_TEST(reference_error(system, odeint_reference(1e-12), x, time) <= 50.0 * 2e-12 * size_of(x) * 10.0,
-               name);
-    if (!suits(system, method)) continue;
-    // 3000 steps of 23 letters, each of which rounds twice.
-    BOOST_TEST(reference_error(system, fine_steps(1.0 / 2000.0, method), x, time) <=
-                   3000.0 * 46.0 * eps * size_of(x) * 10.0,
-               name);
-  }
-}
-
 // The difference from half the step is 3/4 of the error of a second-order method.
 BOOST_AUTO_TEST_CASE(a_coarse_reference_is_honest) {
   const henon_heiles system;

@@ -3,22 +3,16 @@
 // a textbook has it.
 #pragma once
 
-#include <ceres/cost_function.h>
-#include <ceres/problem.h>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
-#include "nysalt/energy.hpp"
 #include "nysalt/family.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/learning/curvature.hpp"
-#include "nysalt/learning/minimise.hpp"
 #include "nysalt/losses/after_steps.hpp"
 #include "nysalt/losses/metric.hpp"
 #include "nysalt/losses/squares.hpp"
@@ -55,36 +49,6 @@ class central_difference {
 /// Whether two passes over data came to the same bits.
 inline bool same(const squares& a, const squares& b) {
   return a.value == b.value && a.half_gradient == b.half_gradient && a.normal_matrix == b.normal_matrix;
-}
-
-/// The one-step loss of a family that is a type, with theta as the family holds it.
-template <Family F, Scalar R = detail::lanes>
-struct one_step : after_steps<R> {
-  one_step(const model& system, const flow_map_data& data, const metric& measure, int threads = 1)
-      : after_steps<R>(run_time_family(F()), system, data, state_error<R>(measure), {.threads = threads}) {}
-};
-
-template <Family F, Scalar R>
-double loss_value(const one_step<F, R>& loss, const parameters_of<F>& theta) {
-  return nysalt::loss_value(loss, column_of(theta));
-}
-template <Family F, Scalar R>
-std::vector<Eigen::VectorXd> trajectory_gradients(const one_step<F, R>& loss, const parameters_of<F>& theta) {
-  return nysalt::trajectory_gradients(loss, column_of(theta));
-}
-template <Family F, Scalar R>
-squares squares_at(const one_step<F, R>& loss, const parameters_of<F>& theta) {
-  return nysalt::squares_at(loss, column_of(theta));
-}
-template <Family F, Scalar R>
-Eigen::MatrixXd hessian(const one_step<F, R>& loss, const parameters_of<F>& theta) {
-  return nysalt::hessian(loss, column_of(theta));
-}
-
-/// Where the coefficients of a family are defined.
-template <Family F>
-std::function<bool(const Eigen::VectorXd&)> defined_for() {
-  return [family = run_time_family(F())](const Eigen::VectorXd& theta) { return family.is_defined(theta); };
 }
 
 struct steps_options {
@@ -142,8 +106,8 @@ class sample_blocks {
   using residuals = Eigen::Matrix<C, Eigen::Dynamic, 1>;
 
   sample_blocks(const S& system, const flow_map_data& data, const metric& measure,
-                const after_steps_options& options = {}, bool of_energy = false)
-      : system_(&system), data_(&data), metric_(&measure), options_(options), of_energy_(of_energy) {
+                const after_steps_options& options = {})
+      : system_(&system), data_(&data), metric_(&measure), options_(options) {
     const auto steps = static_cast<std::size_t>(options.steps.back());
     for (std::size_t m = 0; m < data.trajectories(); ++m) {
       std::size_t pair = data.first_of[m];
@@ -152,13 +116,10 @@ class sample_blocks {
         pair += static_cast<std::size_t>(options.apart);
       }
     }
-    if constexpr (HasEnergy<S>) {
-      if (of_energy) energy_scale_ = 1.0 / size_of_kinetic_energy();
-    }
   }
 
   std::size_t windows() const { return windows_.size(); }
-  int residuals_of_window() const { return of_energy_ ? 1 : static_cast<int>(metric_->residuals()); }
+  int residuals_of_window() const { return static_cast<int>(metric_->residuals()); }
 
   /// The residuals of one window over double, or anything that carries derivatives by theta.
   template <Scalar C>
@@ -177,15 +138,9 @@ class sample_blocks {
         one.advance(run, steps[k] - run.step);
         x = one.synchronous(run);
       }
-      C* const of_time = r.data() + static_cast<Eigen::Index>(k) * residuals_of_window();
-      if (of_energy_) {
-        if constexpr (HasEnergy<S, C>) {
-          *of_time = (energy<C>(*system_, x) - energy<C>(*system_, first.template cast<C>())) * energy_scale_;
-        }
-      } else {
-        const auto last = pair + static_cast<std::size_t>(steps[k]) - 1;
-        metric_->residual(x.q, x.p, data_->finish[last], of_time);
-      }
+      const auto last = pair + static_cast<std::size_t>(steps[k]) - 1;
+      metric_->residual(x.q, x.p, data_->finish[last],
+                        r.data() + static_cast<Eigen::Index>(k) * residuals_of_window());
     }
     return r;
   }
@@ -246,16 +201,6 @@ class sample_blocks {
     sum.normal_matrix += term.normal_matrix;
   }
 
-  /// Its root mean square at the starts.
-  double size_of_kinetic_energy() const {
-    std::vector<double> squares;
-    for (const auto& x : data_->start) {
-      const double k = kinetic_energy<double>(*system_, x.p);
-      squares.push_back(k * k);
-    }
-    return std::sqrt(tree_sum(squares) / static_cast<double>(squares.size()));
-  }
-
   struct window {
     std::size_t trajectory;
     std::size_t first_pair;
@@ -265,61 +210,7 @@ class sample_blocks {
   const flow_map_data* data_;
   const metric* metric_;
   after_steps_options options_;
-  bool of_energy_;  // instead of the state's error
-  double energy_scale_ = 1.0;
   std::vector<window> windows_;
 };
-
-/// One window as a Ceres cost.
-template <class Blocks>
-class sample_cost final : public ceres::CostFunction {
- public:
-  sample_cost(const Blocks& blocks, std::size_t window, std::function<bool(const Eigen::VectorXd&)> defined)
-      : blocks_(&blocks),
-        window_(window),
-        defined_(std::move(defined)),
-        share_(1.0 / std::sqrt(static_cast<double>(blocks.windows()))) {
-    set_num_residuals(blocks.residuals_of_window());
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(Blocks::parameters));
-  }
-
-  bool Evaluate(double const* const* at, double* residuals, double** jacobians) const override {
-    constexpr std::size_t count = Blocks::parameters;
-    std::array<double, count> theta;
-    for (std::size_t k = 0; k < count; ++k) theta[k] = at[0][k];
-    if (defined_ && !defined_(column_of(theta))) return false;
-    if (jacobians == nullptr || jacobians[0] == nullptr) {
-      for (const double r : blocks_->at(window_, theta)) *residuals++ = r * share_;
-      return true;
-    }
-    double* slope = jacobians[0];
-    for (const auto& r : blocks_->at(window_, Blocks::with_derivatives(at[0]))) {
-      *residuals++ = r.value * share_;
-      for (const double d : r.derivative) *slope++ = d * share_;
-    }
-    return true;
-  }
-
- private:
-  const Blocks* blocks_;
-  std::size_t window_;
-  std::function<bool(const Eigen::VectorXd&)> defined_;
-  double share_;
-};
-
-/// What minimise() does, block by block.
-template <class Blocks>
-minimum minimise_by_blocks(const Blocks& blocks, const std::function<bool(const Eigen::VectorXd&)>& defined,
-                           const Eigen::VectorXd& start, const std::vector<Eigen::Index>& free,
-                           int max_iterations) {
-  minimum found{start};
-  ceres::Problem problem;
-  for (std::size_t n = 0; n < blocks.windows(); ++n) {
-    problem.AddResidualBlock(new sample_cost<Blocks>(blocks, n, defined), nullptr, found.theta.data());
-  }
-  nysalt::detail::descend(problem, free, max_iterations, found);
-  nysalt::detail::polish(std::cref(blocks), defined, free, found);
-  return found;
-}
 
 }  // namespace nysalt::test

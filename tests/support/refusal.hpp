@@ -5,6 +5,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <initializer_list>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,17 @@ bool refuses(auto&& action, std::initializer_list<std::string_view> words) {
     return true;
   }
   return false;
+}
+
+/// The sentence of a refusal; empty where nothing is refused.
+template <class Exception = std::invalid_argument>
+std::string refusal_of(auto&& action) {
+  try {
+    action();
+  } catch (const Exception& e) {
+    return e.what();
+  }
+  return "";
 }
 
 }  // namespace nysalt::test

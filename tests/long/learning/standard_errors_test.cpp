@@ -25,9 +25,9 @@ flow_map_data data_of(std::int64_t trajectories, std::uint64_t seed) {
 }
 
 /// Errors that take the weights for given: the paper's theorem, but not its estimator.
-Eigen::VectorXd errors_without_weights(const flow_map_data& data, const parameters_of<nystrom>& theta) {
+Eigen::VectorXd errors_without_weights(const flow_map_data& data, const Eigen::VectorXd& theta) {
   const metric measure(chain, data, coordinates::qp);
-  const one_step<nystrom> loss(chain, data, measure);
+  const after_steps<> loss(run_time_family(nystrom()), chain, data, state_error(measure));
   const std::vector<Eigen::VectorXd> none;
   return curvature(hessian(loss, theta), {0, 1})
       .spread(trajectory_gradients(loss, theta), none)
@@ -52,8 +52,9 @@ struct repeated {
       const auto data = data_of(trajectories, first_seed + n);
       const auto held_out = data_of(trajectories, 100'000 + first_seed + n);
       const auto fit = learn(nystrom{}, chain, data, held_out, {.loss = loss_named("state:1")});
-      const auto naive = errors_without_weights(data, fit.method.parameters());
-      const auto errors = errors_of(data, held_out, column_of(fit.method.parameters()));
+      const Eigen::VectorXd theta = column_of(fit.method.parameters());
+      const auto naive = errors_without_weights(data, theta);
+      const auto errors = errors_of(data, held_out, theta);
       for (std::size_t k = 0; k < 2; ++k) {
         const auto& p = fit.summary.parameters[k];
         const double error = errors[static_cast<Eigen::Index>(k)];
