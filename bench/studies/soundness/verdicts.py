@@ -211,7 +211,7 @@ def summarise(asked, rows):
               f"{len(refused)} are refused.", file=file)
         print(f"{len(contradicted)} of {len(asked_again)} are judged differently by another command.", file=file)
         if several:
-            print(f"\nOver {asked.seeds} seeds of learning {agreed} of {len(several)} cells have one verdict.", file=file)
+            print(f"\nOver {max(map(len, several))} seeds of learning {agreed} of {len(several)} cells have one verdict.", file=file)
         if broken + refused + contradicted:
             print(file=file)
         for row in broken + refused:
