@@ -137,10 +137,10 @@ std::optional<rival_judgement> loses_fewest(const tabulated& method, const prepa
     }
     candidates.emplace_back(limit_of(other) / word.evaluations_per_step, &other);
   }
-  constexpr std::ptrdiff_t most = 5;
+  constexpr std::size_t most = 5;
   std::ranges::stable_sort(candidates, std::greater(), &std::pair<double, const tabulated*>::first);
   std::optional<rival_judgement> best;
-  for (const auto& [window, other] : std::span(candidates).first(std::min(most, std::ssize(candidates)))) {
+  for (const auto& [window, other] : std::span(candidates).first(std::min(most, candidates.size()))) {
     const double cost =
         static_cast<double>(other->letters().evaluations_per_step) / method.letters().evaluations_per_step;
     const judgement& one = system.judged(*other, found.step * cost, threads);

@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   // Finite numbers whose sigma is not: 2 friction temperature is above the largest double, 1.8e308.
   for (const auto& [friction, temperature] : {std::pair(1e200, 1e150), std::pair(1e308, 1.0)}) {
     BOOST_TEST(refuses<wrong>(
-        [&] { bath::of_temperature(friction, temperature); },
+        [f = friction, t = temperature] { bath::of_temperature(f, t); },
         {"friction and temperature", "finite product", fmt::format("{} and {}", friction, temperature)}));
   }
   BOOST_TEST(std::isfinite(bath::of_temperature(8e307, 1.0).sigma()));

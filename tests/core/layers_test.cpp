@@ -169,8 +169,9 @@ BOOST_AUTO_TEST_CASE(a_cellar_that_includes_the_roof_is_found) {
       {"pragma", {{"scalar.hpp", "// SPDX-License-Identifier: BSL-1.0\n"}}}};
   for (const auto& [words, files] : planted) {
     const auto found = breaches(files);
-    BOOST_TEST(std::ranges::any_of(found, [&](const auto& one) { return one.find(words) != one.npos; }),
-               words);
+    BOOST_TEST(
+        std::ranges::any_of(found, [&words = words](const auto& one) { return one.find(words) != one.npos; }),
+        words);
   }
 }
 

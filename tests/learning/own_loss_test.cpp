@@ -207,10 +207,10 @@ BOOST_AUTO_TEST_CASE(between_several_minima_the_own_loss_judges) {
 // Of 60 trajectories with equal scores, sixty decide; but two may have ten times the curvature of all, with
 // either sign, so that others like them would have another minimum.
 BOOST_AUTO_TEST_CASE(errors_are_withheld_where_single_trajectories_make_the_curvature) {
-  const auto& [data, held_out] = two_sets();
+  const data_sets& sets = two_sets();
   const Eigen::Vector2d least(0.5, 0.4);
   const auto fitted = [&](double curvature_of_two) {
-    auto problem = make_learning_problem(family, galaxy, data, held_out,
+    auto problem = make_learning_problem(family, galaxy, sets.data, sets.held_out,
                                          {.start = least + Eigen::Vector2d(0.01, 0.01), .random_starts = 0});
     problem.loss = [=](const Eigen::VectorXd& at) {
       const Eigen::Vector2d off = at - least;

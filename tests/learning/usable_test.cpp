@@ -278,9 +278,10 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_learned_is_refused_with_the_reason) {
       {{.loss = loss_named("state:6")}, {"6 steps", "longer horizon"}},
       {{.loss = loss_named("covariance")}, {"covariance", describe(oscillator)}}};
   for (const auto& [options, words] : impossible) {
-    BOOST_CHECK_EXCEPTION(learn(two_stages, oscillator, data, data, options), wrong, [&](const wrong& said) {
-      return std::ranges::all_of(words, [&](const auto& word) { return says(said.what(), word); });
-    });
+    BOOST_CHECK_EXCEPTION(
+        learn(two_stages, oscillator, data, data, options), wrong, [&all = words](const wrong& said) {
+          return std::ranges::all_of(all, [&](const auto& word) { return says(said.what(), word); });
+        });
   }
 }
 
