@@ -211,7 +211,9 @@ def summarise(asked, rows):
               f"{len(refused)} are refused.", file=file)
         print(f"{len(contradicted)} of {len(asked_again)} are judged differently by another command.", file=file)
         if several:
-            print(f"\nOver {max(map(len, several))} seeds of learning {agreed} of {len(several)} cells have one verdict.", file=file)
+            seeds = sorted({len(verdicts) for verdicts in several})
+            print(f"\nOf {len(several)} cells that were learned from {' or '.join(map(str, seeds))} seeds {agreed} have one "
+                  "verdict.", file=file)
         if broken + refused + contradicted:
             print(file=file)
         for row in broken + refused:
