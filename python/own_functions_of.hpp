@@ -17,8 +17,8 @@ struct functions_of_python {
 
 /// Of the arguments name, dimension, potential, force, starts, inverse_mass and frequency. Throws refusal for
 /// bad values. What the functions raise is raised by their caller, and what they return in another
-/// shape, or what is no real number, is refused. Where they may overflow, an
-/// OverflowError or a FloatingPointError is NaN, and a trajectory diverges there.
+/// shape, or what is no real number, is refused. Where they may overflow, an OverflowError or a
+/// FloatingPointError is NaN, and a trajectory diverges there.
 own_functions own_functions_of(const argument_reader& arguments, std::shared_ptr<functions_of_python>& kept);
 
 }  // namespace nysalt::python

@@ -309,7 +309,7 @@ bool prepared_problem::is_followed() const {
 states_in_double prepared_problem::states_along_motion() const {
   const model system = made_.system.base();
   constexpr std::int64_t some = 64;
-  const auto begun = typical_and_energetic_starts(system, made_.starts, 1, 0, some);
+  auto begun = typical_and_energetic_starts(system, made_.starts, 1, 0, some);
   if (!is_followed()) return begun;
   constexpr double angle = 0.1;  // of the fastest motion in a step
   constexpr std::int64_t steps = 500;

@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(a_reference_that_diverges_is_told_with_the_lowest_trajector
   BOOST_TEST(refuses<std::out_of_range>([&] { make(2, 40, 5); }, {"number 3 of"}));
 }
 
-// How progress is told: analysis/trajectory_errors_test.cpp.
+// Monotone progress reports from several threads: analysis/trajectory_errors_test.cpp.
 BOOST_AUTO_TEST_CASE(the_range_of_energies_is_that_of_all_starts_and_finishes) {
   std::atomic<std::int64_t> most = 0;
   const auto tell = [&](std::int64_t done) {

@@ -56,6 +56,14 @@ struct verlet_of_parts {
   static std::array<double, 5> coefficients() { return {0.5, 0.5, 1.0, 0.5, 0.5}; }
 };
 
+/// Each part has a time of its own, other ones at the end.
+struct unequal_parts : verlet_of_parts {
+  static constexpr int order = 1;
+  static constexpr bool symmetric = false;
+  static std::string name() { return "unequal_parts"; }
+  static std::array<double, 5> coefficients() { return {0.3, 0.6, 1.0, 0.7, 0.4}; }
+};
+
 template <class M>
 phase_point<double, 4> after(const M& method, double step, int steps) {
   return integrate(chain, method, step, start, steps).finish;
@@ -88,6 +96,19 @@ BOOST_AUTO_TEST_CASE(kicks_of_all_parts_are_the_kick_of_the_whole) {
   BOOST_TEST(distance(after(verlet_of_parts(), 0.02, 50), after(verlet(), 0.02, 50)) <= 1e4 * eps);
   BOOST_TEST(distance(after(r_respa<0, 1, 1>(), 0.02, 50), after(verlet(), 0.02, 50)) <= 1e4 * eps);
   BOOST_TEST(distance(after(r_respa<0, 1, 2>(), 0.02, 50), after(verlet(), 0.02, 50)) > 1e-5);
+}
+
+BOOST_AUTO_TEST_CASE(a_kick_of_several_times_has_the_bits_of_its_type_as_data) {
+  const auto bits_are_those_of_the_type = [](const tabulated& method) {
+    const phase_point<double, Eigen::Dynamic> erased{start.q, start.p};
+    const auto by_data = integrate(model(chain), method, 0.01, erased, 20).finish;
+    const auto by_type = after(unequal_parts(), 0.01, 20);
+    return by_data.q == by_type.q && by_data.p == by_type.p;
+  };
+  const tabulated as_data(unequal_parts{}, chain);
+  BOOST_TEST(bits_are_those_of_the_type(as_data));
+  BOOST_TEST(!bits_are_those_of_the_type(
+      tabulated("swapped", as_data.letters(), {0.6, 0.3, 1.0, 0.4, 0.7}, {1, false, false})));
 }
 
 BOOST_AUTO_TEST_CASE(evaluations_are_counted_part_by_part) {

@@ -134,7 +134,7 @@ struct a_fork : potential_only {  // takes a branch, and says so
 
 }  // namespace
 
-// Those of the error of the energy: learning/own_loss_test.cpp.
+// The same for the energy error: learning/own_loss_test.cpp.
 BOOST_AUTO_TEST_CASE(bits_are_those_of_window_after_window) {
   check_bits<nystrom>(five_steps, 1 + 7 + 8 + 5 + 36);
   check_bits<nystrom>({.steps = {5}, .apart = 5}, 1 + 2 + 2 + 1 + 8);

@@ -10,10 +10,7 @@
 #include "../support/systems.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/flows/exact_flow.hpp"
-#include "nysalt/flows/kick_of_parts.hpp"
-#include "nysalt/integrate.hpp"
 #include "nysalt/plugin.hpp"
-#include "nysalt/systems/bonded_chain.hpp"
 
 using namespace nysalt;
 using namespace nysalt::program;
@@ -67,16 +64,6 @@ prepared_problem problem_of(const distant_spring& system) {
   values.add("stiffness", system.stiffness);
   return {declared.make(values, bath::of_sigma(0.0, 0.0), 1.0), {}, {bath::of_sigma(0.0, 0.0), start::law}};
 }
-
-/// A kick of two parts has a time for each: unequal ones, in another order at the end.
-struct unequal_parts {
-  using word = nysalt::word<kick_of_parts<0, 1>, drift, kick_of_parts<0, 1>>;
-  static constexpr int order = 1;
-  static constexpr bool symmetric = false;
-  static constexpr bool requires_quadratic_kinetic = false;
-  static std::string name() { return "unequal_parts"; }
-  static std::array<double, 5> coefficients() { return {0.3, 0.6, 1.0, 0.7, 0.4}; }
-};
 
 /// What is said against the word dfd; nothing if it is taken.
 std::string objection(const prepared_problem& problem, double step = 0.1) {
@@ -142,16 +129,4 @@ BOOST_AUTO_TEST_CASE(one_thread_at_a_time_evaluates_an_observable_of_a_black_box
   const black_box one;
   on_threads([&] { one.potential(vector<double, 1>(2.0)); });
   BOOST_TEST(black_box::meetings > 0);
-}
-
-BOOST_AUTO_TEST_CASE(a_letter_of_several_times_has_the_bits_of_its_type_as_data) {
-  const bonded_chain<4> chain(stiff_bonds<4>(20.0), soft_charges<4>(2.0));
-  const phase_point<double, 4> start{{0.01, -0.02, 0.0, 0.03}, {0.3, -0.1, 0.2, 0.4}};
-  const phase_point<double, Eigen::Dynamic> erased{start.q, start.p};
-  const tabulated as_data(unequal_parts{}, chain);
-  const auto by_type = integrate(chain, unequal_parts{}, 0.01, start, 20).finish;
-  const auto by_data = integrate(model(chain), as_data, 0.01, erased, 20).finish;
-  BOOST_TEST((by_data.q == by_type.q && by_data.p == by_type.p));
-  const tabulated swapped("swapped", as_data.letters(), {0.6, 0.3, 1.0, 0.4, 0.7}, {1, false, false});
-  BOOST_TEST((integrate(model(chain), swapped, 0.01, erased, 20).finish.p != by_type.p));
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "with_threads.hpp"
 
-#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstddef>
 #include <future>
 #include <stdexcept>

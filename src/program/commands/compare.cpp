@@ -10,6 +10,7 @@
 #include "../output.hpp"
 #include "../systems.hpp"
 #include "comparison/inputs.hpp"
+#include "comparison/json.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/detail/collectively.hpp"
