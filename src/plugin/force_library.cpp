@@ -158,7 +158,7 @@ std::string fingerprint_of(const std::string& path) {
 }
 
 /// What a function that gives a text returns.
-std::string text_of(const char* (*function)(), const char* name, const std::string& shown) {
+std::string text_returned_by(const char* (*function)(), const char* name, const std::string& shown) {
   const char* const text = function();
   if (text == nullptr) refuse("{}: {} must return a text, got null", shown, name);
   return text;
@@ -188,10 +188,10 @@ c_functions functions_of(void* library, const std::string& path, const std::stri
     }
   }
   auto* const described = optional_function<decltype(nysalt_description)>(library, "nysalt_description");
-  all.description = described != nullptr ? text_of(described, "nysalt_description", shown)
+  all.description = described != nullptr ? text_returned_by(described, "nysalt_description", shown)
                                          : std::filesystem::path(path).stem().string();
   auto* const kind = optional_function<decltype(nysalt_kind)>(library, "nysalt_kind");
-  all.kind = kind != nullptr ? text_of(kind, "nysalt_kind", shown) : all.description;
+  all.kind = kind != nullptr ? text_returned_by(kind, "nysalt_kind", shown) : all.description;
   return all;
 }
 
