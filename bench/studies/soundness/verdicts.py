@@ -236,6 +236,8 @@ def main():
     parser.add_argument("--again", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     asked = parser.parse_args()
+    if unknown := set(asked.systems.split(",")) - set(SYSTEMS):
+        parser.error(f"--systems must name some of {', '.join(SYSTEMS)}, got {', '.join(sorted(unknown))}")
     asked.folder.mkdir(parents=True, exist_ok=True)
     table = asked.folder / "verdicts.csv"
     fields = ["system", "kind", "name", "part", "step", "seed", "verdict", "reason", "steps", "share_lost", "error", "growth",
