@@ -20,7 +20,7 @@ namespace nysalt {
 /// Verdict on a method at a step. A trajectory is lost if it diverges, or if in the last sixteenth of the
 /// trial |H - H_0| exceeds the median kinetic energy more often than not.
 enum class step_verdict {
-  good,                ///< none is lost, nor will be in a run four times as long, as far as the trial shows
+  good,                ///< at most one in fifty will be lost in a run four times as long, as the trial shows
   near_an_edge,        ///< good, but near to something that reason() names
   loses_trajectories,  ///< more than one in fifty is lost
   unstable,            ///< more than half are lost
@@ -47,9 +47,10 @@ struct judging_options {
 
 /// Errors of the energy of trajectories, each the largest |H - H_0| over the median kinetic energy.
 struct energy_errors {
-  double median = 0.0;   ///< of the trajectories
-  double most = 0.0;     ///< 95 % of the trajectories have less
-  double largest = 0.0;  ///< of all trajectories
+  double median = 0.0;      ///< of the trajectories
+  double most = 0.0;        ///< 95 % of the trajectories have less
+  double nearly_all = 0.0;  ///< 98 % of the trajectories have less: a good method may lose the others
+  double largest = 0.0;     ///< of all trajectories
 };
 
 /// The judgement of a method at a step.
@@ -60,6 +61,8 @@ struct judgement {
   std::int64_t steps = 0;         ///< steps of each trajectory
   std::int64_t lost = 0;          ///< number of trajectories that are lost
   std::int64_t diverged = 0;      ///< number of those that diverged
+  std::int64_t exceeding = 0;  ///< number of those that are lost, or whose energy erred at some time by more
+                               ///< than the kinetic energy
   std::optional<diverged_trajectory>
       first_lost;               ///< lost trajectory with the lowest number, where it is lost
   double kinetic_energy = 0.0;  ///< median over trajectories and times of an accurate motion; 0: not known
@@ -68,7 +71,7 @@ struct judgement {
   energy_errors energy_error;  ///< of the trajectories that did not diverge
   /// Slope by Theil and Sen [sen_1968] of the median energy error over 16 windows, for the whole trial.
   double drift = 0.0;
-  double growth = 0.0;  ///< largest energy error of the second half of the trial over that of the first
+  double growth = 0.0;  ///< energy_error.nearly_all of the second half of the trial over that of the first
   diverged_trajectory farthest{};  ///< trajectory with the largest energy error, and where
 
   double highest_frequency = 0.0;  ///< highest frequency met along the motion; 0: not known

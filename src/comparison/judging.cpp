@@ -25,6 +25,7 @@ json to_json(const judgement& found) {
               {"steps", found.steps},
               {"lost", found.lost},
               {"diverged", found.diverged},
+              {"exceeding", found.exceeding},
               {"share_lost", found.share_lost()},
               {"most_lost", found.most_lost()},
               {"first_lost", nullptr},
@@ -43,6 +44,7 @@ json to_json(const judgement& found) {
     if (found.diverged < found.trajectories) {
       result["energy_error"] = {{"median", finite(found.energy_error.median)},
                                 {"most", finite(found.energy_error.most)},
+                                {"nearly_all", finite(found.energy_error.nearly_all)},
                                 {"largest", finite(found.energy_error.largest)},
                                 {"drift", finite(found.drift)},
                                 {"growth", finite(found.growth)}};

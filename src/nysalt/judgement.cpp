@@ -28,8 +28,12 @@ using detail::median_of;
 using detail::states;
 using detail::windows;
 
-/// Up to this share of lost trajectories a method is near an edge, and beyond it loses trajectories.
+/// A good method loses at most this share in a run `longer` times as long as the trial; one that loses more
+/// in the trial loses trajectories.
 constexpr double few_lost = 0.02;
+/// Of the trajectories of the trial: what happens to them at random times happens to `longer` times as many
+/// in the longer run.
+constexpr double few_in_trial = few_lost / detail::longer;
 constexpr double most = 0.95;  // quantile of energy errors, and confidence of the bound on the share lost
 
 /// Force evaluations that a judge may spend on one method.
@@ -51,13 +55,21 @@ double slope_of(const std::array<double, windows>& level) {
   return median_of(slopes) * static_cast<double>(windows);
 }
 
+/// The number that a share of some numbers is below; puts them into another order.
+double quantile_of(std::vector<double>& numbers, double share) {
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(numbers.size()));
+  const auto at = numbers.begin() + std::min(rank, std::ssize(numbers) - 1);
+  std::nth_element(numbers.begin(), at, numbers.end());
+  return *at;
+}
+
 /// Puts what the trajectories did into the judgement.
 void summarise(std::vector<course>& courses, double rounding, judgement& found) {
   const double scale = found.kinetic_energy;
   std::vector<double> errors;
   std::array<std::vector<double>, windows> levels;
-  double first_half = 0.0;
-  double second_half = 0.0;
+  std::vector<double> first_half;
+  std::vector<double> second_half;
   double least = 0.0;  // what rounding makes of an energy
   for (std::size_t m = 0; m < courses.size(); ++m) {
     course& one = courses[m];
@@ -67,22 +79,27 @@ void summarise(std::vector<course>& courses, double rounding, judgement& found) 
     }
     ++found.trajectories;
     bool is_lost = one.diverged_at.has_value();
+    bool exceeds = is_lost;
     if (is_lost) ++found.diverged;
     if (found.energy_was_watched && !is_lost) {
-      is_lost = median_of(one.last) > scale + rounding * one.magnitude;
+      const double too_much = scale + rounding * one.magnitude;
+      is_lost = median_of(one.last) > too_much;
+      exceeds = one.largest_of_all > too_much;
       errors.push_back(one.largest_of_all / scale);
       if (errors.back() > found.energy_error.largest) {
         found.energy_error.largest = errors.back();
         found.farthest = {static_cast<std::int64_t>(m), one.at};
       }
+      first_half.push_back(0.0);
+      second_half.push_back(0.0);
       for (std::size_t w = 0; w < levels.size(); ++w) {
         if (one.reads[w] > 0.0) levels[w].push_back(one.sum[w] / one.reads[w] / scale);
-        const double excess = std::max(0.0, one.largest[w] - rounding * one.magnitude);
-        double& half = 2 * w < levels.size() ? first_half : second_half;
-        half = std::max(half, excess);
-        least = std::max(least, rounding * one.magnitude);
+        double& half = (2 * w < levels.size() ? first_half : second_half).back();
+        half = std::max(half, one.largest[w] - rounding * one.magnitude);
       }
+      least = std::max(least, rounding * one.magnitude);
     }
+    if (exceeds) ++found.exceeding;
     if (!is_lost) continue;
     ++found.lost;
     if (!found.first_lost) {
@@ -91,23 +108,26 @@ void summarise(std::vector<course>& courses, double rounding, judgement& found) 
     }
   }
   if (errors.empty()) return;
-  const auto rank = static_cast<std::size_t>(most * static_cast<double>(errors.size()));
+  constexpr double all_but_few = 1.0 - few_lost;
   found.energy_error.median = median_of(errors);
-  std::ranges::nth_element(errors, errors.begin() + static_cast<std::ptrdiff_t>(rank));
-  found.energy_error.most = errors[rank];
-  found.growth = second_half > 0.0 ? second_half / std::max(first_half, least) : 0.0;
+  found.energy_error.most = quantile_of(errors, most);
+  found.energy_error.nearly_all = quantile_of(errors, all_but_few);
+  const double later = quantile_of(second_half, all_but_few);
+  found.growth = later > 0.0 ? later / std::max(quantile_of(first_half, all_but_few), least) : 0.0;
   std::array<double, windows> level{};
   for (std::size_t w = 0; w < levels.size(); ++w) level[w] = median_of(levels[w]);
   found.drift = slope_of(level);
 }
 
-/// The largest energy error after a run `longer` times as long: a power of time grows by its square for
-/// another two doublings, and what grows faster than time itself is taken to be exponential.
+/// The energy error that nearly all trajectories stay below in a run `longer` times as long: a power of time
+/// grows by its square for another two doublings, and what grows faster than time itself is taken to be
+/// exponential.
 double projected(const judgement& found) {
   constexpr double linear = 2.0;  // growth of what is proportional to time
   const double growth = std::max(1.0, found.growth);
   const double further_halves = 2.0 * detail::longer - 2.0;
-  return found.energy_error.largest * (growth <= linear ? growth * growth : std::pow(growth, further_halves));
+  return found.energy_error.nearly_all *
+         (growth <= linear ? growth * growth : std::pow(growth, further_halves));
 }
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
@@ -127,12 +147,16 @@ void decide(judgement& found) {
                   found.trajectories, found.steps, found.first_lost ? found.first_lost->step : 0);
   if (found.share_lost() > 0.5) return say(step_verdict::unstable, loss);
   if (found.share_lost() > few_lost) return say(step_verdict::loses_trajectories, loss);
-  if (found.lost > 0) return say(step_verdict::near_an_edge, loss);
-  if (found.energy_error.largest > 1.0) {
+  const double few = few_in_trial * static_cast<double>(found.trajectories);
+  if (found.diverged > 0 || static_cast<double>(found.lost) > few)
+    return say(step_verdict::near_an_edge, loss);
+  if (static_cast<double>(found.exceeding) > few) {
     return say(
         step_verdict::near_an_edge,
-        fmt::format("the energy of trajectory {} errs by {} of the kinetic energy at step {}",
-                    found.farthest.trajectory, percent(found.energy_error.largest), found.farthest.step));
+        fmt::format("the energies of {} of {} trajectories err by more than the kinetic energy, that of "
+                    "trajectory {} by {} at step {}",
+                    found.exceeding, found.trajectories, found.farthest.trajectory,
+                    percent(found.energy_error.largest), found.farthest.step));
   }
   if (found.energy_error.most > detail::large_error) {
     return say(step_verdict::near_an_edge,
@@ -140,10 +164,11 @@ void decide(judgement& found) {
                            percent(found.energy_error.most)));
   }
   if (const double later = projected(found); later > 1.0) {
-    return say(step_verdict::near_an_edge,
-               fmt::format("the energy error grows: its largest value, {} of the kinetic energy, is {:.3g} "
-                           "times that of the first half of the steps",
-                           percent(found.energy_error.largest), found.growth));
+    return say(
+        step_verdict::near_an_edge,
+        fmt::format("the energy error grows: one trajectory in fifty errs by {} of the kinetic energy or "
+                    "more, in the second half of the steps by {:.3g} times as much as in the first",
+                    percent(found.energy_error.nearly_all), found.growth));
   }
   if (!found.linear_objection.empty()) return say(step_verdict::near_an_edge, found.linear_objection);
   found.verdict = step_verdict::good;

@@ -29,7 +29,12 @@ BOOST_AUTO_TEST_CASE(three_ranks_have_the_bytes_of_one_process) {
            {"sample --system phi4 --masses 5 --length 1 --chains 70 --burn-in 100 --draws 20 "
             "--diagonal-masses",
             "o.csv",
-            {{3, 2}}}})
+            {{3, 2}}},
+           // All ranks share the sites of one trajectory.
+           {"run --system fpu --pairs 6000 --method verlet --step 0.01 --horizon 0.5 --sample-every 7 "
+            "--observables energy,q1,p6001,q12000",
+            "o.csv",
+            {{3, 1}}}})
     ranks_change_no_byte(one);
 }
 
