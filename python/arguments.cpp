@@ -211,6 +211,7 @@ program::system_settings system_of(const argument_reader& arguments) {
   arguments.take("spread", settings.spread);
   arguments.take("frequency", settings.frequency);
   arguments.take("start", settings.start);
+  arguments.take("at", settings.at);
   arguments.take("friction", settings.bath.friction);
   arguments.take("sigma", settings.bath.sigma);
   arguments.take("temperature", settings.bath.temperature);
@@ -268,6 +269,7 @@ program::compare_command compare_of(const argument_reader& arguments,
   arguments.take("hmc_temperature", command.hmc_temperature);
   require_fitting(command, [&](const char* option) {
     std::string name = option + 2;
+    if (name == "for") name = "purpose";
     std::ranges::replace(name, '-', '_');
     return arguments.has(name.c_str());
   });

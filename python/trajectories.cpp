@@ -40,11 +40,51 @@ bool lies_across(std::span<const double> a, std::span<const double> b) {
   return overlap(a, b) && a.data() != b.data();
 }
 
+void require_finite(std::span<const double> all, std::int64_t dimension, const char* name) {
+  for (std::int64_t i = 0; i < std::ssize(all); ++i) {
+    const double one = all[static_cast<std::size_t>(i)];
+    if (std::isfinite(one)) continue;
+    refuse("the state of trajectory {} must be finite, got {}{} = {}", i / dimension, name, i % dimension + 1,
+           one);
+  }
+}
+
+/// States to begin at, of shape (dimension,) or (trajectories, dimension); without p at rest.
+void take_states(const held_system& system, const py::object& from_q, const py::object& from_p,
+                 program::system_settings& settings) {
+  if (from_q.is_none()) {
+    if (!from_p.is_none()) refuse("p must come with q; give the coordinates to begin at");
+    return;
+  }
+  const numbers_array q = numbers_of(from_q, "q");
+  const auto shape = shape_of(q);
+  const std::int64_t count = states_in(system, shape, "q");
+  const Eigen::Index size = system.model->dimension();
+  std::optional<numbers_array> p;
+  if (!from_p.is_none()) p = numbers_of(from_p, "p");
+  if (p && shape_of(*p) != shape) {
+    refuse("p must have the shape of q, {}, got {}", shape_text(shape), shape_text(shape_of(*p)));
+  }
+  require_finite(numbers_in(q), size, "q");
+  if (p) require_finite(numbers_in(*p), size, "p");
+  if (!settings.start.empty() || !settings.at.empty())
+    refuse("q must come without start and at of the system; leave one of them away");
+  settings.spread.reset();
+  for (std::int64_t n = 0; n < count; ++n) {
+    const auto row = [&](const numbers_array& all) -> Eigen::VectorXd {
+      return Eigen::Map<const Eigen::VectorXd>(numbers_in(all).data() + n * size, size);
+    };
+    settings.states.push_back({row(q), p ? row(*p) : Eigen::VectorXd::Zero(size)});
+  }
+}
+
 /// The samples of a run are written where NumPy has them: in a new array, or in the one that is given.
-py::dict run(const held_system& system, const py::dict& arguments, const py::object& out) {
+py::dict run(const held_system& system, const py::dict& arguments, const py::object& from_q,
+             const py::object& from_p, const py::object& out) {
   const argument_reader asked(arguments);
   const auto common = common_of(asked, system.calls_python());
-  const auto command = run_of(asked, system.settings);
+  auto command = run_of(asked, system.settings);
+  take_states(system, from_q, from_p, command.system);
   std::unique_ptr<program::planned_run> planned;
   compute(system.calls_python(), [&] { planned = std::make_unique<program::planned_run>(command, common); });
   const auto& observables = planned->command.observables;
@@ -99,15 +139,6 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
   result["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   result["warnings"] = list_of(warnings);
   return result;
-}
-
-void require_finite(std::span<const double> all, std::int64_t dimension, const char* name) {
-  for (std::int64_t i = 0; i < std::ssize(all); ++i) {
-    const double one = all[static_cast<std::size_t>(i)];
-    if (std::isfinite(one)) continue;
-    refuse("the state of trajectory {} must be finite, got {}{} = {}", i / dimension, name, i % dimension + 1,
-           one);
-  }
 }
 
 /// The arrays of a pair that is given, or new ones.

@@ -14,6 +14,7 @@ interpreter's lock, except for a Hamiltonian of your own. Ctrl-C ends them when 
 interval of steps or the pass over the data is done; this may take as long as that does.
 """
 
+import itertools as _itertools
 import json as _json
 import os as _os
 import warnings as _warnings
@@ -46,6 +47,7 @@ __all__ = ["Run", "Scheme", "System", "Table", "build", "compare", "export", "fa
            "learn", "load", "methods", "metrics", "potential", "recommend", "recommend_for_sampling", "run", "system", "systems"]
 
 Texts = Union[str, Sequence[str]]
+_seeds = _itertools.count(2**40)  # of calls of integrate() without a seed: far from those that people give
 Numbers = Union[float, Sequence[float]]
 
 
@@ -135,13 +137,14 @@ def _held_by(system: Any) -> Any:
 
 def system(name: Union[str, _os.PathLike] = "fpu", *, spread: Optional[float] = None, friction: Optional[float] = None,
            sigma: Optional[float] = None, temperature: Optional[float] = None, start: Optional[str] = None,
-           frequency: Optional[float] = None, **parameters: Union[float, str, None]) -> System:
+           at: Optional[Texts] = None, frequency: Optional[float] = None, **parameters: Union[float, str, None]) -> System:
     """A bundled system with its parameters, such as omega=50; `systems()` names them all. Or one of your own.
 
     The path of what `build` made, or of its source, loads a system of your own, at full speed: it is code that
     runs as you. friction (gamma) with sigma or temperature (kT = sigma^2/(2 gamma)) puts the system into a
-    bath; `start` says where trajectories start there: `"gibbs"`, `"law"` or `"trajectory"`. `spread` multiplies the
-    standard deviations of the initial distribution. `frequency` is the angular frequency that methods named
+    bath; `start` says where trajectories start there: `"gibbs"`, `"law"` or `"trajectory"`; `at` is
+    a state to begin at instead, such as "q1=1; p2=0.5", or a list of them. `spread` multiplies the standard deviations
+    of the initial distribution, and gives those around the states of `at`. `frequency` is the angular frequency that methods named
     phase_fitted_... and s_aia... are fitted to; if it is not given, the one that the system declares, else an
     estimate along the motion.
     """
@@ -165,15 +168,16 @@ def build(source: Union[str, _os.PathLike], output: Union[str, _os.PathLike, Non
 def potential(text: str, variables: Texts, *, mass: Optional[Numbers] = None,
               around: Optional[Mapping[str, float]] = None, spread: Optional[float] = None,
               friction: Optional[float] = None, sigma: Optional[float] = None, temperature: Optional[float] = None,
-              start: Optional[str] = None, frequency: Optional[float] = None, **parameters: float) -> System:
+              start: Optional[str] = None, at: Optional[Texts] = None, frequency: Optional[float] = None,
+              **parameters: float) -> System:
     """H = sum_i p_i^2/(2 m_i) + V(q) of a potential as text, compiled: at full speed.
 
         nysalt.potential("0.5*k*(sqrt(x^2 + y^2) - 1)^2 + y", ["x", "y"], around={"y": -1}, k=400)
 
     The text has numbers, the variables, the parameters, + - * / ^, parentheses, sqrt, exp, log and their like,
     pi, and sum(i, 1, 15, (q[i+1] - q[i])^4) over the coordinates of a variable "q[16]". Starts are normal
-    around a point, with the deviations deviation_q and deviation_p, parameters too [0.1]. `frequency` is that of
-    `system`.
+    around a point, with the deviations deviation_q and deviation_p, parameters too [0.1]. `at` and
+    `frequency` are those of `system`; `at` takes the names of the variables, "x=1,y=0; px=0".
     """
     if not isinstance(text, str):
         raise ValueError(f"text must be a text, got {text!r}")
@@ -181,7 +185,7 @@ def potential(text: str, variables: Texts, *, mass: Optional[Numbers] = None,
         raise ValueError(f"around must be a dict of numbers by name, got {around!r}")
     return System(_nysalt.bundled(dict(formula=text, variables=variables, mass=mass, around=around,
                                        parameters=parameters, spread=spread, friction=friction, sigma=sigma,
-                                       temperature=temperature, start=start, frequency=frequency)))
+                                       temperature=temperature, start=start, at=at, frequency=frequency)))
 
 
 def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], float],
@@ -388,21 +392,22 @@ class Run:
                 f"{samples} samples to t = {self.t[-1]:g}: {', '.join(self.observables)}>")
 
 
-def run(system: System, method: Method, step: float, horizon: float, *, trajectories: Optional[int] = None,
-        observables: Optional[Texts] = None, sample_every: Optional[int] = None, seed: int = 1,
-        placement: Optional[str] = None, force: bool = False, out: Optional[np.ndarray] = None,
-        threads: Optional[int] = None) -> Run:
-    """Trajectories of a method from the starts of a system, sampled every `sample_every` steps.
+def run(system: System, method: Method, step: float, horizon: float, *, q: Any = None, p: Any = None,
+        trajectories: Optional[int] = None, observables: Optional[Texts] = None,
+        sample_every: Optional[int] = None, seed: int = 1, placement: Optional[str] = None, force: bool = False,
+        out: Optional[np.ndarray] = None, threads: Optional[int] = None) -> Run:
+    """Trajectories of a method from states q and p, or from the starts of a system, sampled every `sample_every` steps.
 
+    q and p have the shape (dimension,), or (trajectories, dimension) for several; without p all is at rest.
     The samples are written where NumPy has them, in a new array, or in `out`: a writable one of float64 and of
     shape (trajectories, samples, observables), with samples = floor(horizon/step)//sample_every + 1.
     force=True runs a scheme where it was not learned.
     """
     asked = dict(locals())
-    for name in ("system", "out"):
+    for name in ("system", "out", "q", "p"):
         asked.pop(name)
     (asked["method"],), asked["held"] = _held_by_name([method])
-    found = _nysalt.run(_held_by(system), asked, out)
+    found = _nysalt.run(_held_by(system), asked, q, p, out)
     found = Run(**{**found, "judgement": _json.loads(found["judgement"])})
     _warn(found.warnings)
     return found
@@ -421,7 +426,7 @@ def judge(system: System, method: Method, step: float, *, placement: Optional[st
 
 
 def integrate(system: System, method: Method, step: float, q: Any, p: Any, steps: int, *,
-              out: Optional[Tuple[np.ndarray, np.ndarray]] = None, seed: int = 1,
+              out: Optional[Tuple[np.ndarray, np.ndarray]] = None, seed: Optional[int] = None,
               placement: Optional[str] = None, force: bool = False,
               threads: Optional[int] = None) -> Tuple[np.ndarray, np.ndarray]:
     """Advances states by `steps` steps: q and p of shape (dimension,), or (trajectories, dimension).
@@ -429,9 +434,12 @@ def integrate(system: System, method: Method, step: float, q: Any, p: Any, steps
     Returns new arrays, or those of `out`, filled; out=(q, p) goes on in place, without a copy. They must be
     writable arrays of float64 in the shape of q. A call that is refused leaves them as they are; one that is
     interrupted, or in which a function of yours raises, leaves in them what is not defined. A trajectory that
-    diverges ends as NaN. Each call is a run of its own: the numbers are those of `run` from the same states, and
-    in a bath the noise begins anew, so that each call needs another seed.
+    diverges ends as NaN. Each call is a run of its own: the numbers are those of `run` from the same states with the
+    same seed. In a bath a call with a seed has the noise of that seed from its beginning; calls without a seed take
+    seeds of their own in turn, so that a loop of calls has new noise in each and a program the same in each run.
     """
+    if seed is None:
+        seed = next(_seeds)
     (name,), held = _held_by_name([method])
     asked = dict(method=name, held=held, step=step, steps=steps, seed=seed, placement=placement, force=force,
                  threads=threads)

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/detail/whole_steps.hpp"
 #include "refusal.hpp"
 #include "seeds.hpp"
 #include "settings.hpp"
@@ -53,10 +54,10 @@ inline void require_square_of_frequency(const std::string& system, double freque
          system, frequency);
 }
 
-/// floor(horizon/step + 1e-9). Throws refusal if that is no step, or more than can be counted.
+/// whole_steps(). Throws refusal if that is no step, or more than can be counted.
 inline std::int64_t steps_within(const char* option, double horizon, double step) {
   require_positive(option, horizon);
-  const double steps = std::floor(horizon / step + 1e-9);
+  const double steps = nysalt::detail::whole_steps(horizon, step);
   if (steps < 1.0) refuse("{} must be at least one step of {}, got {}", option, step, horizon);
   if (!(steps < 0x1p53)) refuse("{} must hold fewer than 2^53 steps of {}, got {}", option, step, horizon);
   return static_cast<std::int64_t>(steps);
@@ -65,7 +66,8 @@ inline std::int64_t steps_within(const char* option, double horizon, double step
 /// Steps to the horizon or just beyond it, and at least one: errors are means over all of it.
 inline std::int64_t steps_beyond(const char* option, double horizon, double step) {
   const std::int64_t whole = steps_within(option, horizon, step);
-  return whole + (static_cast<double>(whole) < horizon / step - 1e-9 ? 1 : 0);
+  const double ratio = horizon / step;
+  return whole + (static_cast<double>(whole) < ratio - nysalt::detail::rounding_of_steps(ratio) ? 1 : 0);
 }
 
 /// The least number of samples in a mean over time: the trapezoidal rule errs then by half a percent of a

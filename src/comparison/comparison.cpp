@@ -35,8 +35,13 @@ void require_fitting(const comparison_options& asked, const std::function<bool(c
   belongs("--longest-lag", {"acf"});
   belongs("--hmc-temperature", {"acceptance"});
   const auto is_learned = [](const std::string& method) { return method.starts_with("learned:"); };
-  if (is_given("--fix") && std::ranges::none_of(asked.methods, is_learned))
-    refuse("--fix must come with a method that is learned, got {}; leave --fix away", listed(asked.methods));
+  if (std::ranges::any_of(asked.methods, is_learned)) return;
+  for (const char* option : {"--for", "--learn-trajectories", "--learn-horizon", "--learn-loss",
+                             "--learn-effort", "--learn-random-starts", "--coordinates", "--fix"}) {
+    if (!is_given(option)) continue;
+    refuse("{} must come with a method that is learned, got {}; leave {} away", option, listed(asked.methods),
+           option);
+  }
 }
 
 comparison::comparison(std::unique_ptr<prepared_problem> system, comparison_options asked,

@@ -29,7 +29,17 @@ inline std::vector<std::string> observable_names(const initial_value_problem& ma
     names.insert(names.begin(), "stiff_energy");
     range("stiff_energy_", springs.pairs);
   }
-  for (const auto& own : made.observables) names.push_back(own.name);
+  std::string list;  // "x[", of which the first and the last are named
+  for (const auto& own : made.observables) {
+    const auto bracket = own.name.find('[');
+    const std::string stem = bracket == std::string::npos ? std::string() : own.name.substr(0, bracket + 1);
+    if (stem.empty() || stem != list) {
+      names.push_back(own.name);
+    } else {
+      names.back() = fmt::format("{0}1]..{1}", stem, own.name);
+    }
+    list = stem;
+  }
   return names;
 }
 

@@ -54,6 +54,7 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
       source_of_kind_(std::move(source)),
       start_(conditions.start),
       frequency_asked_(conditions.frequency) {
+  if (conditions.starts) made_.starts = conditions.starts(made_);
   for (const auto& one : made_.letters) letters_.push_back(one.named);
   require_square_of_frequency(description(), made_.frequency);
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
@@ -137,6 +138,20 @@ std::string prepared_problem::default_observable() const { return made_.default_
 
 std::string prepared_problem::starts() const {
   return starts_ ? starts_->description() : made_.starts.description();
+}
+
+std::optional<std::int64_t> prepared_problem::given_states() const {
+  const std::int64_t count = starts_or_law().size();
+  return count < std::numeric_limits<std::int64_t>::max() ? std::optional(count) : std::nullopt;
+}
+
+void prepared_problem::require_starts(const std::string& option, std::int64_t trajectories) const {
+  const auto given = given_states();
+  if (!given || trajectories <= *given) return;
+  refuse(
+      "{} must be at most {}, the number of states that are given to begin at, got {}; give --spread for "
+      "deviations of their starts, or {} {}",
+      option, *given, trajectories, option, *given);
 }
 
 void prepared_problem::prepare_starts(std::uint64_t seed) {

@@ -47,6 +47,8 @@ struct surroundings {
   program::start start;
   double spread = 1.0;                   // factor of the standard deviations of the initial distribution
   std::optional<double> frequency = {};  // to which methods are fitted; nothing: declared, or seen
+  /// Makes the starts that are taken in the place of the system's own distribution; empty: none are.
+  std::function<initial_states(const initial_value_problem&)> starts = {};
 };
 
 /// The angular frequency that a method is fitted to, and where it is known from.
@@ -67,6 +69,10 @@ class prepared_problem {
   /// The definition of the problem.
   const initial_value_problem& definition() const { return made_; }
   start start_law() const { return start_; }
+  /// Throws refusal if there are fewer starts than trajectories.
+  void require_starts(const std::string& option, std::int64_t trajectories) const;
+  /// Number of states that were given to begin at; nothing: starts are drawn.
+  std::optional<std::int64_t> given_states() const;
   /// The starts, once they are prepared.
   const initial_states& prepared_starts() const { return *starts_; }
 

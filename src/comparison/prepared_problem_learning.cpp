@@ -24,6 +24,12 @@ void prepared_problem::require_learnable(const std::string& name, std::optional<
         "longer word",
         name);
   }
+  if (const auto given = given_states()) {
+    refuse(
+        "{} must be learned from starts that differ, and tried on others, got {} to begin at; give --spread "
+        "for deviations of their starts",
+        name, *given == 1 ? "one state" : fmt::format("{} states", *given));
+  }
   require_served(family.letters);
   require_sound_letters(name, family.letters, step);
   reference().fine_step(step, how.fine_step, noise_parts(family));

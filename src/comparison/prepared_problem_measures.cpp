@@ -61,6 +61,7 @@ struct sprung_system {
 
 void prepared_problem::require_measure(const asked_metric& metric, const trajectories_plan& plan,
                                        std::optional<double> fine_step, int noise_parts) const {
+  require_starts("--trajectories", plan.count);
   if (metric.is_of_law()) {
     observable(made_, metric.observable);
     reference().fine_step_for_statistics(plan.step, fine_step);

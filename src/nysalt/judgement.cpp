@@ -132,8 +132,25 @@ double projected(const judgement& found) {
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
 
+/// Whether the trial shows what frequencies do that are rare: it meets states many times over that are one in
+/// a thousand.
+bool shows_rare_states(const judgement& found, Eigen::Index size) {
+  constexpr double many_states = 100'000;
+  return static_cast<double>(found.trajectories) * static_cast<double>(found.steps) *
+             static_cast<double>(size) >=
+         many_states;
+}
+
+/// Number of steps over which the linear criterion bounds growth.
+constexpr std::int64_t linear_steps = 10'000;
+
+/// Whether the trial shows what the linear criterion foretells: it is as long, and meets rare states.
+bool shows_instability(const judgement& found, Eigen::Index size) {
+  return found.steps >= linear_steps && shows_rare_states(found, size);
+}
+
 /// The rules, in this order.
-void decide(judgement& found) {
+void decide(judgement& found, Eigen::Index size) {
   const auto say = [&](step_verdict verdict, std::string reason) {
     found.verdict = verdict;
     found.reason = std::move(reason);
@@ -158,11 +175,6 @@ void decide(judgement& found) {
                     found.exceeding, found.trajectories, found.farthest.trajectory,
                     percent(found.energy_error.largest), found.farthest.step));
   }
-  if (found.energy_error.most > detail::large_error) {
-    return say(step_verdict::near_an_edge,
-               fmt::format("the energies of one trajectory in twenty err by {} of the kinetic energy or more",
-                           percent(found.energy_error.most)));
-  }
   if (const double later = projected(found); later > 1.0) {
     return say(
         step_verdict::near_an_edge,
@@ -170,7 +182,8 @@ void decide(judgement& found) {
                     "more, in the second half of the steps by {:.3g} times as much as in the first",
                     percent(found.energy_error.nearly_all), found.growth));
   }
-  if (!found.linear_objection.empty()) return say(step_verdict::near_an_edge, found.linear_objection);
+  if (!found.linear_objection.empty() && !shows_instability(found, size))
+    return say(step_verdict::near_an_edge, found.linear_objection);
   found.verdict = step_verdict::good;
 }
 
@@ -233,7 +246,7 @@ stability_guard guard_of(const model& system, const accurate_motion& motion, con
                          const run_time_word& word) {
   std::size_t typical = 0;
   const phase_points at = states_of(motion, starts, size(system), typical);
-  return {system, at, word, 10'000, typical == 0 ? at.size() : typical};
+  return {system, at, word, linear_steps, typical == 0 ? at.size() : typical};
 }
 
 /// What linear theory says of the method; nothing where the force has no derivatives.
@@ -247,13 +260,8 @@ void add_linear(const stability_guard& guard, const tabulated& method, Eigen::In
   for (const auto& band : guard.frequencies()) {
     found.highest_frequency = std::max(found.highest_frequency, band.high / wider);
   }
-  // A trial shows what rare frequencies do if it meets states many times over that are one in a thousand.
-  constexpr double many_states = 100'000;
-  const bool shows_rare_states = static_cast<double>(found.trajectories) * static_cast<double>(found.steps) *
-                                     static_cast<double>(size) >=
-                                 many_states;
-  found.linear_objection =
-      guard.objection(word, coefficients, found.step, shows_rare_states ? met::often : met::ever);
+  found.linear_objection = guard.objection(word, coefficients, found.step,
+                                           shows_rare_states(found, size) ? met::often : met::ever);
   if (word.has_own_letters()) return;
   if (!has_rotation(word)) {
     const auto chart = chart_stability(word, coefficients);
@@ -329,7 +337,7 @@ judgement step_judge::of(const tabulated& method) const {
   } else if (guard) {
     add_linear(*guard, method, size(system), found);
   }
-  decide(found);
+  decide(found, size(system));
   if (found.holds() && !motion.is_followed && motion.kinetic_energy == 0.0) {
     found.verdict = step_verdict::not_tried;
     found.reason = fmt::format(

@@ -79,6 +79,15 @@ std::vector<double> centre_of(const typed_potential& typed, const std::vector<va
   return centre;
 }
 
+/// Whether some C++ has a name that no letter, digit or _ follows.
+bool has_word(std::string_view code, std::string_view name) {
+  for (auto at = code.find(name); at != std::string_view::npos; at = code.find(name, at + 1)) {
+    const auto next = code.substr(std::min(at + name.size(), code.size())).substr(0, 1);
+    if (next.empty() || !is_name("_" + std::string(next))) return true;
+  }
+  return false;
+}
+
 std::string listed_numbers(const std::vector<double>& numbers) {
   std::string text;
   for (const double x : numbers) text += fmt::format("{}{}", text.empty() ? "" : ", ", x);
@@ -86,6 +95,16 @@ std::string listed_numbers(const std::vector<double>& numbers) {
 }
 
 }  // namespace
+
+std::vector<std::string> coordinate_names(const typed_potential& typed) {
+  std::vector<std::string> names;
+  for (const variable& one : variables_of(typed.variables)) {
+    if (!one.is_list) names.push_back(one.name);
+    for (std::int64_t i = 1; one.is_list && i <= one.count; ++i)
+      names.push_back(fmt::format("{}[{}]", one.name, i));
+  }
+  return names;
+}
 
 std::vector<std::pair<std::string, std::string>> values_of(const std::vector<std::string>& typed,
                                                            const std::string& option) {
@@ -125,6 +144,10 @@ std::string source_of(const typed_potential& typed) {
           name);
   }
   const std::string code = translated(typed.text, variables, parameters);
+  for (const auto& name : parameters) {
+    if (has_word(code, "p_" + name)) continue;
+    refuse("--parameter must be of the potential, got {}, which is not in it; leave {} away", name, name);
+  }
   const auto masses = masses_of(typed, count);
   const auto centre = centre_of(typed, variables, count);
 

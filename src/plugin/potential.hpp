@@ -25,6 +25,9 @@ struct typed_potential {
 /// deviation_p of the starts.
 std::string source_of(const typed_potential& typed);
 
+/// The name of each coordinate: x, or q[1] to q[16] of q[16]. Throws refusal for names that cannot be taken.
+std::vector<std::string> coordinate_names(const typed_potential& typed);
+
 /// The values that were typed for parameters, by name. Throws refusal for what is not name=value.
 std::vector<std::pair<std::string, std::string>> values_of(const std::vector<std::string>& typed,
                                                            const std::string& option);

@@ -21,8 +21,10 @@
 #include "comparison/standard_error.hpp"
 #include "mpi_session.hpp"
 #include "nysalt/atomic_file.hpp"
+#include "nysalt/detail/fingerprint.hpp"
 #include "nysalt/detail/write_failure.hpp"
 #include "output/checkpoint_file.hpp"
+#include "output/samples.hpp"
 #include "report/comparison_report.hpp"
 #include "report/manifest.hpp"
 
@@ -148,14 +150,16 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
   return whole(a) == whole(b);
 }
 
-void require_table(const std::string& output, bool plot) {
+void require_table(const std::string& output, bool plot, bool may_be_array) {
   if (plot && output.empty())
     refuse("--plot must come with --output; name the file beside which the picture goes");
   if (output.empty()) return;
   require_result(output);
   const std::string ending = std::filesystem::path(output).extension();
-  if (plot && (ending == ".svg" || ending == ".png" || ending == ".dat" || ending == ".gp")) {
-    refuse("--output must not have the ending of a file of --plot, got {}; let --output end in .csv", ending);
+  const bool is_array = ending == ".h5" || ending == ".hdf5" || ending == ".npy";
+  if (!ending.empty() && ending != ".csv" && ending != ".txt" && !(may_be_array && is_array)) {
+    refuse("--output must end in .csv{}, as what is written is no other kind of file, got {}",
+           may_be_array ? ", .h5 or .npy" : "", output);
   }
   if (plot) require_picture(picture_name(output), folder_of(output));
 }
@@ -183,7 +187,10 @@ void require_checkpoint(const std::string& checkpoint, const std::string& output
 std::string picture_name(const std::filesystem::path& table) {
   std::string name = table.stem().string();
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
-  return name;
+  if (name + ".csv" == table.filename()) return name;
+  nysalt::detail::fingerprint sum;  // of what else would have the same name
+  for (const char c : table.filename().string()) sum.add(static_cast<unsigned char>(c));
+  return name + "-" + sum.text();
 }
 
 void require_folder(const std::filesystem::path& folder) {

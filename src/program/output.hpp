@@ -34,10 +34,12 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 
 /// Throws refusal now if a table could not be written there later, or its picture not beside it: after the
 /// inputs were read. Nothing is asked of an output that is empty, but that there is no picture.
-void require_table(const std::string& output, bool plot);
+/// An ending other than .csv and .txt, and those of arrays if it may be one, is refused.
+void require_table(const std::string& output, bool plot, bool may_be_array);
 /// The same of a checkpoint beside such a table, whose names it must not take.
 void require_checkpoint(const std::string& checkpoint, const std::string& output, bool plot);
-/// Of a picture beside a table: that of the table, in letters that gnuplot takes.
+/// Of a picture beside a table: that of the table, in letters that gnuplot takes, and of no other table in
+/// the folder: with a fingerprint of the whole name unless the table is that name and .csv.
 std::string picture_name(const std::filesystem::path& table);
 
 /// Throws refusal now if a folder could not be made there later, or not be written into.

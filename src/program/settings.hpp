@@ -13,6 +13,7 @@
 
 #include "comparison/exported_source.hpp"
 #include "comparison/settings.hpp"
+#include "given_starts.hpp"
 #include "plugin/potential.hpp"
 
 namespace nysalt::program {
@@ -36,7 +37,10 @@ struct system_settings {
   std::optional<double> spread;
   std::optional<double> frequency;  // to which methods are fitted
   bath_settings bath;
-  std::string start;  // law, gibbs, trajectory; empty: gibbs if a bath has a temperature, else law
+  std::string start;  // law, gibbs, trajectory, or a file; empty: gibbs if a bath has a temperature, else law
+  std::vector<std::string> at;             // states to begin at, as typed: x=1,y=0;px=0,py=0.5
+  std::optional<std::int64_t> start_step;  // of the file
+  given_states states{};                   // of the caller's own, to begin at
 };
 
 struct learn_command {
@@ -61,7 +65,7 @@ struct run_command {
   std::string placement;
   double step = 0.0;
   double horizon = 0.0;
-  std::int64_t trajectories = 1;
+  std::optional<std::int64_t> trajectories;  // nothing: one for each state that is given, or one
   std::vector<std::string> observables;
   std::int64_t sample_every = 1;
   std::string output;

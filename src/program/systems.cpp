@@ -13,10 +13,11 @@
 #include "bundled_systems.hpp"
 #include "comparison/did_you_mean.hpp"
 #include "comparison/number.hpp"
+#include "comparison/observables.hpp"
 #include "comparison/prepared_problem.hpp"
 #include "comparison/refusal.hpp"
 #include "comparison/user_system_checks.hpp"
-#include "thermal_starts.hpp"
+#include "given_starts.hpp"
 
 namespace nysalt::program {
 
@@ -68,13 +69,21 @@ double spread_of(const std::optional<double>& asked, start where) {
   return *asked;
 }
 
-start start_of(const std::string& asked, const bath& heat_bath) {
+bool gives_states(const system_settings& settings) {
+  return !settings.at.empty() || !settings.states.empty();
+}
+
+start start_of(const system_settings& settings, const bath& heat_bath) {
+  const std::string& asked = settings.start;
   const bool is_warm = heat_bath.acts() && heat_bath.has_temperature() && heat_bath.temperature() > 0.0;
+  if (gives_states(settings)) {
+    if (asked.empty()) return start::law;
+    refuse("--at must come without --start, got --start {}; give one of them", asked);
+  }
   if (asked.empty()) return is_warm ? start::gibbs : start::law;
   if (asked == "law" || is_file_of_starts(asked)) return start::law;
   if (asked != "gibbs" && asked != "trajectory") {
-    refuse("unknown start '{}': --start is one of law, gibbs, trajectory, or a file of positions NAME.csv",
-           asked);
+    refuse("unknown start '{}': --start is one of law, gibbs, trajectory, or a file NAME.csv", asked);
   }
   if (!is_warm) {
     refuse("--start {} must come with a bath of a temperature above 0; give --friction and --temperature",
@@ -83,17 +92,43 @@ start start_of(const std::string& asked, const bath& heat_bath) {
   return asked == "gibbs" ? start::gibbs : start::trajectory;
 }
 
+/// What starts in the place of the law, if the user gives it.
+std::function<initial_states(const initial_value_problem&)> given_starts_of(const system_settings& settings,
+                                                                            const bath& in) {
+  const double spread = settings.spread.value_or(0.0);
+  const auto coordinates = [settings] {
+    return settings.potential.text.empty() ? std::vector<std::string>()
+                                           : coordinate_names(settings.potential);
+  };
+  if (is_file_of_starts(settings.start)) {
+    const double usual = in.acts() && in.has_temperature() ? in.temperature() : 1.0;
+    const double temperature = settings.bath.temperature.value_or(usual);
+    return [=](const initial_value_problem& made) {
+      return starts_in(settings.start, made, coordinates(), settings.start_step, temperature, spread);
+    };
+  }
+  if (settings.start_step) refuse("--start-step must come with --start FILE, an output of run");
+  if (!settings.states.empty()) {
+    return [=](const initial_value_problem& made) { return starts_at(settings.states, made, spread); };
+  }
+  if (settings.at.empty()) return {};
+  return [=](const initial_value_problem& made) {
+    given_states states;
+    for (const auto& text : settings.at) states.push_back(state_of(text, coordinates(), size(made.system)));
+    return starts_at(std::move(states), made, spread);
+  };
+}
+
 surroundings surroundings_of(const system_settings& settings) {
   const bath heat_bath = bath_of(settings.bath, is_file_of_starts(settings.start));
-  const start where = start_of(settings.start, heat_bath);
-  if (is_file_of_starts(settings.start) && settings.spread) {
-    refuse("--spread must come with --start law, got the positions in {}; leave --spread out",
-           settings.start);
-  }
+  const start where = start_of(settings, heat_bath);
   if (settings.frequency && !(*settings.frequency > 0.0 && std::isfinite(*settings.frequency))) {
     refuse("--frequency must be positive and finite, got {}", *settings.frequency);
   }
-  return {heat_bath, where, spread_of(settings.spread, where), settings.frequency};
+  const double spread = spread_of(settings.spread, where);
+  auto starts = given_starts_of(settings, heat_bath);
+  const double of_law = starts ? 1.0 : spread;
+  return {heat_bath, where, of_law, settings.frequency, std::move(starts)};
 }
 
 /// The typed value of a parameter, as its declaration has it.
@@ -137,7 +172,25 @@ void require_options(const system_settings& settings, const std::map<std::string
            takes.empty() ? "no options of its own" : listed(takes));
   };
   for (const auto& [name, text] : typed) require(name);
-  if (settings.spread) require("spread");
+  const bool is_given = gives_states(settings) || is_file_of_starts(settings.start);
+  if (settings.spread && !is_given) require("spread");
+}
+
+/// Adds coordinates and momenta by the names of the coordinates to the observables.
+void add_named(const std::vector<std::string>& coordinates, initial_value_problem& made) {
+  std::vector<named_observable> momenta;
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const auto add = [&](std::vector<named_observable>& to, const std::string& name, auto value) {
+      const bool is_known =
+          is_built_in_observable(made, name) || std::ranges::find(coordinates, name) != coordinates.end();
+      if (&to == &momenta ? is_known : is_built_in_observable(made, name)) return;
+      to.push_back({name, value});
+    };
+    add(made.observables, coordinates[k], [i](const auto& x) { return x.q[i]; });
+    add(momenta, "p" + coordinates[k], [i](const auto& x) { return x.p[i]; });
+  }
+  for (auto& one : momenta) made.observables.push_back(std::move(one));
 }
 
 /// What defines the kind of a system of the user's own: the source, and all parameters but sizes. A
@@ -201,20 +254,13 @@ std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
     std::visit([&](const auto& known) { named.push_back({parameter.name, known}); }, value);
   }
   if (!declared.identity.empty()) named.push_back({"source", declared.identity});
-  const auto make = [&] {
-    initial_value_problem made = declared.make(values, conditions.bath, conditions.spread);
-    if (is_file_of_starts(settings.start)) {
-      const bool is_warm = conditions.bath.acts() && conditions.bath.has_temperature();
-      const double usual = is_warm ? conditions.bath.temperature() : 1.0;
-      made.starts = starts_in(settings.start, made.system, settings.bath.temperature.value_or(usual));
-    }
-    return made;
-  };
+  const auto make = [&] { return declared.make(values, conditions.bath, conditions.spread); };
   const std::string source = source_of_kind(declared, values);
   if (declared.is_checked) return std::make_unique<prepared_problem>(make(), named, conditions, source);
   try {
     initial_value_problem made = make();
     examine(made, declared.name);
+    if (!settings.potential.text.empty()) add_named(coordinate_names(settings.potential), made);
     return std::make_unique<prepared_problem>(std::move(made), named, conditions, source);
   } catch (const refusal&) {
     throw;

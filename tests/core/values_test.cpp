@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 // Lists of points hold copies, one after the other, and items are the points where they lie. Numbers in
 // sentences are written as fmt writes them.
+#include <cmath>
+#include <random>
+#include <string>
+
 #include "nysalt/core.hpp"
 #include "nysalt/detail/in_digits.hpp"
+#include "nysalt/detail/whole_steps.hpp"
 #include "nysalt/phase_points.hpp"
 
 using namespace nysalt;
@@ -176,4 +181,24 @@ BOOST_AUTO_TEST_CASE(numbers_are_cut_to_their_first_digits) {
   BOOST_TEST(in_digits(100.0, 4) == "100");
   BOOST_TEST(in_digits(0.005, 12) == "0.005");
   BOOST_TEST(in_digits(-limits::infinity(), 6) == "-inf");
+}
+
+// The horizon is N steps as a decimal number, and as a product of doubles, up to 2^40 steps.
+BOOST_AUTO_TEST_CASE(steps_are_counted_to_rounding_however_many_there_are) {
+  std::mt19937_64 random(1);
+  const auto below = [&](std::uint64_t n) { return static_cast<std::int64_t>(random() % n); };
+  int missed = 0;  // by a tolerance that does not grow with N
+  for (int pair = 0; pair < 2000; ++pair) {
+    const std::int64_t digits = 1 + below(999);
+    const auto exponent = static_cast<int>(below(6));
+    const std::int64_t steps = 1 + below(std::uint64_t{1} << (1 + below(40)));
+    const double step = std::stod(std::to_string(digits) + "e-" + std::to_string(exponent));
+    const double horizon = std::stod(std::to_string(digits * steps) + "e-" + std::to_string(exponent));
+    const auto expected = static_cast<double>(steps);
+    BOOST_TEST(detail::whole_steps(horizon, step) == expected);
+    BOOST_TEST(detail::whole_steps(expected * step, step) == expected);
+    BOOST_TEST(detail::whole_steps((expected - 0.25) * step, step) == expected - 1.0);
+    if (std::floor(horizon / step + 1e-9) != expected) ++missed;
+  }
+  BOOST_TEST(missed > 0);
 }

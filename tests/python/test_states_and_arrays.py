@@ -26,13 +26,46 @@ def test_states_go_where_run_takes_them(chain, trajectories):
     expected = samples_at_end(chain, trajectories, 150)
     assert np.array_equal((q, p), chain.starts(trajectories, seed=1))
     assert not np.array_equal(q, chain.starts(trajectories, seed=2)[0])
-    new = nysalt.integrate(chain, "baoab", 0.01, q, p, 150)
+    new = nysalt.integrate(chain, "baoab", 0.01, q, p, 150, seed=1)
     assert np.array_equal(new, expected)
     assert np.array_equal((q, p), chain.starts(trajectories))  # as they were
     assert not np.array_equal(nysalt.integrate(chain, "baoab", 0.01, q, p, 150, seed=2), expected)  # other noise
 
-    mine = nysalt.integrate(chain, "baoab", 0.01, q, p, 150, out=(q, p))
+    mine = nysalt.integrate(chain, "baoab", 0.01, q, p, 150, seed=1, out=(q, p))
     assert mine[0] is q and mine[1] is p and np.array_equal(mine, expected)
+
+
+def test_runs_begin_at_states_of_ours():
+    kepler = nysalt.system("kepler")
+    names = ["q1", "q2", "p1", "p2"]
+    orbit = nysalt.run(kepler, "srkn11b", 2 * np.pi / 640, 2 * np.pi, q=[0.4, 0], p=[0, 2], sample_every=640,
+                       observables=names)
+    assert np.array_equal(orbit.values[0, 0], [0.4, 0, 0, 2])
+    assert np.abs(orbit.values[0, 1] - orbit.values[0, 0]).max() < 1e-9  # a = 1: a period is 2 pi
+    q, p = kepler.starts(3, seed=7)
+    several = nysalt.run(kepler, "verlet", 0.01, 1, q=q, p=p, observables=names, sample_every=100)
+    drawn = nysalt.run(kepler, "verlet", 0.01, 1, trajectories=3, observables=names, sample_every=100, seed=7)
+    assert np.array_equal(several.values, drawn.values)
+    at_rest = nysalt.run(nysalt.system("pendulum", spread=2.0), "verlet", 0.01, 1, q=[0.5], observables=["q1", "p1"])
+    assert np.array_equal(at_rest.values[0, 0], [0.5, 0])
+    at = nysalt.system("kepler", at="q1=0.4; p2=2")
+    assert np.array_equal(nysalt.run(at, "srkn11b", 2 * np.pi / 640, 2 * np.pi, sample_every=640,
+                                     observables=names).values, orbit.values)
+
+
+def test_a_loop_of_calls_has_new_noise_in_each():
+    count = 400
+    warm = nysalt.system("oscillator", omega=1, friction=1, temperature=1, start="law")
+
+    def temperature_after(**seed):
+        q, p = np.zeros((count, 1)), np.zeros((count, 1))
+        for _ in range(200):
+            q, p = nysalt.integrate(warm, "baoab", 0.1, q, p, 1, **seed)
+        return (q**2).mean()
+
+    # <q^2> = kT, and a mean of 400 squares of normal numbers deviates by .07; 5 deviations.
+    assert abs(temperature_after() - 1) < 0.35
+    assert temperature_after(seed=1) > 5  # the same noise again and again: q drifts by 0.1 p in each step
 
 
 def test_one_state_may_be_a_list_and_steps_may_be_none():

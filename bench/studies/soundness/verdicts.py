@@ -13,8 +13,8 @@ and not whether it is large. Beside that each method is judged again by its coef
 `compare`, and a fit by its file: all must show the same judgement, and a fit that is usable must hold.
 With --seeds N a family is learned with each, and the verdicts of the seeds are compared; other commands are asked of
 the first.
---most N: of the rows that are not there yet only N are made. --again: judgements of methods that are there are made
-again, and what was run stays. Writes verdicts.csv, to which a further call adds, and verdicts.md. Exit code 1 if a
+--most N: of the rows that are not there yet only N are made. --again: the judgements that are there are made again, and
+what was learned and run stays. Writes verdicts.csv, schemes/, to which a further call adds, and verdicts.md. Exit code 1 if a
 promise is broken.
 """
 import argparse
@@ -124,8 +124,8 @@ bench/studies/soundness/verdicts.py build/release/nysalt build/soundness --seeds
 """
 
 
-def row_of(program, system, kind, name, part, step, seed, known=None):
-    """One row; fresh runs of `known` are not made again, if they are as long."""
+def row_of(program, schemes, system, kind, name, part, step, seed, known=None):
+    """One row; fresh runs of `known` are not made again, if they are as long, nor is a scheme learned that is kept."""
     row = {"system": system, "kind": kind, "name": name, "part": part, "step": step, "seed": seed}
     with tempfile.TemporaryDirectory() as folder:
         if kind == "method":
@@ -133,7 +133,16 @@ def row_of(program, system, kind, name, part, step, seed, known=None):
             found, _, said = ask(program, "stability", *SYSTEMS[system], "--method", method, "--step", repr(step),
                                  "--threads", 1)
         else:
-            method = os.path.join(folder, "scheme.json")
+            method = str(schemes / f"{system}_{name}_{part}_{seed}.json")
+            found = None
+            if os.path.exists(method):
+                found, _, said = ask(program, "stability", *SYSTEMS[system], "--method", method, "--step", repr(step),
+                                     "--threads", 1)
+                with open(method, encoding="utf-8") as file:
+                    usable = json.load(file)["usable"]
+                if found is not None:
+                    found["usable"] = usable
+        if found is None and kind == "family":
             found, _, said = ask(program, "learn", *SYSTEMS[system], "--family", name, "--step", repr(step), "--seed",
                                  seed, "--effort", "quick", "--trajectories", 50, "--output", method, "--force",
                                  "--threads", 1)
@@ -241,7 +250,8 @@ def main():
     asked = parser.parse_args()
     if unknown := set(asked.systems.split(",")) - set(SYSTEMS):
         parser.error(f"--systems must name some of {', '.join(SYSTEMS)}, got {', '.join(sorted(unknown))}")
-    asked.folder.mkdir(parents=True, exist_ok=True)
+    schemes = asked.folder / "schemes"
+    schemes.mkdir(parents=True, exist_ok=True)
     table = asked.folder / "verdicts.csv"
     fields = ["system", "kind", "name", "part", "step", "seed", "verdict", "reason", "steps", "share_lost", "error", "growth",
               "contradictions", "twin", "fresh_lost", "fresh_error"]
@@ -251,11 +261,11 @@ def main():
             rows = list(csv.DictReader(file))
     key = lambda row: tuple(str(row[name]) for name in fields[:6])
     if asked.again:
-        made = {key(row): row for row in rows if row["kind"] == "method"}
+        made = {key(row): row for row in rows}
         with ThreadPoolExecutor(asked.jobs) as pool:
-            again = list(pool.map(lambda row: row_of(asked.program, row["system"], row["kind"], row["name"], row["part"],
+            again = list(pool.map(lambda row: row_of(asked.program, schemes, row["system"], row["kind"], row["name"], row["part"],
                                                      float(row["step"]), row["seed"], row), made.values()))
-        rows = again + [row for row in rows if row["kind"] != "method"]
+        rows = again
         with open(table, "w", newline="", encoding="utf-8") as file:
             writer = csv.DictWriter(file, fields, extrasaction="ignore", lineterminator="\n")
             writer.writeheader()
@@ -268,7 +278,7 @@ def main():
         writer = csv.DictWriter(file, fields, extrasaction="ignore", lineterminator="\n")
         if not rows:
             writer.writeheader()
-        for row in pool.map(lambda case: row_of(asked.program, *case), new[:asked.most]):
+        for row in pool.map(lambda case: row_of(asked.program, schemes, *case), new[:asked.most]):
             rows.append(row)
             writer.writerow(row)
             file.flush()

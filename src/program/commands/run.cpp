@@ -28,20 +28,19 @@ namespace {
 
 /// Refuses what would fill the memory, before any work: `run` keeps the samples of a block of trajectories,
 /// and a JSON document all of them.
-void require_room(const run_command& command, std::int64_t steps, bool whole_document, int threads) {
+void require_room(const run_command& command, const trajectories_plan& plan, bool whole_document) {
   constexpr double most = 1e8;  // numbers: about a gigabyte, some more in a document
   const auto columns = static_cast<double>(command.observables.size());
-  const std::int64_t at_once = longest_segment(steps, command.every);
+  const std::int64_t at_once = longest_segment(plan.steps, command.every);
   const std::int64_t apart = at_once / command.sample_every;
   const auto samples = static_cast<double>(apart + 1);
-  const std::int64_t at_a_time =
-      whole_document ? command.trajectories : std::int64_t{default_lanes} * threads;
-  const auto trajectories = static_cast<double>(std::min(command.trajectories, at_a_time));
+  const std::int64_t at_a_time = whole_document ? plan.count : std::int64_t{default_lanes} * plan.threads;
+  const auto trajectories = static_cast<double>(std::min(plan.count, at_a_time));
   if (columns * samples * trajectories <= most) return;
   refuse(
       "run: samples must fit into memory, got {:g} of each of {} trajectories; take a larger "
       "--sample-every{}",
-      samples, command.trajectories, whole_document ? ", or --output to a file" : ", or a --checkpoint");
+      samples, plan.count, whole_document ? ", or --output to a file" : ", or a --checkpoint");
 }
 
 /// NAME.svg and NAME.png beside the output NAME.csv: the observables along the first trajectory, in some
@@ -67,7 +66,7 @@ void draw_run(const run_command& command, const run_output& output, std::int64_t
 
 /// Throws refusal for bad options of the files of a run, before any work.
 void require_files(const run_command& command) {
-  require_table(command.output, command.plot);
+  require_table(command.output, command.plot, true);
   if (command.checkpoint.empty()) {
     if (command.resume) refuse("--resume must come with --checkpoint; name the file to go on from");
     if (command.every) refuse("--every must come with --checkpoint; name the file of the checkpoint");
@@ -109,14 +108,15 @@ json with_times(std::vector<diverged_trajectory> lost, double step) {
 }
 
 /// In words, instead of the document.
-void print_result(const run_command& command, const json& document, bool was_finished) {
+void print_result(const run_command& command, std::int64_t trajectories, const json& document,
+                  bool was_finished) {
   constexpr std::size_t enough = 20;  // lines of warnings
   if (was_finished) {
     print(fmt::format("{} is finished already: nothing was done\n", of_letters(command.output)));
   } else if (!command.output.empty()) {
-    print(fmt::format("{} trajectories of {} steps, {} force evaluations each, {:.3g} s\n",
-                      command.trajectories, document["steps"].get<std::int64_t>(),
-                      document["evaluations"].get<std::int64_t>(), document["seconds"].get<double>()) +
+    print(fmt::format("{} trajectories of {} steps, {} force evaluations each, {:.3g} s\n", trajectories,
+                      document["steps"].get<std::int64_t>(), document["evaluations"].get<std::int64_t>(),
+                      document["seconds"].get<double>()) +
           line_of_written(command.output));
   }
   const json& diverged = document["diverged"];
@@ -127,7 +127,7 @@ void print_result(const run_command& command, const json& document, bool was_fin
   }
   if (diverged.size() > enough) {
     warn(fmt::format("and {} more of {} trajectories diverged: --json names them", diverged.size() - enough,
-                     command.trajectories));
+                     trajectories));
   }
 }
 
@@ -145,7 +145,7 @@ int run(const run_command& asked, const common_settings& common) {
   prepared_problem& system = *planned.system;
   const trajectories_plan& plan = planned.plan;
   on_first(all_ranks(), [&] { require_files(command); });
-  require_room(command, plan.steps, common.json && command.output.empty(), common.threads);
+  require_room(command, plan, common.json && command.output.empty());
 
   const auto began = std::chrono::steady_clock::now();
   require_agreement("methods", planned.question().dump(-1, ' ', false, json::error_handler_t::replace));
@@ -193,7 +193,7 @@ int run(const run_command& asked, const common_settings& common) {
     json document{{"system", system.description()},
                   {"method", command.method},
                   {"step", command.step},
-                  {"trajectories", command.trajectories},
+                  {"trajectories", plan.count},
                   {"sample_every", command.sample_every},
                   {"starts", system.starts()},
                   {"diverged", diverged}};
@@ -215,13 +215,13 @@ int run(const run_command& asked, const common_settings& common) {
     if (common.json) {
       print(text_of(document));
     } else {
-      print_result(command, document, was_finished);
+      print_result(command, plan.count, document, was_finished);
     }
     if (was_finished && output->was_changed()) {
       warn(fmt::format("{} was changed after the run had finished", command.output));
     }
   });
-  const bool all_diverged = agreed(output && std::ssize(output->lost()) == command.trajectories);
+  const bool all_diverged = agreed(output && std::ssize(output->lost()) == plan.count);
   return all_diverged && !was_finished ? no_result : done;
 }
 

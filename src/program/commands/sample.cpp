@@ -83,7 +83,7 @@ void require_new_checkpoint(const sample_command& command) {
 
 /// Throws refusal for bad options of files, before any work.
 void require_files(const sample_command& command) {
-  require_table(command.output, false);
+  require_table(command.output, false, false);
   if (command.checkpoint.empty()) {
     if (command.resume) refuse("--resume must come with --checkpoint; name the file to go on from");
     if (command.every) refuse("--every must come with --checkpoint; name the file of the checkpoint");

@@ -233,7 +233,7 @@ int stability(const stability_command& command, const common_settings& common) {
   const auto system = command.system ? make_system(*command.system) : nullptr;
   std::vector<std::string> warnings;
   const subject target = subject_of(command, system.get(), common.force, warnings);
-  require_table(command.output, command.plot);
+  require_table(command.output, command.plot, false);
   const bool rotates = has_rotation(target.method.letters());
   const bool has_own_letters = target.method.letters().has_own_letters();
   if (has_own_letters && !command.output.empty()) {

@@ -28,7 +28,8 @@ subcommand offer_run(CLI::App& app, common_settings& common) {
       ->required();
   add_number(command, "--step", asked.step, "of the method")->default_str("")->required();
   add_number(command, "--horizon", asked.horizon, "length of each trajectory")->default_str("")->required();
-  add_number(command, "--trajectories", asked.trajectories, "how many");
+  add_number(command, "--trajectories", asked.trajectories,
+             "how many [1, or one for each state that is given]");
   command.add_option("--observables", typed->observables, "what to sample [that of the system]");
   add_number(command, "--sample-every", asked.sample_every, "steps between samples");
   command.add_option("--output", asked.output, "file: CSV, or .h5, .npy [standard output]");

@@ -124,7 +124,16 @@ std::vector<CLI::Option*> add_system(CLI::App& command, system_settings& system,
       command, "--frequency", system.frequency,
       "angular frequency that phase_fitted_... and s_aia... are fitted to [declared, or seen along the "
       "motion]");
-  command.add_option("--start", system.start, start);
+  CLI::Option* file = command.add_option("--start", system.start, start);
+  command
+      .add_option("--at", system.at,
+                  "a state to begin at, 'x=1,y=0; px=0,py=0.5', 0 where nothing is said; several: --at again")
+      ->type_name("TEXT")
+      ->expected(1, 1000)
+      ->take_all()
+      ->excludes(file);
+  add_number(command, "--start-step", system.start_step,
+             "of a --start that run wrote: the step to begin at [the last]");
   std::vector<CLI::Option*> added = command.get_options([](CLI::Option*) { return true; });
   added.erase(added.begin(), added.begin() + static_cast<std::ptrdiff_t>(before));
   return added;

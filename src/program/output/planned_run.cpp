@@ -21,21 +21,26 @@ void require_observables(const run_command& command, const prepared_problem& sys
   require_different("--observables", command.observables);
 }
 
-trajectories_plan plan_of(const run_command& command, const common_settings& common) {
+trajectories_plan plan_of(const run_command& command, const prepared_problem& system,
+                          const common_settings& common) {
   require_positive("--step", command.step);
-  require_at_least_one("--trajectories", command.trajectories);
+  const std::int64_t count = command.trajectories.value_or(system.given_states().value_or(1));
+  require_at_least_one("--trajectories", count);
   constexpr std::int64_t most = std::int64_t{1} << 48U;  // the number of trajectories with noise of their own
-  if (command.trajectories > most)
-    refuse("--trajectories must be at most 2^48 = {}, got {}", most, command.trajectories);
+  if (count > most) refuse("--trajectories must be at most 2^48 = {}, got {}", most, count);
+  system.require_starts("--trajectories", count);
   require_at_least_one("--sample-every", command.sample_every);
   const std::int64_t steps = steps_within("--horizon", command.horizon, command.step);
-  return {command.step, steps, command.trajectories, seed_for(role::test, common.seed), common.threads};
+  return {command.step, steps, count, seed_for(role::test, common.seed), common.threads};
 }
 
 }  // namespace
 
 planned_run::planned_run(const run_command& asked, const common_settings& common)
-    : command(asked), system(make_system(asked.system)), plan(plan_of(asked, common)), seed(common.seed) {
+    : command(asked),
+      system(make_system(asked.system)),
+      plan(plan_of(asked, *system, common)),
+      seed(common.seed) {
   if (command.observables.empty()) command.observables = {system->default_observable()};
   require_observables(command, *system);
   collectively(all_ranks(), [&] { source = find_method(command.method, command.held, system->letters()); });
@@ -70,7 +75,7 @@ json planned_run::question() const {
           {"coefficients", method->coefficients()},
           {"step", command.step},
           {"steps", plan.steps},
-          {"trajectories", command.trajectories},
+          {"trajectories", plan.count},
           {"observables", command.observables},
           {"sample_every", command.sample_every},
           {"seed", seed}};

@@ -26,7 +26,7 @@ run_output::run_output(const planned_run& planned, bool as_json)
       every_(planned.command.every.value_or(0)),
       is_of_arrays_(is_of_arrays(output_)) {
   const run_command& command = planned.command;
-  const sampled_shape shape{command.trajectories, planned.plan.steps / command.sample_every + 1,
+  const sampled_shape shape{planned.plan.count, planned.plan.steps / command.sample_every + 1,
                             command.observables, command.step, command.sample_every};
   if (is_of_arrays_) {
     samples_ = array_writer(output_, shape, planned.about());
