@@ -63,7 +63,7 @@ def systems() -> Dict[str, Dict[str, Any]]:
 
 
 def methods() -> Dict[str, Dict[str, Any]]:
-    """The classical methods: by name letters, order, evaluations a step, stability limit, and source."""
+    """The classical methods: by name aliases, letters, order, evaluations a step, stability limit, and source."""
     return _listed("methods")
 
 

@@ -171,6 +171,23 @@ const std::vector<classical_method>& classical_methods() {
   return all;
 }
 
+const std::vector<method_alias>& method_aliases() {
+  static const std::vector<method_alias> all{
+      {"velocity_verlet", "verlet"}, {"leapfrog", "verlet"},
+      {"stormer_verlet", "verlet"},  {"position_verlet", "verlet_aba"},  // drift, kick, drift
+      {"yoshida4", "forest_ruth"},  // three steps of verlet_aba [forest_ruth_1990]
+      {"omf4", "omelyan5v"},        // of lattice field theory
+  };
+  return all;
+}
+
+std::string canonical_method(const std::string& typed) {
+  const auto end = std::min(typed.rfind('@'), typed.size());
+  const auto found =
+      std::ranges::find(method_aliases(), std::string_view(typed).substr(0, end), &method_alias::alias);
+  return found == method_aliases().end() ? typed : std::string(found->name) + typed.substr(end);
+}
+
 namespace {
 
 std::optional<fitted_frequency> to_fit(const prepared_problem& system) { return system.frequency_to_fit(); }
@@ -208,6 +225,12 @@ std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const auto& known : classical_methods()) names.push_back(known.method.name());
   for (const auto& known : adaptive_methods()) names.push_back(known.name);
+  return names;
+}
+
+std::vector<std::string> method_names_and_aliases() {
+  auto names = method_names();
+  for (const auto& [alias, name] : method_aliases()) names.emplace_back(alias);
   return names;
 }
 

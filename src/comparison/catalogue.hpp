@@ -57,6 +57,15 @@ struct classical_method {
 };
 const std::vector<classical_method>& classical_methods();
 
+/// Another name of a method, by which other programs or textbooks call it.
+struct method_alias {
+  std::string_view alias;
+  std::string_view name;
+};
+const std::vector<method_alias>& method_aliases();
+/// The method's own name for an alias, with the @PLACEMENT that follows it; any other text as it is.
+std::string canonical_method(const std::string& typed);
+
 coordinates coordinates_named(const std::string& name);
 
 /// quick, normal or thorough. Throws refusal for anything else.
@@ -74,8 +83,10 @@ struct adaptive_method {
 };
 const std::vector<adaptive_method>& adaptive_methods();
 
-/// All names that `--method` takes, beside files.
+/// All names that `--method` takes, beside aliases and files.
 std::vector<std::string> method_names();
+/// The same and aliases, for suggestions.
+std::vector<std::string> method_names_and_aliases();
 /// What stands for all of them that apply.
 inline constexpr std::string_view every_method = "all";
 

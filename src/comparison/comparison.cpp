@@ -81,11 +81,12 @@ void comparison::name_methods() {
   const std::vector<std::string>& typed = options_.methods;
   for (const auto& name : typed) {
     if (name != every_method || options_.held.contains(name)) {
-      names.push_back(name);
+      names.push_back(options_.held.contains(name) ? name : canonical_method(name));
       continue;
     }
     for (const auto& known : method_names()) {
-      if (std::ranges::count(typed, known) == 0 && of_all_.insert(known).second) names.push_back(known);
+      if (std::ranges::count(typed, known, canonical_method) == 0 && of_all_.insert(known).second)
+        names.push_back(known);
     }
   }
   options_.methods = std::move(names);

@@ -55,15 +55,16 @@ method_source find_method(const std::string& typed, const held_methods& held,
     take_file(source, method_file_in(found->second, typed, of_system));
     return source;
   }
-  std::string text = typed;
-  if (const auto at = typed.rfind('@'); at != std::string::npos && !is_file_name(typed)) {
-    source.where = placement_named(typed.substr(at + 1));
-    text = typed.substr(0, at);
+  source.typed = canonical_method(typed);
+  std::string text = source.typed;
+  if (const auto at = text.rfind('@'); at != std::string::npos && !is_file_name(text)) {
+    source.where = placement_named(text.substr(at + 1));
+    text.resize(at);
   } else if (at != std::string::npos) {
     for (const auto known : placements) {  // any other @ is part of the file's name
-      if (typed.substr(at + 1) != to_string(known)) continue;
+      if (source.typed.substr(at + 1) != to_string(known)) continue;
       source.where = known;
-      text = typed.substr(0, at);
+      text = source.typed.substr(0, at);
     }
   }
   for (const auto& known : classical_methods()) {
@@ -83,7 +84,7 @@ method_source find_method(const std::string& typed, const held_methods& held,
   } else if (is_file_name(text)) {
     take_file(source, read_method_file(text, of_system));
   } else {
-    auto known = method_names();
+    auto known = method_names_and_aliases();
     for (const auto& name : family_names()) known.push_back(std::string(to_learn) + name);
     constexpr const char* otherwise = "nysalt list shows all; a method may also be a file NAME.json";
     refuse("unknown method '{}': {}", text, did_you_mean(text, known, otherwise));

@@ -143,7 +143,10 @@ std::string source_of(const typed_potential& typed) {
           "'{}'; choose another",
           name);
   }
-  const std::string code = translated(typed.text, variables, parameters);
+  std::string text = typed.text;
+  std::ranges::replace_if(
+      text, [](char c) { return c == '\n' || c == '\r'; }, ' ');  // of a file of options
+  const std::string code = translated(text, variables, parameters);
   for (const auto& name : parameters) {
     if (has_word(code, "p_" + name)) continue;
     refuse("--parameter must be of the potential, got {}, which is not in it; leave {} away", name, name);
@@ -196,8 +199,8 @@ std::string source_of(const typed_potential& typed) {
   source += fmt::format(
       "  std::string description() const {{\n    return nysalt::sentence(\"given_potential({}{}{})\"{});\n  "
       "}}\n}};\n\n",
-      typed.text, of_variables + of_masses, shown, values);
-  source += fmt::format("NYSALT_SYSTEM(given_potential, \"V = {}\"", typed.text);
+      text, of_variables + of_masses, shown, values);
+  source += fmt::format("NYSALT_SYSTEM(given_potential, \"V = {}\"", text);
   for (const auto& name : parameters)
     source += fmt::format(",\n  parameter(\"{0}\", &given_potential::p_{0}, \"of V\")", name);
   source +=

@@ -35,14 +35,15 @@ std::string_view source_of_system(const std::string& name) {
   return declaration_of(name).source;
 }
 
-std::string_view source_of_method(const std::string& name) {
+std::string_view source_of_method(const std::string& typed) {
+  const std::string name = canonical_method(typed);
   for (const auto& known : adaptive_methods()) {
     if (known.name == name) return known.source;
   }
   for (const auto& known : classical_methods()) {
     if (known.method.name() == name) return known.source;
   }
-  refuse("unknown method '{}': {}", name, did_you_mean(name, method_names()));
+  refuse("unknown method '{}': {}", name, did_you_mean(name, method_names_and_aliases()));
 }
 
 void add_metric(const std::string& typed, collected& to) {

@@ -118,7 +118,7 @@ columns_of_starts columns_of(const std::string& file, const std::vector<std::str
     const std::string& name = names[k];
     if (const auto at = place_of(name, coordinates, count)) {
       auto& column = found[at->is_momentum ? 1 : 0][static_cast<std::size_t>(at->index)];
-      if (column != none) refuse("--start {}: columns must differ, got {} twice", file, name);
+      if (column != none) refuse("--start {}: columns must differ, got {} by two names", file, name);
       column = k;
       continue;
     }
@@ -231,19 +231,15 @@ initial_states starts_in(const std::string& file, const initial_value_problem& m
              file);
     }
   };
-  read_csv("--start", file, header, [&](std::size_t number, const std::vector<std::string_view>& cells) {
-    const auto value = [&](std::size_t column, std::string_view stem, std::size_t i) {
-      return number_in_cell(cells[column],
-                            [&] { return fmt::format("{}: line {}, {}{}", file, number, stem, i + 1); });
-    };
+  read_csv("--start", file, header, [&](csv_row& row) {
     phase_point<double, Eigen::Dynamic> x{Eigen::VectorXd(count), Eigen::VectorXd::Zero(count)};
     for (std::size_t i = 0; i < columns.q.size(); ++i)
-      x.q[static_cast<Eigen::Index>(i)] = value(columns.q[i], "q", i);
+      x.q[static_cast<Eigen::Index>(i)] = row.number(columns.q[i]);
     for (std::size_t i = 0; i < columns.p.size(); ++i)
-      x.p[static_cast<Eigen::Index>(i)] = value(columns.p[i], "p", i);
+      x.p[static_cast<Eigen::Index>(i)] = row.number(columns.p[i]);
     states.push_back(std::move(x));
     if (columns.trajectory && columns.step)
-      labels.emplace_back(value(*columns.trajectory, "trajectory", 0), value(*columns.step, "step", 0));
+      labels.emplace_back(row.number(*columns.trajectory), row.number(*columns.step));
   });
   if (!labels.empty()) {
     states = at_one_step(file, step, labels, std::move(states));

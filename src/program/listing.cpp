@@ -49,6 +49,14 @@ json systems_json(const std::string& own_system) {
   return all;
 }
 
+json aliases_of(std::string_view method) {
+  json all = json::array();
+  for (const auto& [alias, name] : method_aliases()) {
+    if (name == method) all.push_back(alias);
+  }
+  return all;
+}
+
 json methods_json() {
   json all = json::array();
   for (const auto& [method, source] : classical_methods()) {
@@ -56,6 +64,7 @@ json methods_json() {
     json limit = nullptr;  // of words that rotate it depends on the system
     if (!has_rotation(method.letters())) limit = limit_of(method) / evaluations;
     all.push_back({{"name", method.name()},
+                   {"aliases", aliases_of(method.name())},
                    {"letters", method.letters().letters()},
                    {"order", method.order},
                    {"evaluations_per_step", evaluations},
@@ -64,6 +73,7 @@ json methods_json() {
   }
   for (const auto& known : adaptive_methods()) {
     all.push_back({{"name", known.name},
+                   {"aliases", aliases_of(known.name)},
                    {"letters", known.letters.letters()},
                    {"order", known.properties.order},
                    {"evaluations_per_step", known.letters.evaluations_per_step},

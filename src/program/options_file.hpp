@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "toml_options.hpp"
+
 namespace nysalt::program {
 
 std::vector<std::string> command_names(const CLI::App& app);
@@ -18,14 +20,18 @@ std::string help_of(const CLI::App& command);
 std::string system_in_options_file(const std::string& file, const std::string& command);
 
 /// TOML. Options outside of a [section] belong to the command that runs, and so do those of its section.
-class options_file : public CLI::ConfigTOML {
+class options_file : public CLI::Config {
  public:
   explicit options_file(const CLI::App& app) : app_(app) {}
 
+  /// Options that were given, a line each: what manifests record, and --config takes.
+  std::string to_config(const CLI::App* app, bool default_also, bool write_description,
+                        std::string prefix) const override;
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
 
  private:
-  void require_known(const CLI::ConfigItem& item) const;
+  /// Throws refusal for an unknown section or option, and for a value of another kind than the option takes.
+  void require_known(const toml_option& option, const std::string& running, const std::string& where) const;
 
   const CLI::App& app_;
 };

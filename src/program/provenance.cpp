@@ -109,7 +109,7 @@ void add_entry(const json& entry, const fs::path& result, const fs::path& manife
 /// Whether a method is a file of coefficients of the user, perhaps with a placement behind it. Its letters
 /// may be those of a system, and are not read.
 bool is_table(const std::string& typed) {
-  if (const auto names = method_names(); std::ranges::count(names, typed) > 0) return false;
+  if (const auto names = method_names(); std::ranges::count(names, canonical_method(typed)) > 0) return false;
   return std::ranges::any_of(std::vector{typed, typed.substr(0, typed.rfind('@'))}, [](const fs::path& file) {
     const json document = document_in(file, longest_method_file);
     return document.is_object() && document.contains("format") && document["format"] == table_format;

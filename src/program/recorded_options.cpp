@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "recorded_options.hpp"
 
-#include <CLI/CLI.hpp>
-#include <sstream>
-
 #include "comma_list.hpp"
 #include "comparison/number.hpp"
+#include "toml_options.hpp"
 
 namespace nysalt::program {
 
 recorded_options::recorded_options(const std::string& toml) {
-  std::istringstream text(toml);
-  for (const auto& item : CLI::ConfigTOML().from_config(text)) {
-    if (!item.parents.empty()) command_ = item.parents.front();
-    for (const auto& joined : item.inputs) {
-      for (const auto& one : split_at_commas(joined)) all_.emplace_back(item.name, one);
+  for (const auto& option : options_in_toml(toml, "options")) {
+    if (!option.section.empty()) command_ = option.section;
+    for (const auto& joined : option.values) {
+      for (const auto& one : split_at_commas(joined)) all_.emplace_back(option.name, one);
     }
   }
 }

@@ -42,7 +42,13 @@ std::string readable(const json& all) {
     methods.add({m["name"], m["letters"], m["order"].dump(), m["evaluations_per_step"].dump(),
                  limit.is_null() ? "it depends" : fmt::format("{:.4f}", limit.get<double>())});
   }
-  text += methods.text() + "\nFamilies that can be learned:\n\n";
+  text += methods.text();
+  for (const auto& m : all["methods"]) {
+    std::string aliases;
+    for (const std::string alias : m["aliases"]) aliases += (aliases.empty() ? "" : ", ") + alias;
+    if (!aliases.empty()) text += fmt::format("\n{} is also {}.", m["name"].get<std::string>(), aliases);
+  }
+  text += "\n\nFamilies that can be learned:\n\n";
   table of_families({"family", "letters", "parameters", "order", "evaluations"}, 3);
   for (const auto& f : all["families"]) {
     std::string parameters;

@@ -44,6 +44,7 @@ planned_run::planned_run(const run_command& asked, const common_settings& common
   if (command.observables.empty()) command.observables = {system->default_observable()};
   require_observables(command, *system);
   collectively(all_ranks(), [&] { source = find_method(command.method, command.held, system->letters()); });
+  command.method = source.typed;  // of an alias the name
   method = coefficients_at(source, *system, command.step, common.force, placement_asked(command.placement),
                            warnings);
 }

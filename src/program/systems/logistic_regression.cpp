@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
-#include "comparison/number.hpp"
+#include "comparison/did_you_mean.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/ensembles/normal_around.hpp"
 #include "nysalt/noises/counter_based.hpp"
@@ -31,22 +32,24 @@ labelled_rows rows_of(const std::string& file, const std::string& label) {
   std::vector<double> values;  // row by row
   const auto header = [&](const std::vector<std::string>& found) {
     names = found;
-    if (names.size() < 2) refuse("--data {}: it must have a predictor and a label, got one column", file);
+    if (names.size() < 2) {
+      refuse(
+          "--data {}: it must have a predictor and a label, got one column '{}'; separate columns by commas, "
+          "semicolons or tabs",
+          file, names.front());
+    }
     const auto named = std::ranges::find(names, label);
     if (!label.empty() && named == names.end()) {
-      refuse("unknown label '{}' of {}: it is one of {}", label, file,
-             fmt::format("{}", fmt::join(names, ", ")));
+      refuse("unknown label '{}' of {}: {}", label, file,
+             did_you_mean(label, names, "the first line of the file has all names"));
     }
     at = label.empty() ? names.size() - 1 : static_cast<std::size_t>(named - names.begin());
   };
-  read_csv("--data", file, header, [&](std::size_t number, const std::vector<std::string_view>& cells) {
-    for (std::size_t j = 0; j < cells.size(); ++j) {
-      values.push_back(number_in_cell(
-          cells[j], [&] { return fmt::format("--data {}: line {}, {}", file, number, names[j]); }));
-    }
-    const double found = values[values.size() - cells.size() + at];
+  read_csv("--data", file, header, [&](csv_row& row) {
+    for (std::size_t j = 0; j < row.size(); ++j) values.push_back(row.number(j));
+    const double found = values[values.size() - row.size() + at];
     if (found != 0.0 && found != 1.0) {
-      refuse("--data {}: line {}, {} must be 0 or 1 as a label, got {}", file, number, names[at], cells[at]);
+      refuse("{} must be 0 or 1 as a label, got {}", row.place(at), row.text(at));
     }
   });
   if (values.empty()) refuse("--data {}: it must have a row beside the line of names", file);
@@ -84,17 +87,27 @@ labelled_rows example_rows() {
   return result;
 }
 
-/// Mean 0 and deviation 1 of each column. Throws refusal for one that is constant.
+/// Mean 0 and deviation 1 of each column. Throws refusal for one that is constant but for rounding.
 void standardise(Eigen::MatrixXd& predictors) {
+  constexpr double eps = std::numeric_limits<double>::epsilon();
   for (Eigen::Index j = 0; j < predictors.cols(); ++j) {
     auto column = predictors.col(j).array();
-    column -= column.mean();
-    const double deviation = std::sqrt(column.square().mean());
-    if (!(deviation > 0.0)) {
-      refuse("--standardise: predictor {} must vary, and all its values are equal; leave the column away",
-             j + 1);
+    // By a power of two, so that the largest magnitude is in [1/2, 1): squares neither overflow nor vanish.
+    int exponent = 0;
+    std::frexp(column.abs().maxCoeff(), &exponent);
+    for (double& x : column) x = std::ldexp(x, -exponent);
+    // Values of one constant, each of at most four roundings by eps/2, differ by at most 4 eps.
+    if (!(column.maxCoeff() - column.minCoeff() > 4.0 * eps)) {
+      refuse(
+          "--standardise: predictor {} must vary, and all its values are equal but for rounding; leave the "
+          "column away",
+          j + 1);
     }
-    column /= deviation;
+    column -= column.mean();
+    // A mean beyond what n roundings by eps/2 make of 0, twice that to be sure, is that of the first mean.
+    const double rest = column.mean();
+    if (std::abs(rest) > static_cast<double>(column.size()) * eps * column.abs().maxCoeff()) column -= rest;
+    column /= std::sqrt(column.square().mean());
   }
 }
 
