@@ -134,9 +134,10 @@ stepper<S, typename M::word, double, Noise> make_stepper(const S& system, const 
   }
   if (method.requires_quadratic_kinetic &&
       !has_quadratic_kinetic(system)) {  // known before only of a type-level method
-    throw std::invalid_argument(
-        sentence("{}: the kinetic energy must be quadratic for the order of the method, got that of {}",
-                 method.name(), describe(system)));
+    throw std::invalid_argument(sentence(
+        "{}: the kinetic energy must be quadratic for the order of the method, got that of {}; take a "
+        "method of any K(p), as blanes_moan_s10",
+        method.name(), describe(system)));
   }
   return {system, word_of(method), method.coefficients(), step, noise};
 }

@@ -55,11 +55,6 @@ struct frequency_of_system {
 template <Flow... L>
 struct letters_of_system {};
 
-template <class S>
-concept TellsDescription = requires(const S& s) {
-  { s.description() } -> std::convertible_to<std::string>;
-};
-
 /// S with a description that names the parameters, and a kind that names those that are no size, where S
 /// itself does not give them.
 template <class S>
@@ -254,9 +249,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
       }
     }
     initial_value_problem made = [&] {
-      constexpr bool declares_kind = requires(const S& s) {
-        { s.kind() } -> std::convertible_to<std::string>;
-      };
+      constexpr bool declares_kind = detail::TellsKind<S>;
       if constexpr (detail::TellsDescription<S>) {
         if (declares_kind || !has_size) return detail::made_of(system, in, law.front(), highest);
       }

@@ -32,6 +32,7 @@
 #include <typeinfo>
 #include <vector>
 
+#include "nysalt/detail/name_of_type.hpp"
 #include "nysalt/phase_point.hpp"
 #include "nysalt/scalars/dual.hpp"
 
@@ -85,6 +86,11 @@ concept HasForce =
     requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) { s.force(q, f); };
 
 namespace detail {
+/// The system whose members a user wrote: of a wrapper of the library, which has each member only where the
+/// wrapped system has it, that system.
+template <class S>
+struct written_system : std::type_identity<S> {};
+
 /// The class in which a member function is written.
 template <class M>
 struct written_in;
@@ -327,7 +333,7 @@ vector<T, S::dimension> make_vector(const S& system) {
 }
 
 /// Description of a system, by which a learned method refuses another system. Without a description a
-/// system is known only by its type and size: let yours name its parameters.
+/// system is known only by the name of its type and its size: let yours name its parameters.
 template <System S>
 std::string describe(const S& system) {
   if constexpr (requires {
@@ -335,7 +341,7 @@ std::string describe(const S& system) {
                 }) {
     return system.description();
   } else {
-    std::string name = typeid(S).name();  // in steps: g++ 12 warns wrongly about a chain of +
+    std::string name = detail::name_of_type(typeid(S));  // in steps: g++ 12 warns wrongly about a chain of +
     name += " with ";
     name += std::to_string(size(system));
     name += " degrees of freedom";

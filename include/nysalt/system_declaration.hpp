@@ -135,7 +135,8 @@ struct initial_value_problem {
   std::vector<named_observable> observables{};  ///< observables beyond those of every system
   std::vector<declared_letter> letters{};       ///< letters beyond those of the library
   std::string default_observable = "energy";    ///< observable where none is named
-  double fine_angle = 5e-3;  ///< step of a reference times the frequency: there srkn11b errs by rounding
+  double fine_angle =
+      5e-3;  ///< step of a reference times the frequency: there a reference of order 6 errs by rounding
   detail::stiff_springs springs{};                       ///< springs of a system with stiff_energy(x, j)
   bool has_exact_flow = false;                           ///< small steps then have a fixed angle
   std::shared_ptr<const detail::any_reference> exact{};  ///< exact flow of the system, if known

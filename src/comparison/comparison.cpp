@@ -198,7 +198,7 @@ std::string comparison::why_not(const method_source& source) const {
   } catch (const refusal& problem) {
     return problem.what();
   }
-  return {};
+  return objection_to_order(source, *system_);
 }
 
 /// A scheme file has a row where its own step is asked for, and nowhere else.

@@ -79,7 +79,7 @@ class comparison {
  private:
   using group = std::vector<row*>;  // of one step size
 
-  static constexpr double reference_evaluations = 11.0;  // of srkn11b, a step
+  static constexpr double reference_evaluations = 11.0;  // of one of order 6, a step
   static constexpr double fine_angle = 0.05;             // usual of such a step, of the fastest motion
 
   void name_metrics();

@@ -123,6 +123,7 @@ std::optional<rival_judgement> loses_fewest(const tabulated& method, const prepa
   if (found.holds() || found.verdict == step_verdict::not_tried || system.heat_bath().acts())
     return std::nullopt;
   const auto is_served = [&](const tabulated& other) {
+    if (other.requires_quadratic_kinetic && !has_quadratic_kinetic(system.definition().system)) return false;
     try {
       system.require_served(other.letters());
       return true;

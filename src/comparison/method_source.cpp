@@ -92,6 +92,14 @@ method_source find_method(const std::string& typed, const held_methods& held,
   return source;
 }
 
+std::string objection_to_order(const method_source& source, const prepared_problem& system) {
+  const bool needs_quadratic = source.fixed      ? source.fixed->requires_quadratic_kinetic
+                               : source.adaptive ? source.adaptive->properties.requires_quadratic_kinetic
+                                                 : false;
+  if (!needs_quadratic || has_quadratic_kinetic(system.definition().system)) return {};
+  return "its order is for K = p^2/2m";
+}
+
 void charge(method_source& source, const prepared_problem& system) {
   source.evaluations_per_step += (system.derivative_calls() - 1) * source.force_derivatives;
 }

@@ -35,6 +35,10 @@ method_source find_method(const std::string& text, const held_methods& held = {}
 /// What a step costs with a system: differences of a black box call it twice for each f'(q) v.
 void charge(method_source& source, const prepared_problem& system);
 
+/// Why the order of a classical method is not its own on a system: its kinetic energy is not quadratic. Empty
+/// where it is.
+std::string objection_to_order(const method_source& source, const prepared_problem& system);
+
 /// The frequency that the coefficients follow from, on a system; nothing of other methods, and where none is
 /// known.
 std::optional<fitted_frequency> frequency_of(const method_source& source, const prepared_problem& system);

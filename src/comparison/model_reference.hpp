@@ -8,9 +8,11 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "nysalt/detail/any_reference.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -34,57 +36,58 @@ inline double fine_step_within(double step, std::optional<double> asked, double 
   return fine;
 }
 
-/// Of a system with frequencies up to `frequency`; a fine step goes through `angle` of the fastest motion.
+/// The method of small steps: in a bath BAOAB, else of order 6, SRKN11b where the kinetic energy is
+/// quadratic.
+inline tabulated method_of_reference(const model& system) {
+  if (system.bath().acts()) return tabulated(baoab{});
+  return has_quadratic_kinetic(system) ? tabulated(srkn11b{}) : tabulated(blanes_moan_s10{});
+}
+
+/// Of a system with frequencies up to `frequency`, or of none that is known, 0; a fine step goes through
+/// `angle` of the fastest motion.
 class model_reference {
  public:
-  model_reference(const bath& in, double frequency, double angle, bool has_exact_flow,
+  model_reference(const model& system, double frequency, double angle, bool has_exact_flow,
                   std::shared_ptr<const detail::any_reference> exact)
-      : bath_(&in),
+      : method_(method_of_reference(system)),
+        bath_(&system.bath()),
         frequency_(frequency),
         angle_(angle),
         has_exact_flow_(has_exact_flow),
         exact_(std::move(exact)) {}
 
   /// That of the reference at a step whose noise is wanted in parts; nothing where the flow is known exactly.
-  /// The error of srkn11b is rounding then. BAOAB errs along a noisy path to first order in the step: where
+  /// The error of order 6 is rounding then. BAOAB errs along a noisy path to first order in the step: where
   /// nothing is stiff, a hundredth of what is learned (detail::objection) takes finer steps than frequencies
   /// suggest.
   std::optional<double> fine_step(double step, std::optional<double> asked, int parts) const {
     if (is_exact() && !asked) return std::nullopt;
-    constexpr double fine_steps_in_bath = 200.0;  // as in the paper, at its step .02
-    const double most = angle_ / fastest();
-    const bool is_noisy = bath_->acts();
-    return fine_step_within(step, asked, is_noisy ? std::min(most, step / fine_steps_in_bath) : most,
-                            std::max(parts, 1));
+    const double few = step / fine_steps;
+    const double most = longest(step, angle_);
+    return fine_step_within(step, asked, bath_->acts() ? std::min(most, few) : most, std::max(parts, 1));
   }
 
   detail::reference_value at(double step, std::optional<double> asked, int parts) const {
     const auto fine = fine_step(step, asked, parts);
     if (!fine) return detail::reference_value(exact_);
-    const auto described = [&](const tabulated& method) {
-      return fmt::format("{} with step {:.12g}", method.name(), *fine);
-    };
-    if (bath_->acts()) {
-      const tabulated method(baoab{});
-      return detail::reference_value(detail::small_steps_on_paths(method, *fine, 0, described(method)));
-    }
-    const tabulated method(srkn11b{});
-    return detail::reference_value(detail::small_steps(method, *fine, described(method)));
+    const std::string described = fmt::format("{} with step {:.12g}", method_.name(), *fine);
+    return detail::reference_value(bath_->acts() ? detail::small_steps_on_paths(method_, *fine, 0, described)
+                                                 : detail::small_steps(method_, *fine, described));
   }
 
-  /// To rank methods by errors far above rounding: srkn11b at ten times the step leaves little more, and what
+  /// To rank methods by errors far above rounding: order 6 at ten times the step leaves little more, and what
   /// it leaves is measured. Nothing where the usual one is wanted.
   std::optional<double> fine_step_for_ranking(double step) const {
     if (is_exact() || bath_->acts()) return std::nullopt;
     constexpr double angle = 0.05;
-    return fine_step_within(step, {}, angle / fastest());
+    return fine_step_within(step, {}, longest(step, angle));
   }
 
   /// For statistics only: their bias by BAOAB is of second order, and the floor of sampling is high. A tenth
   /// of the step at most, or a small step would be compared with itself.
   double fine_step_for_statistics(double step, std::optional<double> asked) const {
     constexpr double angle = 0.05;
-    return fine_step_within(step, asked, std::min(angle / fastest(), 0.1 * step));
+    return fine_step_within(step, asked, std::min(longest(step, angle), 0.1 * step));
   }
 
   double fastest() const { return std::max(frequency_, bath_->friction()); }
@@ -92,6 +95,16 @@ class model_reference {
  private:
   bool is_exact() const { return has_exact_flow_ && !bath_->acts(); }
 
+  static constexpr double fine_steps = 200.0;  // in a step, as in the paper in a bath at the step .02
+
+  /// The fine step by its angle. Where nothing is known of the motion, of a step of `fine_steps`, and of
+  /// fewer for a larger angle: what they err by is measured.
+  double longest(double step, double angle) const {
+    constexpr double usual = 5e-3;
+    return fastest() > 0.0 ? angle / fastest() : step / fine_steps * std::max(1.0, angle / usual);
+  }
+
+  tabulated method_;
   const bath* bath_;
   double frequency_;
   double angle_;

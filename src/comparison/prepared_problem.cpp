@@ -56,6 +56,7 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
       frequency_asked_(conditions.frequency) {
   if (conditions.starts) made_.starts = conditions.starts(made_);
   for (const auto& one : made_.letters) letters_.push_back(one.named);
+  if (made_.frequency == 0.0) made_.frequency = conditions.frequency.value_or(0.0);
   require_square_of_frequency(description(), made_.frequency);
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
   if (start_ != start::law && !has_frequency_bands(made_.system)) {

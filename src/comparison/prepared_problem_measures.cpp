@@ -37,10 +37,6 @@ trajectory_options options_of(const trajectories_plan& plan, const counter& prog
 // The end of a timed run, so that the compiler removes none.
 volatile double end_of_run = 0.0;
 
-tabulated method_of_reference(const bath& in) {
-  return in.acts() ? tabulated(baoab{}) : tabulated(srkn11b{});
-}
-
 /// Requirements of exchanges of energies on a system.
 struct sprung_system {
   static constexpr int dimension = Eigen::Dynamic;
@@ -146,7 +142,7 @@ gathered_statistics prepared_problem::reference_statistics(const statistics_plan
   fine_plan.trajectories.step = plan.trajectories.step / static_cast<double>(finer);
   fine_plan.trajectories.steps *= finer;
   fine_plan.every *= finer;
-  return statistics(method_of_reference(made_.system.bath()), fine_plan, name, progress);
+  return statistics(method_of_reference(made_.system), fine_plan, name, progress);
 }
 
 double prepared_problem::fastest_rate() const { return reference().fastest(); }
@@ -156,7 +152,7 @@ std::optional<double> prepared_problem::fine_step_for_ranking(double step) const
 }
 
 std::string prepared_problem::reference_of_statistics(double step, std::optional<double> fine_step) const {
-  return fmt::format("{} with step {:.12g}", method_of_reference(made_.system.bath()).name(),
+  return fmt::format("{} with step {:.12g}", method_of_reference(made_.system).name(),
                      reference().fine_step_for_statistics(step, fine_step));
 }
 
@@ -210,7 +206,7 @@ error_measure prepared_problem::measure_named(const asked_metric& metric) const 
 }
 
 model_reference prepared_problem::reference() const {
-  return {made_.system.bath(), made_.frequency, made_.fine_angle, made_.has_exact_flow, made_.exact};
+  return {made_.system, made_.frequency, made_.fine_angle, made_.has_exact_flow, made_.exact};
 }
 
 }  // namespace nysalt::program

@@ -26,6 +26,10 @@ void recommendation::require_sound_command() {
   if (options_.budget_seconds) require_positive("--budget-seconds", *options_.budget_seconds);
   if (options_.error) require_positive("--error", *options_.error);
   require_positive("--horizon", options_.horizon);
+  if (!(system_->fastest_rate() > 0.0)) {
+    refuse("recommend: {} must have a frequency, from which steps are chosen, got none; give --frequency",
+           system_->description());
+  }
   if (options_.learning.purpose == for_sampling) {
     refuse(
         "--for must be state, energy or distribution for runs, got sampling; call recommend_for_sampling()");
@@ -115,6 +119,9 @@ void recommendation::consider(candidate contender) {
     const bool is_asked = contender.is_learned() && !options_.families.empty();
     if (is_asked) leave_out("it is not symplectic, and for sampling only");
     return;
+  }
+  if (const std::string why = objection_to_order(contender.source, *system_); !why.empty()) {
+    return leave_out(why);
   }
   try {
     const auto otherwise = placement_asked(options_.placement);

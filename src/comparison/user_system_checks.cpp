@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nysalt/derivatives/check_force.hpp"
+#include "nysalt/derivatives/frequencies_at.hpp"
 #include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/ensemble.hpp"
 #include "observables.hpp"
@@ -57,22 +58,21 @@ void require_force(const initial_value_problem& made, const std::string& name) {
   if (!found.passed()) refuse("cannot take {}: {}", name, found.report());
 }
 
-/// Of a system that declares no frequency: the highest frequency, or rate at which motions
-/// part, along 64 starts.
-double frequency_of(const initial_value_problem& made, const std::string& name) {
+/// Of a system that declares no frequency: the highest frequency, or rate at which motions part, along 64
+/// starts; 0 where the force is the same at all of them, and where they do not show it.
+double frequency_of(const initial_value_problem& made) {
   constexpr Eigen::Index most = 1000;  // coordinates
-  if (size(made.system) > most || !has_quadratic_kinetic(made.system)) {
-    refuse("{}: the highest frequency must be declared, got none; declare frequency(...)", name);
-  }
+  if (size(made.system) > most) return 0.0;
   std::vector<phase_point<double, Eigen::Dynamic>> starts;
   for (std::int64_t n = 0; n < 64; ++n) starts.push_back(sound_start(made.system, made.starts, 1, n));
-  const auto stiffness = hessian_spectrum(made.system, starts);
-  const double found = std::sqrt(std::max({stiffness.highest, -stiffness.lowest, 0.0}));
-  if (found > 0.0 && std::isfinite(found)) return found;
-  refuse(
-      "{}: the force must differ between initial states for a frequency to be estimated; declare "
-      "frequency(...)",
-      name);
+  double found = 0.0;
+  if (has_quadratic_kinetic(made.system)) {
+    const auto stiffness = hessian_spectrum(made.system, starts);
+    found = std::sqrt(std::max({stiffness.highest, -stiffness.lowest, 0.0}));
+  } else {
+    found = frequencies_of_states(made.system, starts).highest().frequency;
+  }
+  return std::isfinite(found) ? found : 0.0;
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ void examine(initial_value_problem& made, const std::string& name) {
     refuse("{}: frequency(...) must be positive and finite, got {}", name, made.frequency);
   }
   require_force(made, name);
-  if (made.frequency == 0.0) made.frequency = frequency_of(made, name);
+  if (made.frequency == 0.0) made.frequency = frequency_of(made);
 }
 
 }  // namespace nysalt::program

@@ -111,14 +111,30 @@ inline void use(const wall& system) {
 }  // namespace branch_between_lanes
 
 // expect: nysalt: inverse_mass is not of the form `double inverse_mass(Eigen::Index i) const`
-// expect: nysalt: kinetic_energy is not of the form `template <class T> T kinetic_energy(p) const`
+// expect: nysalt: kinetic_energy is not of the form `template <class T> T kinetic_energy(p) const`, as K
+//   depends on p alone
 // expect: nysalt: kick is not of the form `template <class T, class C> void kick(q, p, c) const`
 // expect: nysalt: frequency_bands is not of the form `std::vector<nysalt::frequency_band> frequency_bands()
 //   const`
 // expect: nysalt: force_cost is not of the form `double force_cost() const`
 // expect: nysalt: bath is not of the form `const nysalt::bath& bath() const`; see systems/in_bath.hpp
 // expect: nysalt: velocity(p, v) must be differentiable, and takes double only; make it a template
+// expect: nysalt: force is not of the form `template <class T> void force(q, f) const`, which writes its
+// value
+//   into f
+// expect: nysalt: description is not of the form `std::string description() const`
 namespace members_of_another_form {
+struct valued : well {
+  // [force_by_value]
+  template <class T>
+  nysalt::vector<T, 1> force(const nysalt::vector<T, 1>& q) const {
+    return q * -2.0;
+  }
+  // [/force_by_value]
+};
+struct named : well {
+  std::string description = "a well";
+};
 struct mass : well {
   // [inverse_mass_not_const]
   double inverse_mass(Eigen::Index) { return 0.5; }
@@ -166,10 +182,48 @@ void step_all() {
   (step(either<well, Systems>()), ...);
 }
 inline void use(const nysalt::phase_point<double, 1>& x) {
-  step_all<mass, kinetic, kicked, banded, priced, in_a_bath>();
+  step_all<mass, kinetic, kicked, banded, priced, in_a_bath, valued, named>();
   nysalt::symplecticity_defect(either<well, half_differentiable>(), nysalt::verlet(), 0.1, x);
 }
 }  // namespace members_of_another_form
+
+// expect: nysalt: a member of a name such as mass or masses is not used; give masses by `double
+//   inverse_mass(Eigen::Index i) const`, or rename it
+// expect: nysalt: a member of a name near to kinetic_energy is not used; write `template <class T> T
+//   kinetic_energy(p) const`, or rename it
+// expect: nysalt: a member of a name such as hamiltonian is not used; H is K(p) + V(q), of `potential` and of
+//   `inverse_mass`, `kinetic_energy` or else p^2/2: write these, or rename it
+// expect: nysalt: a member of a name near to force or gradient is not used; write `template <class T> void
+//   force(q, f) const`, f = -grad V, or rename it
+namespace members_of_another_name {
+struct heavy : well {
+  // [mass]
+  double mass(Eigen::Index) const { return 2.0; }
+  // [/mass]
+};
+struct moving : well {
+  // [kinetic]
+  template <class T>
+  T kinetic(const nysalt::vector<T, 1>& p) const {
+    return p[0] * p[0];
+  }
+  // [/kinetic]
+};
+struct whole : well {
+  // [hamiltonian]
+  template <class T>
+  T hamiltonian(const nysalt::vector<T, 1>& q, const nysalt::vector<T, 1>& p) const {
+    return q[0] * q[0] + p[0] * p[0];
+  }
+  // [/hamiltonian]
+};
+struct sloped : well {
+  // [gradient]
+  double gradient(double q) const { return 2.0 * q; }
+  // [/gradient]
+};
+inline void use() { members_of_another_form::step_all<heavy, moving, whole, sloped>(); }
+}  // namespace members_of_another_name
 
 // What models nothing is refused by the name of the concept, wherever it is handed over.
 // expect: Scalar

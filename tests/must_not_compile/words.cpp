@@ -25,7 +25,8 @@
 #include "nysalt/systems/sum_of_parts.hpp"
 
 // expect: nysalt: the order of this method needs a quadratic kinetic energy, but the system has a kinetic
-//   energy of its own
+//   energy of its own; take one of any K(p), as blanes_moan_s10, and as reference
+//   fine_steps<blanes_moan_s10>
 // expect: nysalt: the letter G needs a quadratic kinetic energy, and a force that can be differentiated
 // expect: nysalt: the letter D needs a quadratic kinetic energy
 namespace other_kinetic_energy {

@@ -4,6 +4,7 @@
 #include "../laws/models.hpp"
 #include "../support/local_systems.hpp"
 #include "nysalt/derivatives/check_force.hpp"
+#include "nysalt/detail/kernels.hpp"
 #include "nysalt/systems/gaussian.hpp"
 #include "nysalt/systems/lennard_jones_cluster.hpp"
 
@@ -55,7 +56,53 @@ void check_pendulum(const S& system, double tolerance, double tolerance_of_slope
   }
 }
 
+/// N masses between walls on springs of 1, the first of another stiffness.
+template <int N>
+struct springs {
+  static constexpr int dimension = N;
+  double first = 1.0;
+  template <class T>
+  T potential(const vector<T, N>& q) const {
+    T sum = q[0] * q[0] * (0.5 * first) + q[N - 1] * q[N - 1] * 0.5;
+    for (int i = 1; i < N; ++i) sum += (q[i] - q[i - 1]) * (q[i] - q[i - 1]) * 0.5;
+    return sum;
+  }
+};
+
+/// By how much the force of springs, and its derivatives, in lanes, differs from that of equal springs.
+template <int N>
+double off_springs(const springs<N>& system) {
+  using T = nysalt::detail::lanes_with_slopes;
+  vector<T, N> q;
+  vector<T, N> f;
+  for (int i = 0; i < N; ++i) q[i] = T::variable(nysalt::detail::lanes(std::sin(i + 1.0)), 0);
+  for (int i = 0; i < N; ++i) q[i].derivative[1] = nysalt::detail::lanes(std::cos(i + 1.0));
+  nysalt::force<T>(system, q, f);
+  double off = 0.0;
+  for (int i = 0; i < N; ++i) {
+    const T before = i > 0 ? q[i - 1] : T(0.0);
+    const T behind = i + 1 < N ? q[i + 1] : T(0.0);
+    const T difference = f[i] - (before - q[i] * 2.0 + behind);
+    for (int k = 0; k < default_lanes; ++k) {
+      off = std::max({off, std::abs(lane(difference.value, k)), std::abs(lane(difference.derivative[0], k)),
+                      std::abs(lane(difference.derivative[1], k))});
+    }
+  }
+  return off;
+}
+
 }  // namespace
+
+// Eigen's own vectors on the stack end at 128 KB, which 13 dual numbers of 13 derivatives in lanes exceed.
+BOOST_AUTO_TEST_CASE(a_fixed_dimension_may_be_large) {
+  constexpr double rounding = 1e-14;  // of some sums of numbers up to 4
+  BOOST_TEST(off_springs(springs<12>()) < rounding);
+  BOOST_TEST(off_springs(springs<13>()) < rounding);
+  BOOST_TEST(off_springs(springs<14>()) < rounding);
+  BOOST_TEST(off_springs(springs<16>()) < rounding);
+  BOOST_TEST(off_springs(springs<64>()) < rounding);
+  BOOST_TEST(off_springs(springs<64>{1.0 + 1e-6}) > 1e-7);
+}
 
 BOOST_AUTO_TEST_CASE(by_dual_numbers_the_derivative_is_the_hessians) {
   draws random;

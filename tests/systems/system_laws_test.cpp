@@ -6,7 +6,9 @@
 #include "../support/refusal.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/frequency_to_fit.hpp"
+#include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/gaussian.hpp"
+#include "nysalt/systems/in_time.hpp"
 #include "nysalt/systems/kepler.hpp"
 #include "nysalt/systems/lennard_jones_cluster.hpp"
 #include "nysalt/systems/logistic_regression.hpp"
@@ -308,6 +310,24 @@ BOOST_AUTO_TEST_CASE(the_stiff_energy_is_that_of_the_stiff_modes) {
   BOOST_TEST(chain.stiff_energy(x) == sum, boost::test_tools::tolerance(1e-14));
 }
 
+namespace {
+template <int N>
+struct unnamed {
+  static constexpr int dimension = N;
+  template <class T>
+  T potential(const vector<T, N>& q) const {
+    return q[0] * q[0];
+  }
+};
+struct unnamed_in_time {
+  static constexpr int dimension = 1;
+  template <class T>
+  T potential(const vector<T, 1>& q, const T& t) const {
+    return q[0] * t;
+  }
+};
+}  // namespace
+
 BOOST_AUTO_TEST_CASE(systems_say_what_they_are) {
   BOOST_TEST(describe(harmonic_oscillator(2.0)) == "harmonic_oscillator(omega=2)");
   BOOST_TEST(describe(fpu_chain<3>(50.0)) == "fpu_chain(pairs=3, omega=50)");
@@ -323,7 +343,11 @@ BOOST_AUTO_TEST_CASE(systems_say_what_they_are) {
   k << 2.0, -1.0, -1.0, 2.0;
   BOOST_TEST(describe(linear_chain(k, Eigen::Vector2d(1.0, 4.0))).find("fingerprint=84492e0f2b897ac5)") !=
              std::string::npos);
-  BOOST_TEST(describe(dynamic_potential{4}).find("4 degrees of freedom") != std::string::npos);
+  // Without a description by the name of the type as it is written.
+  BOOST_TEST(describe(dynamic_potential{4}) == "nysalt::test::dynamic_potential with 4 degrees of freedom");
+  BOOST_TEST(describe(counted(dynamic_potential{4})) == describe(dynamic_potential{4}));
+  BOOST_TEST(describe(unnamed<2>()) == "unnamed<2> with 2 degrees of freedom");
+  BOOST_TEST(in_time<unnamed_in_time>().description() == "unnamed_in_time in time");
 }
 
 // Margins at which exp() would overflow, and descriptions that differ where the data differ.

@@ -153,6 +153,7 @@ std::shared_ptr<const any_reference> reference_of(const S& system, const R& refe
   if constexpr (std::same_as<R, reference_value>) {
     return reference.held();
   } else if constexpr (is_fine_steps<R>) {
+    require_suited<std::remove_cvref_t<decltype(reference.method())>, S>();
     return small_steps(table_of(reference.method()), reference.step(), reference.description());
   } else if constexpr (is_fine_paths<R>) {
     return small_steps_on_paths(table_of(reference.method()), reference.step(), reference.halvings(),

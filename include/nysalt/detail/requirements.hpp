@@ -1,40 +1,104 @@
 // SPDX-License-Identifier: BSL-1.0
-// What a system must not get wrong, said in words. A member that is misspelt in its signature would be
-// ignored in silence, and the system would be another one.
+// What a system must not get wrong, said in words. A member that is misspelt in its name or signature would
+// be ignored in silence, and the system would be another one.
 #pragma once
 
+#include <concepts>
+#include <string>
 #include <type_traits>
 
 #include "nysalt/bath.hpp"
+#include "nysalt/detail/names_of_members.hpp"
 
 namespace nysalt {
 
 namespace detail {
 
-// There is a member of that name, const or not, with any result.
-template <class S, class V = vector<double, S::dimension>>
-concept MentionsInverseMass =
-    requires { &S::inverse_mass; } || requires(S& s) { s.inverse_mass(Eigen::Index{0}); };
-template <class S, class V = vector<double, S::dimension>>
-concept MentionsKineticEnergy =
-    requires { &S::kinetic_energy; } || requires(S& s, const V& p) { s.kinetic_energy(p); };
-template <class S, class V = vector<double, S::dimension>>
-concept MentionsVelocity =
-    requires { &S::velocity; } || requires(S& s, const V& p, V& v) { s.velocity(p, v); };
-template <class S, class V = vector<double, S::dimension>>
-concept MentionsForceDerivative =
-    requires { &S::force_derivative; } || requires(S& s, const V& q, V& g) { s.force_derivative(q, q, g); };
-template <class S, class V = vector<double, S::dimension>>
-concept MentionsKick = requires { &S::kick; } || requires(S& s, const V& q, V& p) { s.kick(q, p, 1.0); };
 template <class S>
-concept MentionsModes = requires { &S::modes; } || requires(S& s) { s.modes(); };
+concept TellsDescription = requires(const S& s) {
+  { s.description() } -> std::convertible_to<std::string>;
+};
 template <class S>
-concept MentionsFrequencyBands = requires { &S::frequency_bands; } || requires(S& s) { s.frequency_bands(); };
+concept TellsKind = requires(const S& s) {
+  { s.kind() } -> std::convertible_to<std::string>;
+};
+template <class S>
+concept TellsHasModes = requires(const S& s) {
+  { s.has_modes() } -> std::same_as<bool>;
+};
+/// H may have a K that is not p^2/2.
+template <class S>
+concept TellsKinetic = HasInverseMass<S> || HasKineticEnergy<S, double> || HasVelocity<S, double>;
 
+/// Compiles if every member of a name that the library uses, or of a name near to one, is used.
 template <class S>
-concept MentionsForceCost = requires { &S::force_cost; } || requires(S& s) { s.force_cost(); };
-template <class S>
-concept MentionsBath = requires { &S::bath; } || requires(S& s) { s.bath(); };
+constexpr void require_used_members() {
+  using D = dual<double, 1>;
+  static_assert(HasPotential<S, double> || !mentions_potential<S>,
+                "nysalt: potential is not of the form `template <class T> T potential(q) const`");
+  static_assert(HasForce<S, double> || !mentions_force<S>,
+                "nysalt: force is not of the form `template <class T> void force(q, f) const`, which writes "
+                "its value into f");
+  static_assert(HasSoftForce<S> || !mentions_soft_force<S>,
+                "nysalt: soft_force is not of the form `template <class T> void soft_force(q, f) const`");
+  static_assert(HasInverseMass<S> || !mentions_inverse_mass<S>,
+                "nysalt: inverse_mass is not of the form `double inverse_mass(Eigen::Index i) const`");
+  static_assert(HasKineticEnergy<S, double> || !mentions_kinetic_energy<S>,
+                "nysalt: kinetic_energy is not of the form `template <class T> T kinetic_energy(p) const`, "
+                "as K depends on p alone");
+  static_assert(HasVelocity<S, double> || !mentions_velocity<S>,
+                "nysalt: velocity is not of the form `template <class T> void velocity(p, v) const`");
+  static_assert(!HasVelocity<S, double> || HasVelocity<S, D>,
+                "nysalt: velocity(p, v) must be differentiable, and takes double only; make it a template");
+  static_assert(
+      !HasKineticEnergy<S, double> || HasKineticEnergy<S, D> || HasVelocity<S, D>,
+      "nysalt: kinetic_energy(p) must be differentiable, and takes double only; make it a template");
+  static_assert(CanDifferentiateForce<S, double> || !mentions_force_derivative<S>,
+                "nysalt: force_derivative is not of the form `void force_derivative(q, v, g) const`");
+  static_assert(CanKick<S, double, double> || !mentions_kick<S>,
+                "nysalt: kick is not of the form `template <class T, class C> void kick(q, p, c) const`");
+  static_assert(HasModes<S> || !mentions_modes<S>,
+                "nysalt: modes is not of the form `nysalt::normal_modes modes() const`");
+  static_assert(TellsHasModes<S> || !mentions_has_modes<S>,
+                "nysalt: has_modes is not of the form `bool has_modes() const`");
+  static_assert(HasFrequencyBands<S> || !mentions_frequency_bands<S>,
+                "nysalt: frequency_bands is not of the form "
+                "`std::vector<nysalt::frequency_band> frequency_bands() const`");
+  static_assert(HasForceCost<S> || !mentions_force_cost<S>,
+                "nysalt: force_cost is not of the form `double force_cost() const`");
+  static_assert(
+      HasBath<S> || !mentions_bath<S>,
+      "nysalt: bath is not of the form `const nysalt::bath& bath() const`; see systems/in_bath.hpp");
+  static_assert(TellsDescription<S> || !mentions_description<S>,
+                "nysalt: description is not of the form `std::string description() const`");
+  static_assert(TellsKind<S> || !mentions_kind<S>,
+                "nysalt: kind is not of the form `std::string kind() const`");
+
+  static_assert(TellsKinetic<S> || !mentions_masses<S>,
+                "nysalt: a member of a name such as mass or masses is not used; give masses by "
+                "`double inverse_mass(Eigen::Index i) const`, or rename it");
+  static_assert(HasKineticEnergy<S, double> || HasVelocity<S, double> || !mentions_near_kinetic_energy<S>,
+                "nysalt: a member of a name near to kinetic_energy is not used; write "
+                "`template <class T> T kinetic_energy(p) const`, or rename it");
+  static_assert(HasVelocity<S, double> || !mentions_near_velocity<S>,
+                "nysalt: a member of a name near to velocity is not used; write "
+                "`template <class T> void velocity(p, v) const`, or rename it");
+  static_assert(
+      TellsKinetic<S> || !mentions_hamiltonian<S>,
+      "nysalt: a member of a name such as hamiltonian is not used; H is K(p) + V(q), of `potential` "
+      "and of `inverse_mass`, `kinetic_energy` or else p^2/2: write these, or rename it");
+  static_assert(HasPotential<S, double> || !mentions_near_potential<S>,
+                "nysalt: a member of a name near to potential is not used; write "
+                "`template <class T> T potential(q) const`, or rename it");
+  static_assert(HasForce<S, double> || !mentions_near_force<S>,
+                "nysalt: a member of a name near to force or gradient is not used; write "
+                "`template <class T> void force(q, f) const`, f = -grad V, or rename it");
+  static_assert(
+      !mentions_near_others<S> || HasModes<S> || HasFrequencyBands<S> || HasForceCost<S> || HasBath<S>,
+      "nysalt: a member of a name near to force_derivative, soft_force, kick, modes, "
+      "frequency_bands, force_cost, description, kind or bath is not used; see "
+      "docs/concepts/system.md, or rename it");
+}
 
 }  // namespace detail
 
@@ -49,36 +113,14 @@ constexpr void require_suited() {
       SeparableSystem<S>,
       "nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a "
       "template or over double, const all of them; see nysalt/system.hpp");
-  using D = dual<double, 1>;
-  static_assert(HasInverseMass<S> || !detail::MentionsInverseMass<S>,
-                "nysalt: inverse_mass is not of the form `double inverse_mass(Eigen::Index i) const`");
-  static_assert(HasKineticEnergy<S, double> || !detail::MentionsKineticEnergy<S>,
-                "nysalt: kinetic_energy is not of the form `template <class T> T kinetic_energy(p) const`");
-  static_assert(HasVelocity<S, double> || !detail::MentionsVelocity<S>,
-                "nysalt: velocity is not of the form `template <class T> void velocity(p, v) const`");
-  static_assert(!HasVelocity<S, double> || HasVelocity<S, D>,
-                "nysalt: velocity(p, v) must be differentiable, and takes double only; make it a template");
-  static_assert(
-      !HasKineticEnergy<S, double> || HasKineticEnergy<S, D> || HasVelocity<S, D>,
-      "nysalt: kinetic_energy(p) must be differentiable, and takes double only; make it a template");
-  static_assert(detail::CanDifferentiateForce<S, double> || !detail::MentionsForceDerivative<S>,
-                "nysalt: force_derivative is not of the form `void force_derivative(q, v, g) const`");
-  static_assert(detail::CanKick<S, double, double> || !detail::MentionsKick<S>,
-                "nysalt: kick is not of the form `template <class T, class C> void kick(q, p, c) const`");
-  static_assert(HasModes<S> || !detail::MentionsModes<S>,
-                "nysalt: modes is not of the form `nysalt::normal_modes modes() const`");
-  static_assert(HasFrequencyBands<S> || !detail::MentionsFrequencyBands<S>,
-                "nysalt: frequency_bands is not of the form "
-                "`std::vector<nysalt::frequency_band> frequency_bands() const`");
-  static_assert(HasForceCost<S> || !detail::MentionsForceCost<S>,
-                "nysalt: force_cost is not of the form `double force_cost() const`");
-  static_assert(
-      HasBath<S> || !detail::MentionsBath<S>,
-      "nysalt: bath is not of the form `const nysalt::bath& bath() const`; see systems/in_bath.hpp");
+  if constexpr (SeparableSystem<S> && !ErasedSystem<S>) {
+    detail::require_used_members<typename detail::written_system<S>::type>();
+  }
   if constexpr (requires { std::bool_constant<M::requires_quadratic_kinetic>{}; }) {
     static_assert(!M::requires_quadratic_kinetic || NystromSystem<S>,
                   "nysalt: the order of this method needs a quadratic kinetic energy, but the system has a "
-                  "kinetic energy of its own");
+                  "kinetic energy of its own; take one of any K(p), as blanes_moan_s10, and as reference "
+                  "fine_steps<blanes_moan_s10>");
   }
 }
 

@@ -117,6 +117,8 @@ using mclachlan_atela4 = classical<"mclachlan_atela4">;
 using mclachlan5 = classical<"mclachlan5">;
 /// S6: order 4 for any separable Hamiltonian, six evaluations.
 using blanes_moan_s6 = classical<"blanes_moan_s6">;
+/// S10: order 6 for any separable Hamiltonian, ten evaluations.
+using blanes_moan_s10 = classical<"blanes_moan_s10">;
 /// SRKN6b: order 4, six evaluations. Its order holds for any K(p): what a quadratic K removes is a term of
 /// fourth order, which a symmetric method lacks anyway. Its small error constant is for quadratic K.
 using srkn6b = classical<"srkn6b">;

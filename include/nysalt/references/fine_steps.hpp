@@ -15,7 +15,8 @@
 namespace nysalt {
 
 /// Any method with a small step. SRKN11b (order 6) is the default: at omega h = 5e-3 its error is
-/// rounding. A second-order method needs a far smaller step, or what is learned is its error.
+/// rounding. It needs a quadratic K(p): of any other, take fine_steps<blanes_moan_s10>. A second-order method
+/// needs a far smaller step, or what is learned is its error.
 template <Method M = srkn11b>
 class fine_steps {
  public:

@@ -56,4 +56,9 @@ struct counted : S {
   mutable std::int64_t evaluations = 0;  ///< so far, by this copy; may be set back
 };
 
+namespace detail {
+template <class S>
+struct written_system<counted<S>> : written_system<S> {};
+}  // namespace detail
+
 }  // namespace nysalt

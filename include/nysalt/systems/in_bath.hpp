@@ -56,4 +56,9 @@ class in_bath : public S {
   nysalt::bath bath_;
 };
 
+namespace detail {
+template <class S>
+struct written_system<in_bath<S>> : written_system<S> {};
+}  // namespace detail
+
 }  // namespace nysalt

@@ -7,6 +7,7 @@
 #include <string>
 #include <typeinfo>
 
+#include "nysalt/detail/name_of_type.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/energy.hpp"
 
@@ -78,7 +79,7 @@ class in_time {
     if constexpr (requires { driven_.description(); }) {
       return driven_.description() + " in time";
     } else {
-      return std::string(typeid(P).name()) + " in time";
+      return detail::name_of_type(typeid(P)) + " in time";
     }
   }
 

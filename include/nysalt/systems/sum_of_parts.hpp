@@ -83,4 +83,9 @@ class sum_of_parts {
   std::tuple<First, Rest...> parts_;
 };
 
+namespace detail {
+template <class First, class... Rest>
+struct written_system<sum_of_parts<First, Rest...>> : written_system<First> {};
+}  // namespace detail
+
 }  // namespace nysalt

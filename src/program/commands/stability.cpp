@@ -137,8 +137,13 @@ void add_steps(answer& result, const tabulated& method, const stability_chart& c
                const prepared_problem& system, const judgement& found, int threads) {
   json& document = result.document;
   auto bands = system.frequency_bands();
-  if (bands.empty()) bands.push_back({0.0, found.highest_frequency});
   document["bands"] = json::array();
+  if (bands.empty() && !(found.highest_frequency > 0.0)) {  // what the judgement says
+    document["stable_steps"] = json::array();
+    document["linear_step"] = document["safe_step"] = json();
+    return;
+  }
+  if (bands.empty()) bands.push_back({0.0, found.highest_frequency});
   for (const auto& band : bands) {
     const double margin = stability_margin(chart.windows, found.step * band.low, found.step * band.high);
     document["bands"].push_back({{"low", band.low}, {"high", band.high}, {"margin", finite(margin)}});

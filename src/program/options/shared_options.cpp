@@ -122,8 +122,8 @@ std::vector<CLI::Option*> add_system(CLI::App& command, system_settings& system,
              "multiplies the standard deviations of the initial distribution [1]");
   add_number(
       command, "--frequency", system.frequency,
-      "angular frequency that phase_fitted_... and s_aia... are fitted to [declared, or seen along the "
-      "motion]");
+      "angular frequency that phase_fitted_... and s_aia... are fitted to, and the highest one where none "
+      "is known [declared, or seen along the motion]");
   CLI::Option* file = command.add_option("--start", system.start, start);
   command
       .add_option("--at", system.at,
