@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/detail/whole_steps.hpp"
+#include "nysalt/detail/steps_in.hpp"
 #include "refusal.hpp"
 #include "seeds.hpp"
 #include "settings.hpp"
@@ -54,10 +54,10 @@ inline void require_square_of_frequency(const std::string& system, double freque
          system, frequency);
 }
 
-/// whole_steps(). Throws refusal if that is no step, or more than can be counted.
+/// steps_in(). Throws refusal if that is no step, or more than can be counted.
 inline std::int64_t steps_within(const char* option, double horizon, double step) {
   require_positive(option, horizon);
-  const double steps = nysalt::detail::whole_steps(horizon, step);
+  const double steps = nysalt::detail::steps_in(horizon, step);
   if (steps < 1.0) refuse("{} must be at least one step of {}, got {}", option, step, horizon);
   if (!(steps < 0x1p53)) refuse("{} must hold fewer than 2^53 steps of {}, got {}", option, step, horizon);
   return static_cast<std::int64_t>(steps);

@@ -15,7 +15,7 @@
 #include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/progress_of_share.hpp"
-#include "nysalt/detail/whole_steps.hpp"
+#include "nysalt/detail/steps_in.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
 #include "nysalt/ensembles/typical_and_energetic.hpp"
 
@@ -197,7 +197,7 @@ std::int64_t steps_of_each(const data_options& options, Eigen::Index dimension) 
         fmt::format("flow_map_data: the step must be positive and the horizon finite, got {} and {}",
                     options.step, options.horizon));
   }
-  const double steps = detail::whole_steps(options.horizon, options.step);
+  const double steps = detail::steps_in(options.horizon, options.step);
   if (!(steps >= 1.0) || options.trajectories < 1 || options.first < 0) {
     throw std::invalid_argument(
         fmt::format("flow_map_data: trajectories must be at least 1, first at least 0 and the horizon at "

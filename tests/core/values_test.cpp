@@ -7,7 +7,7 @@
 
 #include "nysalt/core.hpp"
 #include "nysalt/detail/in_digits.hpp"
-#include "nysalt/detail/whole_steps.hpp"
+#include "nysalt/detail/steps_in.hpp"
 #include "nysalt/phase_points.hpp"
 
 using namespace nysalt;
@@ -195,9 +195,9 @@ BOOST_AUTO_TEST_CASE(steps_are_counted_to_rounding_however_many_there_are) {
     const double step = std::stod(std::to_string(digits) + "e-" + std::to_string(exponent));
     const double horizon = std::stod(std::to_string(digits * steps) + "e-" + std::to_string(exponent));
     const auto expected = static_cast<double>(steps);
-    BOOST_TEST(detail::whole_steps(horizon, step) == expected);
-    BOOST_TEST(detail::whole_steps(expected * step, step) == expected);
-    BOOST_TEST(detail::whole_steps((expected - 0.25) * step, step) == expected - 1.0);
+    BOOST_TEST(detail::steps_in(horizon, step) == expected);
+    BOOST_TEST(detail::steps_in(expected * step, step) == expected);
+    BOOST_TEST(detail::steps_in((expected - 0.25) * step, step) == expected - 1.0);
     if (std::floor(horizon / step + 1e-9) != expected) ++missed;
   }
   BOOST_TEST(missed > 0);

@@ -15,7 +15,7 @@ inline double rounding_of_steps(double ratio) {
 }
 
 /// floor(horizon/step), N for a horizon that is N steps up to rounding.
-inline double whole_steps(double horizon, double step) {
+inline double steps_in(double horizon, double step) {
   const double ratio = horizon / step;
   return std::floor(ratio + rounding_of_steps(ratio));
 }
