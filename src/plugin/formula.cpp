@@ -8,16 +8,78 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <set>
+#include <utility>
 
+#include "comparison/did_you_mean.hpp"
 #include "comparison/number.hpp"
 #include "comparison/refusal.hpp"
+#include "names.hpp"
 
 namespace nysalt::program {
 
 namespace {
 
-constexpr std::array functions{"sqrt", "exp",  "expm1", "log",  "sin",  "cos",
-                               "tan",  "atan", "sinh",  "cosh", "tanh", "abs"};
+struct function {
+  std::string_view name;
+  std::string_view code;  // the function of C++ that it is
+  std::size_t arguments;  // of min and max at least as many
+};
+constexpr auto functions = std::to_array<function>({{"sqrt", "sqrt", 1},
+                                                    {"cbrt", "cbrt", 1},
+                                                    {"exp", "exp", 1},
+                                                    {"expm1", "expm1", 1},
+                                                    {"log", "log", 1},
+                                                    {"pow", "pow", 2},
+                                                    {"sin", "sin", 1},
+                                                    {"cos", "cos", 1},
+                                                    {"tan", "tan", 1},
+                                                    {"asin", "asin", 1},
+                                                    {"acos", "acos", 1},
+                                                    {"atan", "atan", 1},
+                                                    {"atan2", "atan2", 2},
+                                                    {"sinh", "sinh", 1},
+                                                    {"cosh", "cosh", 1},
+                                                    {"tanh", "tanh", 1},
+                                                    {"erf", "erf", 1},
+                                                    {"hypot", "hypot", 2},
+                                                    {"abs", "abs", 1},
+                                                    {"sign", "sign", 1},
+                                                    {"floor", "floor", 1},
+                                                    {"step", "heaviside", 1},
+                                                    {"heaviside", "heaviside", 1},
+                                                    {"mod", "mod", 2},
+                                                    {"min", "min", 2},
+                                                    {"max", "max", 2}});
+
+struct constant {
+  std::string_view name;
+  std::string_view value;
+};
+constexpr std::array constants{constant{"pi", "3.14159265358979323846"},
+                               constant{"e", "2.71828182845904523536"}};
+
+/// What other languages call functions that are here by another name.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 15> foreign{{{"ln", "log"},
+                                                                                 {"arcsin", "asin"},
+                                                                                 {"arccos", "acos"},
+                                                                                 {"arctan", "atan"},
+                                                                                 {"arctan2", "atan2"},
+                                                                                 {"fabs", "abs"},
+                                                                                 {"fmin", "min"},
+                                                                                 {"fmax", "max"},
+                                                                                 {"fmod", "mod"},
+                                                                                 {"power", "pow"},
+                                                                                 {"sgn", "sign"},
+                                                                                 {"signum", "sign"},
+                                                                                 {"theta", "step"},
+                                                                                 {"minimum", "min"},
+                                                                                 {"maximum", "max"}}};
+
+const function* function_named(std::string_view name) {
+  const auto found = std::ranges::find(functions, name, &function::name);
+  return found == functions.end() ? nullptr : &*found;
+}
 
 bool begins_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool is_in_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
@@ -116,19 +178,11 @@ class translation {
     if (takes('+')) return signed_factor();
     return power();
   }
-  /// x^n is repeated multiplication for a whole number n, else x^c for a constant c.
+  /// x^n is repeated multiplication for a whole number n.
   std::string power() {
     std::string base = primary();
     if (!takes('^')) return base;
-    const auto from = at_;
-    const bool depended = depends_;
-    depends_ = false;
     const std::string exponent = signed_factor();  // a^b^c is a^(b^c)
-    if (depends_) {
-      at_ = from;
-      wrong("an exponent", "not depend on the coordinates", "write exp(y*log(x))");
-    }
-    depends_ = depended;
     int n = 0;
     std::string digits;
     for (const char c : exponent) {
@@ -138,7 +192,7 @@ class translation {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
     const bool is_whole = error == std::errc{} && end == digits.data() + digits.size();
     if (is_whole && -64 <= n && n <= 64) return fmt::format("power<{}>({})", n, base);
-    return fmt::format("real_power({}, {})", base, exponent);
+    return fmt::format("of_pow({}, {})", base, exponent);
   }
   std::string primary() {
     skip();
@@ -172,14 +226,19 @@ class translation {
   }
   std::string named() {
     const auto from = at_;
-    const std::string known = name();
+    const std::string typed = name();
+    std::string code = code_of(typed, from);
+    // In upper case it may stand for one in lower case.
+    if (code.empty()) code = code_of(in_lower_case(typed), from);
+    if (!code.empty()) return code;
+    at_ = from;
+    wrong(fmt::format("'{}'", typed),
+          "be a function, a coordinate (--variables) or a parameter (--parameter)", known_names(typed));
+  }
+  /// Of what has exactly that name; empty if nothing has.
+  std::string code_of(const std::string& known, std::size_t from) {
     if (known == "sum") return sum_over();
-    if (std::ranges::find(functions, known) != functions.end()) {
-      require('(');
-      std::string code = "(" + sum() + ")";
-      require(')');
-      return "of_" + known + code;
-    }
+    if (const auto* found = function_named(known)) return call_of(*found);
     if (std::ranges::count(*parameters_, known) > 0) return "p_" + known;
     for (const auto& coordinate : *variables_) {
       if (coordinate.name == known) return of(coordinate, from);
@@ -187,13 +246,40 @@ class translation {
     for (const auto& counter : counters_) {
       if (counter.name == known) return "static_cast<double>(i_" + known + ")";
     }
-    if (known == "pi") return "nysalt_pi";
-    at_ = from;
-    wrong(fmt::format("'{}'", known),
-          "be a function, a coordinate (--variables) or a parameter (--parameter)");
+    const auto found = std::ranges::find(constants, known, &constant::name);
+    return found == constants.end() ? "" : std::string(found->value);
+  }
+  std::string call_of(const function& called) {
+    require('(');
+    std::string code = sum();
+    std::size_t arguments = 1;
+    const bool takes_more = called.name == "min" || called.name == "max";
+    while (takes(',')) {
+      const std::string next = sum();
+      code = ++arguments > 2 ? fmt::format("of_{}({}), {}", called.code, code, next) : code + ", " + next;
+      if (arguments > called.arguments && !takes_more) break;
+    }
+    if (arguments < called.arguments || (arguments > called.arguments && !takes_more)) {
+      wrong(fmt::format("the function {}", called.name),
+            fmt::format("have {} argument{}{}", called.arguments, called.arguments == 1 ? "" : "s",
+                        takes_more ? " or more" : ""));
+    }
+    require(')');
+    return fmt::format("of_{}({})", called.code, code);
+  }
+  /// The end of a sentence on an unknown name.
+  std::string known_names(const std::string& typed) const {
+    const auto known =
+        std::ranges::find(foreign, in_lower_case(typed), &decltype(foreign)::value_type::first);
+    if (known != foreign.end()) return fmt::format("did you mean {}?", known->second);
+    std::vector<std::string> all = *parameters_;
+    for (const auto& coordinate : *variables_) all.push_back(coordinate.name);
+    const auto functions_here = functions_of_formulas();
+    all.insert(all.end(), functions_here.begin(), functions_here.end());
+    const std::string near = typed.size() < 3 ? "" : nearest_name(typed, all);
+    return near.empty() ? "functions are " + listed(functions_here) : fmt::format("did you mean {}?", near);
   }
   std::string of(const variable& coordinate, std::size_t from) {
-    depends_ = true;
     if (!coordinate.is_list) return fmt::format("q[{}]", coordinate.first);
     if (!takes('[')) {
       at_ = from;
@@ -216,8 +302,7 @@ class translation {
     skip();
     const auto from = at_;
     const std::string counter = name();
-    const bool is_free = is_name(counter) && counter != "sum" && counter != "pi" &&
-                         std::ranges::find(functions, counter) == functions.end() &&
+    const bool is_free = is_name(counter) && !is_name_of_grammar(counter) &&
                          std::ranges::count(*parameters_, counter) == 0 &&
                          std::ranges::count(counters_, counter, &counter_of_sum::name) == 0 &&
                          std::ranges::count(*variables_, counter, &variable::name) == 0;
@@ -230,7 +315,6 @@ class translation {
     require(',');
     const index last = index_sum();
     require(',');
-    depends_ = true;  // of the coordinates' type, for any summand
     counters_.push_back({counter, first.least, std::max(first.least, last.most)});
     const std::string term = sum();
     counters_.pop_back();
@@ -289,7 +373,6 @@ class translation {
   std::vector<counter_of_sum> counters_;
   std::size_t at_ = 0;
   int depth_ = 0;
-  bool depends_ = false;  // something that was read is a coordinate
 };
 
 }  // namespace
@@ -298,11 +381,27 @@ bool is_name(std::string_view text) {
   return !text.empty() && begins_name(text.front()) && std::ranges::all_of(text, is_in_name);
 }
 
-std::vector<std::string> functions_of_formulas() { return {functions.begin(), functions.end()}; }
-
-bool is_name_of_grammar(std::string_view name) {
-  return name == "sum" || name == "pi" || std::ranges::find(functions, name) != functions.end();
+std::vector<std::string> functions_of_formulas() {
+  std::vector<std::string> names;
+  for (const auto& one : functions) names.emplace_back(one.name);
+  names.emplace_back("sum");
+  return names;
 }
+
+std::string code_of_functions() {
+  std::string code;
+  std::set<std::string_view> written;
+  for (const auto& one : functions) {
+    if (!written.insert(one.code).second) continue;
+    const bool is_ours = one.code == "sign" || one.code == "heaviside" || one.code == "mod";
+    code += fmt::format(
+        "template <class... X>\nauto of_{0}(const X&... x) {{\n  using {1}::{0};\n  return {0}(x...);\n}}\n",
+        one.code, is_ours ? "nysalt" : "std");
+  }
+  return code;
+}
+
+bool is_name_of_grammar(std::string_view name) { return name == "sum" || function_named(name) != nullptr; }
 
 std::string translated(std::string_view text, const std::vector<variable>& variables,
                        const std::vector<std::string>& parameters) {

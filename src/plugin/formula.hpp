@@ -22,14 +22,19 @@ struct variable {
 /// Letters, digits and _, no digit first.
 bool is_name(std::string_view text);
 
-/// Of one argument; the C++ calls each as of_NAME().
+/// Names of all functions of the grammar.
 std::vector<std::string> functions_of_formulas();
 
-/// Whether the grammar gives a name a meaning of its own: a function, sum or pi.
+/// The C++ of what an expression calls: of_NAME() for each function of C++.
+std::string code_of_functions();
+
+/// Whether no variable, parameter or counter may have a name, as it is that of a function. The constants pi
+/// and e yield to what has their name.
 bool is_name_of_grammar(std::string_view name);
 
 /// The expression in C++, of coordinates q[i] and parameters by their names. Throws refusal, with the place,
-/// for what is not in the grammar, or does not depend on coordinates. Nothing of the text goes into the
+/// for what is not in the grammar. Names in upper case stand for those in lower case where
+/// there is no other. Nothing of the text goes into the
 /// result but names that are known and numbers.
 std::string translated(std::string_view text, const std::vector<variable>& variables,
                        const std::vector<std::string>& parameters);

@@ -117,13 +117,19 @@ std::vector<std::pair<std::string, std::string>> values_of(const std::vector<std
   return all;
 }
 
+std::vector<std::pair<std::string, std::string>> parameters_of(const typed_potential& typed) {
+  auto all = values_of(typed.parameters, "--parameter");
+  for (auto& [name, value] : all) name = in_lower_case(name);
+  return all;
+}
+
 std::string source_of(const typed_potential& typed) {
   constexpr std::size_t most = 10'000;
   if (typed.text.size() > most) refuse("--potential must be at most {} characters", most);
   const auto variables = variables_of(typed.variables);
   const std::int64_t count = variables.back().first + variables.back().count;
   std::vector<std::string> parameters;
-  for (const auto& [name, value] : values_of(typed.parameters, "--parameter")) {
+  for (const auto& [name, value] : parameters_of(typed)) {
     if (name == "deviation_q" || name == "deviation_p") continue;
     if (!is_plain_name(name)) {
       refuse("--parameter must have a name of lower-case letters, digits and _, a letter first, got '{}'",
@@ -139,7 +145,7 @@ std::string source_of(const typed_potential& typed) {
     const bool is_taken = is_name_of_grammar(name) || std::ranges::count(names, name) > 1;
     if (is_taken)
       refuse(
-          "--variables and --parameter must have different names, other than those of functions and pi, got "
+          "--variables and --parameter must have different names, other than those of functions, got "
           "'{}'; choose another",
           name);
   }
@@ -157,18 +163,13 @@ std::string source_of(const typed_potential& typed) {
   std::string source =
       "// Written by nysalt of a potential that was given as text.\n#include <nysalt/plugin.hpp>\n\n"
       "#include <array>\n#include <cmath>\n#include <cstdint>\n\nnamespace {\n\n"
-      "constexpr double nysalt_pi = 3.14159265358979323846;\n\n"
       "template <int N, class T>\nT power(const T& x) {\n  if constexpr (N < 0) {\n    return 1.0 / "
       "power<-N>(x);\n"
       "  } else if constexpr (N == 0) {\n    return T(1.0);\n  } else if constexpr (N == 1) {\n    return "
       "x;\n"
       "  } else {\n    const T half = power<N / 2>(x);\n    const T square = half * half;\n"
-      "    if constexpr (N % 2 == 0) return square;\n    else return square * x;\n  }\n}\n"
-      "template <class T>\nT real_power(const T& x, double c) {\n  using std::pow;\n  return pow(x, c);\n}\n";
-  for (const auto& function : functions_of_formulas()) {
-    source += fmt::format(
-        "template <class T>\nT of_{0}(const T& x) {{\n  using std::{0};\n  return {0}(x);\n}}\n", function);
-  }
+      "    if constexpr (N % 2 == 0) return square;\n    else return square * x;\n  }\n}\n";
+  source += code_of_functions();
   source += fmt::format(
       "\nconstexpr std::array<double, {0}> masses{{{1}}};\nconstexpr std::array<double, {0}> "
       "centre{{{2}}};\n\n}}  // namespace\n\n",

@@ -7,7 +7,6 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -157,14 +156,15 @@ class csv_reader {
     const auto unnamed = std::ranges::find_if(names_, is_unnamed);
     if (unnamed != names_.end()) {
       refuse(
-          "{}: column {} has no name; name it in the first line, or leave it away if it numbers the rows "
-          "(pandas: index=False, R: row.names=FALSE)",
+          "{}: columns must have names, and column {} has no name; name it in the first line, or leave it "
+          "away if "
+          "it numbers the rows (pandas: index=False, R: row.names=FALSE)",
           where_, unnamed - names_.begin() + 1);
     }
-    std::set<std::string_view> seen;
-    for (const auto& name : names_) {
-      if (!seen.insert(name).second)
-        refuse("{}: columns must have different names, got {} twice", where_, name);
+    std::vector<std::string_view> sorted(names_.begin(), names_.end());
+    std::ranges::sort(sorted);
+    if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end()) {
+      refuse("{}: columns must have different names, got {} twice", where_, *twice);
     }
   }
 

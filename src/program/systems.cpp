@@ -153,7 +153,7 @@ const system_declaration& declared_by(const system_settings& settings) {
 /// Of parameters, by name.
 std::map<std::string, std::string> typed_values(const system_settings& settings) {
   auto all = settings.parameters;
-  for (const auto& [name, text] : values_of(settings.potential.parameters, "--parameter")) {
+  for (const auto& [name, text] : parameters_of(settings.potential)) {
     if (!all.emplace(name, text).second) refuse("--parameter must have different names, got {} twice", name);
   }
   return all;

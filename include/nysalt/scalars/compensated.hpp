@@ -60,6 +60,9 @@ struct compensated {
   friend auto operator!=(const compensated& a, const compensated& b) { return a.value != b.value; }
 };
 
+template <class T>
+inline constexpr bool has_functions<compensated<T>> = true;  ///< below
+
 /// a where the condition holds, else b, carries included.
 template <class T>
 compensated<T> select(const auto& condition, const compensated<T>& a, const compensated<T>& b) {
@@ -129,6 +132,50 @@ template <class T>
 compensated<T> abs(const compensated<T>& a) {
   using std::abs;
   return T(abs(a.value));
+}
+template <class T>
+compensated<T> asin(const compensated<T>& a) {
+  using std::asin;
+  return T(asin(a.value));
+}
+template <class T>
+compensated<T> acos(const compensated<T>& a) {
+  using std::acos;
+  return T(acos(a.value));
+}
+template <class T>
+compensated<T> cbrt(const compensated<T>& a) {
+  using std::cbrt;
+  return T(cbrt(a.value));
+}
+template <class T>
+compensated<T> erf(const compensated<T>& a) {
+  using std::erf;
+  return T(erf(a.value));
+}
+template <class T>
+compensated<T> floor(const compensated<T>& a) {
+  using std::floor;
+  return T(floor(a.value));
+}
+template <class T>
+compensated<T> atan2(const compensated<T>& a, const compensated<T>& b) {
+  using std::atan2;
+  return T(atan2(a.value, b.value));
+}
+template <class T>
+compensated<T> hypot(const compensated<T>& a, const compensated<T>& b) {
+  using std::hypot;
+  return T(hypot(a.value, b.value));
+}
+template <class T>
+compensated<T> mod(const compensated<T>& a, const compensated<T>& b) {
+  return T(mod(a.value, b.value));
+}
+template <class T>
+compensated<T> pow(const compensated<T>& a, const compensated<T>& b) {
+  using std::pow;
+  return T(pow(a.value, b.value));
 }
 /// Power of the value; the exponent is a constant.
 template <class T>

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <numbers>
 
 #include "nysalt/scalar.hpp"
 
@@ -159,6 +160,8 @@ template <class T>
 inline constexpr bool is_dual = false;
 template <class T, int N>
 inline constexpr bool is_dual<dual<T, N>> = true;  ///< a dual is one
+template <class T, int N>
+inline constexpr bool has_functions<dual<T, N>> = true;  ///< below
 
 // Elementary functions: unqualified calls find libm for double and these for duals.
 /// (sqrt a)' = a'/(2 sqrt a), which is not finite at 0.
@@ -204,6 +207,20 @@ dual<T, N> tan(const dual<T, N>& a) {
   const T value = tan(a.value);
   return a.chain(value, T(1.0) + value * value);
 }
+/// (asin a)' = a'/sqrt(1 - a^2), which is not finite at -1 and 1.
+template <class T, int N>
+dual<T, N> asin(const dual<T, N>& a) {
+  using std::asin;
+  using std::sqrt;
+  return a.chain(asin(a.value), T(1.0) / sqrt((T(1.0) - a.value) * (T(1.0) + a.value)));
+}
+/// (acos a)' = -a'/sqrt(1 - a^2), which is not finite at -1 and 1.
+template <class T, int N>
+dual<T, N> acos(const dual<T, N>& a) {
+  using std::acos;
+  using std::sqrt;
+  return a.chain(acos(a.value), T(-1.0) / sqrt((T(1.0) - a.value) * (T(1.0) + a.value)));
+}
 template <class T, int N>
 dual<T, N> atan(const dual<T, N>& a) {
   using std::atan;
@@ -226,6 +243,78 @@ dual<T, N> tanh(const dual<T, N>& a) {
   using std::tanh;
   const T value = tanh(a.value);
   return a.chain(value, T(1.0) - value * value);
+}
+/// Angle of (x, y), in all quadrants. The derivative is not finite at the origin.
+template <class T, int N>
+dual<T, N> atan2(const dual<T, N>& y, const dual<T, N>& x) {
+  using std::atan2;
+  using std::hypot;
+  const T radius = hypot(y.value, x.value);
+  const T by_y = x.value / radius / radius;
+  const T by_x = -y.value / radius / radius;
+  dual<T, N> result;
+  result.value = atan2(y.value, x.value);
+  for (std::size_t k = 0; k < N; ++k) {
+    result.derivative[k] = by_y * y.derivative[k] + by_x * x.derivative[k];
+  }
+  return result;
+}
+/// sqrt(x^2 + y^2), without overflow. The derivative at the origin, where there is none, is 0.
+template <class T, int N>
+dual<T, N> hypot(const dual<T, N>& x, const dual<T, N>& y) {
+  using std::hypot;
+  const T radius = hypot(x.value, y.value);
+  const T by_x = select(radius > 0.0, x.value / radius, T(0.0));
+  const T by_y = select(radius > 0.0, y.value / radius, T(0.0));
+  dual<T, N> result;
+  result.value = radius;
+  for (std::size_t k = 0; k < N; ++k) {
+    result.derivative[k] = by_x * x.derivative[k] + by_y * y.derivative[k];
+  }
+  return result;
+}
+/// (cbrt a)' = a'/(3 (cbrt a)^2), which is not finite at 0.
+template <class T, int N>
+dual<T, N> cbrt(const dual<T, N>& a) {
+  using std::cbrt;
+  const T root = cbrt(a.value);
+  return a.chain(root, T(1.0) / (root * root * 3.0));
+}
+template <class T, int N>
+dual<T, N> erf(const dual<T, N>& a) {
+  using std::erf;
+  using std::exp;
+  return a.chain(erf(a.value), exp(-(a.value * a.value)) * (2.0 * std::numbers::inv_sqrtpi));
+}
+/// The derivative is 0, at jumps too.
+template <class T, int N>
+dual<T, N> floor(const dual<T, N>& a) {
+  using std::floor;
+  return T(floor(a.value));
+}
+/// Remainder a - b floor(a/b); its derivative is a' - floor(a/b) b', at jumps too.
+template <class T, int N>
+dual<T, N> mod(const dual<T, N>& a, const dual<T, N>& b) {
+  using std::floor;
+  dual<T, N> result;
+  result.value = mod(a.value, b.value);
+  const T quotient = floor((a.value - result.value) / b.value + T(0.5));  // whole but for rounding
+  for (std::size_t k = 0; k < N; ++k) result.derivative[k] = a.derivative[k] - quotient * b.derivative[k];
+  return result;
+}
+/// (a^b)' = b a^(b - 1) a' + log(a) a^b b'. For a <= 0, where the second term is not defined, it is 0.
+template <class T, int N>
+dual<T, N> pow(const dual<T, N>& a, const dual<T, N>& b) {
+  using std::log;
+  using std::pow;
+  dual<T, N> result;
+  result.value = pow(a.value, b.value);
+  const T by_a = select(b.value == 0.0, T(0.0), b.value * pow(a.value, b.value - 1.0));
+  const T by_b = select(a.value > 0.0, log(a.value) * result.value, T(0.0));
+  for (std::size_t k = 0; k < N; ++k) {
+    result.derivative[k] = by_a * a.derivative[k] + by_b * b.derivative[k];
+  }
+  return result;
 }
 /// (a^c)' = c a^(c - 1) a'; the exponent is a constant.
 template <class T, int N>

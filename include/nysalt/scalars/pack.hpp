@@ -128,6 +128,8 @@ template <class T>
 inline constexpr bool is_pack = false;
 template <class T, int W>
 inline constexpr bool is_pack<pack<T, W>> = true;  ///< a pack is one
+template <class T, int W>
+inline constexpr bool has_functions<pack<T, W>> = true;  ///< below
 
 /// Square root, rounded to nearest, as IEEE 754 asks, and in one instruction for a register.
 template <int W>
@@ -147,6 +149,14 @@ template <int W>
 [[gnu::always_inline]] inline pack<double, W> by_lane(const pack<double, W>& a, auto f) {
   pack<double, W> result;
   for (int lane = 0; lane < W; ++lane) result.set(lane, f(a[lane]));
+  return result;
+}
+/// f of each lane of both: the bits of f over double.
+template <int W>
+[[gnu::always_inline]] inline pack<double, W> by_lane(const pack<double, W>& a, const pack<double, W>& b,
+                                                      auto f) {
+  pack<double, W> result;
+  for (int lane = 0; lane < W; ++lane) result.set(lane, f(a[lane], b[lane]));
   return result;
 }
 }  // namespace detail
@@ -190,6 +200,42 @@ pack<double, W> cosh(const pack<double, W>& a) {
 template <int W>
 pack<double, W> tanh(const pack<double, W>& a) {
   return detail::by_lane(a, [](double x) { return std::tanh(x); });
+}
+template <int W>
+pack<double, W> asin(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::asin(x); });
+}
+template <int W>
+pack<double, W> acos(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::acos(x); });
+}
+template <int W>
+pack<double, W> cbrt(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::cbrt(x); });
+}
+template <int W>
+pack<double, W> erf(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::erf(x); });
+}
+template <int W>
+pack<double, W> floor(const pack<double, W>& a) {
+  return detail::by_lane(a, [](double x) { return std::floor(x); });
+}
+template <int W>
+pack<double, W> atan2(const pack<double, W>& a, const pack<double, W>& b) {
+  return detail::by_lane(a, b, [](double x, double y) { return std::atan2(x, y); });
+}
+template <int W>
+pack<double, W> hypot(const pack<double, W>& a, const pack<double, W>& b) {
+  return detail::by_lane(a, b, [](double x, double y) { return std::hypot(x, y); });
+}
+template <int W>
+pack<double, W> mod(const pack<double, W>& a, const pack<double, W>& b) {
+  return detail::by_lane(a, b, [](double x, double y) { return nysalt::mod(x, y); });
+}
+template <int W>
+pack<double, W> pow(const pack<double, W>& a, const pack<double, W>& b) {
+  return detail::by_lane(a, b, [](double x, double y) { return std::pow(x, y); });
 }
 /// libm's, lane by lane; the exponent is a constant.
 template <int W>

@@ -41,7 +41,7 @@ labelled_rows rows_of(const std::string& file, const std::string& label) {
     const auto named = std::ranges::find(names, label);
     if (!label.empty() && named == names.end()) {
       refuse("unknown label '{}' of {}: {}", label, file,
-             did_you_mean(label, names, "the first line of the file has all names"));
+             did_you_mean(label, names, "it must be a name in the first line"));
     }
     at = label.empty() ? names.size() - 1 : static_cast<std::size_t>(named - names.begin());
   };
