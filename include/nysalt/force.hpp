@@ -13,21 +13,27 @@
 namespace nysalt {
 
 namespace detail {
-/// A vector whose entries are not constructed. One of a fixed dimension lies on the stack, also where Eigen's
-/// own constructor refuses its size (EIGEN_STACK_ALLOCATION_LIMIT, 128 KB: 13 dual numbers of 13 derivatives
-/// over 16 lanes with 8 derivatives are 210 KB).
+/// Whether numbers need no construction before a copy of another is assigned.
+template <class T>
+inline constexpr bool is_plain_number =
+    std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>;
+
+/// A vector of numbers that are to be written.
 template <class T, int N>
-struct unconstructed_vector {
-  static_assert(std::is_trivially_destructible_v<T> && std::is_trivially_copyable_v<T>);
-  explicit unconstructed_vector(Eigen::Index) {}
+struct vector_to_fill {
+  explicit vector_to_fill(Eigen::Index size) : entries(size) {}
+  vector<T, N> entries;
+};
+/// One of a fixed dimension lies on the stack, unconstructed, also where Eigen's own constructor refuses its
+/// size (EIGEN_STACK_ALLOCATION_LIMIT, 128 KB: 13 dual numbers of 13 derivatives over 16 lanes with 8
+/// derivatives are 210 KB).
+template <class T, int N>
+  requires(N != Eigen::Dynamic && is_plain_number<T>)
+struct vector_to_fill<T, N> {
+  explicit vector_to_fill(Eigen::Index) {}
   union {
     vector<T, N> entries;
   };
-};
-template <class T>
-struct unconstructed_vector<T, Eigen::Dynamic> {
-  explicit unconstructed_vector(Eigen::Index size) : entries(size) {}
-  vector<T, Eigen::Dynamic> entries;
 };
 }  // namespace detail
 
@@ -37,7 +43,7 @@ template <class T, int N>
 void gradient(const auto& function, const vector<T, N>& x, double sign, vector<T, N>& result) {
   constexpr int width = detail::sweep<N>;
   using D = dual<T, width>;
-  detail::unconstructed_vector<D, N> room(x.size());
+  detail::vector_to_fill<D, N> room(x.size());
   auto& lifted = room.entries;
   for (Eigen::Index i = 0; i < x.size(); ++i) std::construct_at(&lifted[i], x[i]);
   for (Eigen::Index first = 0; first < x.size(); first += width) {
