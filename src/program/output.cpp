@@ -6,6 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <climits>
@@ -187,8 +189,13 @@ void require_checkpoint(const std::string& checkpoint, const std::string& output
 std::string picture_name(const std::filesystem::path& table) {
   std::string name = table.stem().string();
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
-  if (name + ".csv" == table.filename()) return name;
-  nysalt::detail::fingerprint sum;  // of what else would have the same name
+  // "a-npy" for a.npy, so that a.csv has another; and what else would have the same name has a fingerprint.
+  const std::string ending = table.extension();
+  const std::string kind = ending == ".csv" ? "" : ending.empty() ? "-" : "-" + ending.substr(1);
+  const bool is_taken = std::ranges::any_of(std::array{"-", "-npy", "-h5", "-hdf5", "-txt"},
+                                            [&](const char* other) { return name.ends_with(other); });
+  if (name == table.stem().string() && !is_taken) return name + kind;
+  nysalt::detail::fingerprint sum;
   for (const char c : table.filename().string()) sum.add(static_cast<unsigned char>(c));
   return name + "-" + sum.text();
 }

@@ -136,3 +136,6 @@ static_assert(std::is_same_v<written_system<counted<in_bath<bare>>>::type, bare>
 static_assert(std::is_same_v<written_system<bare>::type, bare>);
 
 }  // namespace
+
+// Where this file compiles all of it holds; a run shows that it was.
+BOOST_AUTO_TEST_CASE(members_of_systems_are_checked) { BOOST_TEST(sizeof(bare) > 0U); }

@@ -346,8 +346,8 @@ BOOST_AUTO_TEST_CASE(systems_say_what_they_are) {
   // Without a description by the name of the type as it is written.
   BOOST_TEST(describe(dynamic_potential{4}) == "nysalt::test::dynamic_potential with 4 degrees of freedom");
   BOOST_TEST(describe(counted(dynamic_potential{4})) == describe(dynamic_potential{4}));
-  BOOST_TEST(describe(unnamed<2>()) == "unnamed<2> with 2 degrees of freedom");
-  BOOST_TEST(in_time<unnamed_in_time>().description() == "unnamed_in_time in time");
+  BOOST_TEST(describe(unnamed<2>()).ends_with("unnamed<2> with 2 degrees of freedom"));
+  BOOST_TEST(in_time<unnamed_in_time>().description().ends_with("unnamed_in_time in time"));
 }
 
 // Margins at which exp() would overflow, and descriptions that differ where the data differ.
