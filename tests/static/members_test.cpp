@@ -9,6 +9,7 @@
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/in_bath.hpp"
+#include "nysalt/systems/sum_of_parts.hpp"
 
 using namespace nysalt;
 using namespace nysalt::detail;
@@ -134,6 +135,8 @@ static_assert(mentions_masses<with_masses> && !mentions_near_force<with_room>);
 // What wrappers have under constraints is not taken for their own.
 static_assert(std::is_same_v<written_system<counted<in_bath<bare>>>::type, bare>);
 static_assert(std::is_same_v<written_system<bare>::type, bare>);
+struct of_parts : sum_of_parts<bare, bare> {};
+static_assert(std::is_same_v<written_system<of_parts>::type, bare>);
 
 }  // namespace
 

@@ -85,7 +85,11 @@ class sum_of_parts {
 
 namespace detail {
 template <class First, class... Rest>
-struct written_system<sum_of_parts<First, Rest...>> : written_system<First> {};
+First first_part_of(const sum_of_parts<First, Rest...>*);  // not defined
+/// Of a sum of parts, and of what derives from one, which has members under constraints.
+template <class S>
+  requires requires(const S* sum) { first_part_of(sum); }
+struct written_system<S> : written_system<decltype(first_part_of(static_cast<const S*>(nullptr)))> {};
 }  // namespace detail
 
 }  // namespace nysalt
