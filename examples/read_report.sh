@@ -31,7 +31,7 @@ nysalt compare --equal-cost --system fpu --steps 0.015 --horizon 20 --trajectori
 # phase_fitted_mclachlan5  0.015              66.7~9.36e-04~0/48          good
 # srkn6b                   0.015              66.7~2.20e-01~0/48  near an edge  null tail edge
 # s_aia2                   0.015              66.7~8.07e-03~0/48          good            null
-# verlet                   0.015              66.7~5.01e-02~0/48  near an edge  null tail edge
+# verlet                   0.015              66.7~5.01e-02~0/48          good       null tail
 # null model                   -               0.0        0         -  8.05e-03               -             -                     -         -             -
 # `null`: no better than the null model, which stays as it was at the start and costs nothing; not ranked
 # `tail`: few trajectories decide the mean: it and its standard error say little; ranked by the median, as are all rows here
@@ -60,7 +60,7 @@ nysalt compare --equal-cost --system fpu --steps 0.015 --horizon 20 --trajectori
 # phase_fitted_mclachlan5  0.015              66.7~2.84e-03~0/48          good     tail
 # srkn6b                   0.015              66.7~4.19e+00~0/48  near an edge     edge
 # s_aia2                   0.015              66.7~4.23e+00~0/48          good
-# verlet                   0.015              66.7~4.16e+00~0/48  near an edge     edge
+# verlet                   0.015              66.7~4.16e+00~0/48          good
 # null model                   -               0.0        0         -  5.40e+00               -             -                     -         -             -
 # `tail`: few trajectories decide the mean: it and its standard error say little; ranked by the median, as are all rows here
 # `formula`: learned, but nothing was gained: a classical method of the same cost, named with the fit, has as small a loss

@@ -91,7 +91,7 @@ nysalt run --system fpu --method scheme.json --step 0.045 --horizon 500 --observ
 # srkn6b                   0.015              66.8~4.24e+00~0/48  near an edge   edge
 # chin4a                   0.015              66.8~4.59e+00~0/48          good
 # pefrl                    0.015              66.7~-~48/48      unstable
-# verlet                   0.015              66.8~4.16e+00~0/48  near an edge   edge
+# verlet                   0.015              66.8~4.16e+00~0/48          good
 # null model                   -               0.0        0         -  5.17e+00               -             -                     -         -             -
 # `tail`: few trajectories decide the mean: it and its standard error say little; ranked by the median, as are all rows here
 # `edge`: the method at this step is near an edge: the judgement in the data says which

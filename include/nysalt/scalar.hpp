@@ -100,36 +100,43 @@ template <class S>
 S max(double a, const S& b) {
   return max(S(a), b);
 }
+/// Remainder a - b floor(a/b) beside a number.
 template <class S>
   requires has_functions<S>
 S mod(const S& a, double b) {
   return mod(a, S(b));
 }
+/// Remainder a - b floor(a/b) beside a number.
 template <class S>
   requires has_functions<S>
 S mod(double a, const S& b) {
   return mod(S(a), b);
 }
+/// Angle of (x, y) beside a number.
 template <class S>
   requires has_functions<S>
 S atan2(const S& y, double x) {
   return atan2(y, S(x));
 }
+/// Angle of (x, y) beside a number.
 template <class S>
   requires has_functions<S>
 S atan2(double y, const S& x) {
   return atan2(S(y), x);
 }
+/// sqrt(x^2 + y^2), without overflow beside a number.
 template <class S>
   requires has_functions<S>
 S hypot(const S& x, double y) {
   return hypot(x, S(y));
 }
+/// sqrt(x^2 + y^2), without overflow beside a number.
 template <class S>
   requires has_functions<S>
 S hypot(double x, const S& y) {
   return hypot(S(x), y);
 }
+/// Power of two arguments beside a number.
 template <class S>
   requires has_functions<S>
 S pow(double a, const S& exponent) {

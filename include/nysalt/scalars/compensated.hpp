@@ -133,45 +133,54 @@ compensated<T> abs(const compensated<T>& a) {
   using std::abs;
   return T(abs(a.value));
 }
+/// Inverse sine of the value.
 template <class T>
 compensated<T> asin(const compensated<T>& a) {
   using std::asin;
   return T(asin(a.value));
 }
+/// Inverse cosine of the value.
 template <class T>
 compensated<T> acos(const compensated<T>& a) {
   using std::acos;
   return T(acos(a.value));
 }
+/// Cube root of the value.
 template <class T>
 compensated<T> cbrt(const compensated<T>& a) {
   using std::cbrt;
   return T(cbrt(a.value));
 }
+/// Error function of the value.
 template <class T>
 compensated<T> erf(const compensated<T>& a) {
   using std::erf;
   return T(erf(a.value));
 }
+/// Largest whole number up to the value.
 template <class T>
 compensated<T> floor(const compensated<T>& a) {
   using std::floor;
   return T(floor(a.value));
 }
+/// Angle of (x, y) of the values.
 template <class T>
 compensated<T> atan2(const compensated<T>& a, const compensated<T>& b) {
   using std::atan2;
   return T(atan2(a.value, b.value));
 }
+/// sqrt(x^2 + y^2), without overflow of the values.
 template <class T>
 compensated<T> hypot(const compensated<T>& a, const compensated<T>& b) {
   using std::hypot;
   return T(hypot(a.value, b.value));
 }
+/// Remainder a - b floor(a/b) of the values.
 template <class T>
 compensated<T> mod(const compensated<T>& a, const compensated<T>& b) {
   return T(mod(a.value, b.value));
 }
+/// Power of two arguments of the values.
 template <class T>
 compensated<T> pow(const compensated<T>& a, const compensated<T>& b) {
   using std::pow;

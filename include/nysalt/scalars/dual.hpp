@@ -280,6 +280,7 @@ dual<T, N> cbrt(const dual<T, N>& a) {
   const T root = cbrt(a.value);
   return a.chain(root, T(1.0) / (root * root * 3.0));
 }
+/// (erf a)' = 2 exp(-a^2) a'/sqrt(pi).
 template <class T, int N>
 dual<T, N> erf(const dual<T, N>& a) {
   using std::erf;

@@ -201,38 +201,47 @@ template <int W>
 pack<double, W> tanh(const pack<double, W>& a) {
   return detail::by_lane(a, [](double x) { return std::tanh(x); });
 }
+/// Inverse sine, lane by lane.
 template <int W>
 pack<double, W> asin(const pack<double, W>& a) {
   return detail::by_lane(a, [](double x) { return std::asin(x); });
 }
+/// Inverse cosine, lane by lane.
 template <int W>
 pack<double, W> acos(const pack<double, W>& a) {
   return detail::by_lane(a, [](double x) { return std::acos(x); });
 }
+/// Cube root, lane by lane.
 template <int W>
 pack<double, W> cbrt(const pack<double, W>& a) {
   return detail::by_lane(a, [](double x) { return std::cbrt(x); });
 }
+/// Error function, lane by lane.
 template <int W>
 pack<double, W> erf(const pack<double, W>& a) {
   return detail::by_lane(a, [](double x) { return std::erf(x); });
 }
+/// Largest whole numbers up to the values, lane by lane.
 template <int W>
 pack<double, W> floor(const pack<double, W>& a) {
   return detail::by_lane(a, [](double x) { return std::floor(x); });
 }
+/// Angle of (x, y), lane by lane.
 template <int W>
 pack<double, W> atan2(const pack<double, W>& a, const pack<double, W>& b) {
   return detail::by_lane(a, b, [](double x, double y) { return std::atan2(x, y); });
 }
+/// sqrt(x^2 + y^2), without overflow, lane by lane.
 template <int W>
 pack<double, W> hypot(const pack<double, W>& a, const pack<double, W>& b) {
   return detail::by_lane(a, b, [](double x, double y) { return std::hypot(x, y); });
 }
+/// Remainder a - b floor(a/b), lane by lane.
 template <int W>
 pack<double, W> mod(const pack<double, W>& a, const pack<double, W>& b) {
   return detail::by_lane(a, b, [](double x, double y) { return nysalt::mod(x, y); });
 }
+/// Power of two arguments, lane by lane.
 template <int W>
 pack<double, W> pow(const pack<double, W>& a, const pack<double, W>& b) {
   return detail::by_lane(a, b, [](double x, double y) { return std::pow(x, y); });
