@@ -118,7 +118,7 @@ Henon and Heiles' potential with walls. "By the twin": the older rule, by which 
 large it was. Rows are a random part of all, which would take days; [verdicts.csv](verdicts.csv) has each. Made by
 
 ```sh
-bench/studies/soundness/verdicts.py build/release/nysalt build/soundness --seeds 3 --most 1000
+bench/studies/soundness/verdicts.py build/release/nysalt build/soundness --seeds 8 --most 1000
 ```
 
 """
