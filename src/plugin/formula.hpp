@@ -33,9 +33,8 @@ std::string code_of_functions();
 bool is_name_of_grammar(std::string_view name);
 
 /// The expression in C++, of coordinates q[i] and parameters by their names. Throws refusal, with the place,
-/// for what is not in the grammar. Names in upper case stand for those in lower case where
-/// there is no other. Nothing of the text goes into the
-/// result but names that are known and numbers.
+/// for what is not in the grammar. Names in upper case stand for those in lower case where there is no other.
+/// Nothing of the text goes into the result but names that are known and numbers.
 std::string translated(std::string_view text, const std::vector<variable>& variables,
                        const std::vector<std::string>& parameters);
 

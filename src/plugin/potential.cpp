@@ -79,11 +79,13 @@ std::vector<double> centre_of(const typed_potential& typed, const std::vector<va
   return centre;
 }
 
-/// Whether some C++ has a name that no letter, digit or _ follows.
-bool has_word(std::string_view code, std::string_view name) {
-  for (auto at = code.find(name); at != std::string_view::npos; at = code.find(name, at + 1)) {
-    const auto next = code.substr(std::min(at + name.size(), code.size())).substr(0, 1);
-    if (next.empty() || !is_name("_" + std::string(next))) return true;
+/// Whether some C++ has a name, between characters that are of no name.
+bool has_word(const std::string& code, const std::string& name) {
+  const auto is_in_name = [&](std::size_t at) {
+    return at < code.size() && is_name("_" + code.substr(at, 1));
+  };
+  for (auto at = code.find(name); at != std::string::npos; at = code.find(name, at + 1)) {
+    if (!is_in_name(at + name.size()) && (at == 0 || !is_in_name(at - 1))) return true;
   }
   return false;
 }

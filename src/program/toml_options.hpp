@@ -12,7 +12,7 @@ namespace nysalt::program {
 
 /// Option of a TOML file.
 struct toml_option {
-  std::string section;              ///< name of the table that it stands in; empty at the top
+  std::string section;              ///< TOML table of the option; empty: the top-level table
   std::string name;                 ///< key; empty for a section without options
   std::vector<std::string> values;  ///< a text for each element of a list; NAME=VALUE for each of a table
   bool is_table = false;            ///< whether the value is a table

@@ -52,7 +52,8 @@ planned_run::planned_run(const run_command& asked, const common_settings& common
 const judgement& planned_run::judged() const { return system->judged(*method, plan.step, plan.threads); }
 
 std::optional<std::string> planned_run::warning_of_energy(double largest) const {
-  constexpr double small = 0.25;  // of the kinetic energy, as of judgements
+  // Of the kinetic energy: in proportion to time it becomes all of that in a run four times as long.
+  constexpr double small = 0.25;
   const double kinetic = judged().kinetic_energy;
   if (!judged().energy_was_watched || !(largest > small * kinetic)) return std::nullopt;
   return fmt::format(
