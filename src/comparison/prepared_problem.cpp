@@ -41,6 +41,14 @@ vector<double, Eigen::Dynamic> vector_of(std::span<const double> numbers) {
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), std::ssize(numbers));
 }
 
+/// What pilots may do until they are stationary where no bands say how stiff the system is, and there may be
+/// no stationary distribution: some seconds.
+std::int64_t most_steps_of_pilots(const model& system, const burn_in_options& options) {
+  constexpr double work = 2e9;  // force evaluations times force_cost()
+  const double of_a_step = 2.0 * options.pilots * std::max(1.0, force_cost(system));
+  return std::clamp<std::int64_t>(static_cast<std::int64_t>(work / of_a_step), 2048, options.most_steps);
+}
+
 }  // namespace
 
 std::string to_string(start where) {
@@ -53,17 +61,18 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
       parameters_(std::move(parameters)),
       source_of_kind_(std::move(source)),
       start_(conditions.start),
+      is_start_usual_(conditions.is_start_usual),
       frequency_asked_(conditions.frequency) {
   if (conditions.starts) made_.starts = conditions.starts(made_);
   for (const auto& one : made_.letters) letters_.push_back(one.named);
   if (made_.frequency == 0.0) made_.frequency = conditions.frequency.value_or(0.0);
   require_square_of_frequency(description(), made_.frequency);
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
-  if (start_ != start::law && !has_frequency_bands(made_.system)) {
-    refuse(
-        "{}: the frequencies must have a bound, or the motion in a bath has no stationary distribution; take "
-        "--start law",
-        description());
+  const bool is_unknown = is_black_box(made_.system) && !has_frequency_bands(made_.system);
+  if (start_ == start::gibbs && is_start_usual_ && is_unknown) {
+    take_law(
+        "chains that find it would call the force of a black box some million times; take --start gibbs for "
+        "it");
   }
   if (start_ == start::law) starts_.emplace(made_.starts);
 }
@@ -155,20 +164,37 @@ void prepared_problem::require_starts(const std::string& option, std::int64_t tr
       option, *given, trajectories, option, *given);
 }
 
+void prepared_problem::take_law(const std::string& why) {
+  start_ = start::law;
+  starts_.emplace(made_.starts);
+  warning_of_starts_ =
+      fmt::format("trajectories begin at {}, not in the Gibbs distribution: {}", starts(), why);
+}
+
 void prepared_problem::prepare_starts(std::uint64_t seed) {
   if (starts_) return;
   const model base = made_.system.base();
+  std::string why;
   try {
     if (start_ == start::gibbs && made_.has_exact_flow) {
       starts_.emplace(gibbs_of_modes<Eigen::Dynamic>(base, made_.system.bath().temperature()));
     } else if (start_ == start::gibbs) {
-      starts_.emplace(gibbs(made_.system, made_.starts));
+      burn_in_options options;
+      if (!has_frequency_bands(made_.system))
+        options.most_steps = most_steps_of_pilots(made_.system, options);
+      starts_.emplace(gibbs(made_.system, made_.starts, options));
     } else {
       starts_.emplace(one_long_trajectory<Eigen::Dynamic>(made_.system, made_.starts, {.seed = seed}));
     }
   } catch (const std::runtime_error& problem) {
-    refuse("cannot draw initial states: {}; take another temperature, or --start law", problem.what());
+    why = problem.what();
+  } catch (const std::invalid_argument& problem) {
+    why = problem.what();
   }
+  if (why.empty()) return;
+  if (!is_start_usual_)
+    refuse("cannot draw initial states: {}; take another temperature, or --start law", why);
+  take_law(why + "; take --start law to begin there without a search");
 }
 
 void prepared_problem::start_state(std::uint64_t seed, std::uint64_t n, std::span<double> q,

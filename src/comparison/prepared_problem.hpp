@@ -49,6 +49,7 @@ struct surroundings {
   std::optional<double> frequency = {};  // to which methods are fitted; nothing: declared, or seen
   /// Makes the starts that are taken in the place of the system's own distribution; empty: none are.
   std::function<initial_states(const initial_value_problem&)> starts = {};
+  bool is_start_usual = false;  // nobody asked for it, and the law is taken where it cannot be had
 };
 
 /// The angular frequency that a method is fitted to, and where it is known from.
@@ -110,6 +111,8 @@ class prepared_problem {
   /// Finds the burn-in, or runs the one long trajectory, whose seed it is. To be called before anything below
   /// runs.
   void prepare_starts(std::uint64_t seed);
+  /// Why trajectories begin at the law where they usually begin elsewhere; empty otherwise.
+  const std::string& warning_of_starts() const { return warning_of_starts_; }
   /// Trajectories begin there from now on.
   void take_starts(const initial_states& starts) { starts_ = starts; }
   /// That of trajectory n, by the seed of a role.
@@ -193,6 +196,8 @@ class prepared_problem {
   std::optional<double> frequency_along_starts(std::uint64_t seed, std::uint64_t count) const;
 
  private:
+  /// Trajectories begin at the law, and warning_of_starts() says why.
+  void take_law(const std::string& why);
   model_reference reference() const;
   error_measure measure_named(const asked_metric& metric) const;
   /// In which noise is wanted to learn with.
@@ -214,6 +219,8 @@ class prepared_problem {
   std::vector<named_value> parameters_;
   std::string source_of_kind_;
   start start_;
+  bool is_start_usual_;
+  std::string warning_of_starts_;
   std::optional<double> frequency_asked_;
   std::optional<initial_states> starts_;
   mutable std::optional<seen_frequencies> highest_seen_;

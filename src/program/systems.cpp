@@ -128,7 +128,7 @@ surroundings surroundings_of(const system_settings& settings) {
   const double spread = spread_of(settings.spread, where);
   auto starts = given_starts_of(settings, heat_bath);
   const double of_law = starts ? 1.0 : spread;
-  return {heat_bath, where, of_law, settings.frequency, std::move(starts)};
+  return {heat_bath, where, of_law, settings.frequency, std::move(starts), settings.start.empty()};
 }
 
 /// The typed value of a parameter, as its declaration has it.

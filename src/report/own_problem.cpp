@@ -13,10 +13,10 @@ std::unique_ptr<prepared_problem> prepared(initial_value_problem problem) {
   const std::string name = describe(problem.system);
   const nysalt::bath in = problem.system.bath();
   const bool is_warm = in.acts() && in.has_temperature() && in.temperature() > 0.0;
-  const start where = is_warm && has_frequency_bands(problem.system) ? start::gibbs : start::law;
+  const start where = is_warm ? start::gibbs : start::law;
   examine(problem, name);
   return std::make_unique<prepared_problem>(std::move(problem), std::vector<named_value>{{"name", name}},
-                                            surroundings{in, where});
+                                            surroundings{.bath = in, .start = where, .is_start_usual = true});
 }
 
 std::vector<std::string> with_cpp_terms(std::vector<std::string> warnings) {

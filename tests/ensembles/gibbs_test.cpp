@@ -180,6 +180,21 @@ struct quartic {
     f[0] = q[0] * q[0] * q[0] * -1.0;
   }
 };
+struct cusp {
+  static constexpr int dimension = 1;
+  template <class T>
+  T potential(const vector<T, 1>& q) const {
+    using std::abs;
+    return abs(q[0]);
+  }
+};
+struct no_force {
+  static constexpr int dimension = 1;
+  template <class T>
+  T potential(const vector<T, 1>& q) const {
+    return 0.0 * q[0];
+  }
+};
 
 template <class S>
 in_bath<S> at(double temperature, const S& system) {
@@ -248,8 +263,8 @@ BOOST_AUTO_TEST_CASE(what_never_has_the_law_is_refused) {
   const auto bound = [](double temperature, const burn_in_options& options) {
     return [=] { gibbs(at(temperature, oscillator), around_0, options); };
   };
-  BOOST_TEST(refuses<failure>(bound(1.0, {.friction = 1.0, .step = 200.0}),
-                              {"gibbs", "pilot chain 0 that diverged", "step small enough"}));
+  BOOST_TEST(gibbs(at(1.0, oscillator), around_0, {.friction = 1.0, .step = 200.0}).report().step * 3.0 <
+             2.0);
   BOOST_TEST(refuses<failure>(bound(0.7, {.friction = 1e-4, .most_steps = 4096}),
                               {"gibbs", "must become stationary", "4096 steps"}));
   BOOST_TEST(refuses<failure>([&] { gibbs(free, near_0); }, {"gibbs", "pilot chain", "diverged at time",
@@ -271,7 +286,27 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   BOOST_TEST(refused({.length = std::nan("")}, {"length", "positive"}));
   BOOST_TEST(refused({.pilots = 3}, {"pilots must be 16 to", "got 3"}));
   BOOST_TEST(refused({.threads = 0}, {"thread"}));
-  BOOST_TEST(refuses<wrong>([] { gibbs(at(1.0, quartic{}), around_0); }, {"gibbs", "frequency_bands()"}));
+  BOOST_TEST(refuses<wrong>([] { gibbs(at(1.0, no_force{}), around_0); },
+                            {"gibbs", "frequencies or forces", "a step"}));
+}
+
+// Its frequency sqrt(3 q^2) at the starts, of at most some 10^-5, would let steps be 10^5 times too large.
+BOOST_AUTO_TEST_CASE(starts_may_be_much_colder_than_the_bath) {
+  const gibbs ensemble(at(1.0, quartic{}), normal_around<1>({vector_1(0.0), vector_1(0.0)}, 1e-6, 1e-6));
+  BOOST_TEST(ensemble.report().halvings > 10);
+  std::vector<double> potentials;
+  for (std::uint64_t n = 0; n < 1600; ++n) potentials.push_back(quartic{}.potential(ensemble(seed(3), n).q));
+  BOOST_TEST(mean_off(potentials, 0.25, std::sqrt(covariance(potentials, potentials))) <=
+             standard_errors(false_alarms));
+}
+
+// exp(-|q|/kT): nothing oscillates, and <|q|> = kT.
+BOOST_AUTO_TEST_CASE(a_force_without_a_frequency_has_a_step) {
+  const gibbs ensemble(at(2.0, cusp{}), around_0);
+  std::vector<double> potentials;
+  for (std::uint64_t n = 0; n < 1600; ++n) potentials.push_back(cusp{}.potential(ensemble(seed(4), n).q));
+  BOOST_TEST(mean_off(potentials, 2.0, std::sqrt(covariance(potentials, potentials))) <=
+             standard_errors(false_alarms));
 }
 
 namespace {

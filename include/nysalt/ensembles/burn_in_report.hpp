@@ -12,10 +12,10 @@ namespace nysalt {
 /// 0 is for what is to be found.
 struct burn_in_options {
   double friction =
-      0.0;              ///< friction of the chains; 0: the one of four with the shortest autocorrelation time
-  double step = 0.0;    ///< initial step; 0: omega h = 1/2 at the highest frequency
-  double length = 0.0;  ///< a time; 0: 20 times the longest autocorrelation time
-  int pilots = 256;     ///< number of chains that are measured
+      0.0;            ///< friction of the chains; 0: the one of four with the shortest autocorrelation time
+  double step = 0.0;  ///< initial step; 0: omega h = 1/2 at the highest frequency, declared or at the starts
+  double length = 0.0;                   ///< a time; 0: 20 times the longest autocorrelation time
+  int pilots = 256;                      ///< number of chains that are measured
   std::int64_t most_steps = 10'000'000;  ///< largest number of steps of a pilot until it is stationary
   std::uint64_t seed = 1;                ///< seed of the pilots
   int threads = 1;                       ///< threads for the pilots; changes no bit

@@ -58,8 +58,9 @@ template <int N>
 class gibbs {
  public:
   /// The Gibbs distribution of a system in a bath. Throws std::invalid_argument if the bath has no
-  /// temperature or that is zero, if an option is out of range, or if there is neither a step nor
-  /// frequency_bands(); std::runtime_error if chains diverge, do not become stationary, or a check fails.
+  /// temperature or that is zero, if an option is out of range, or if there are neither a step nor
+  /// frequencies or forces at the starts; std::runtime_error if chains diverge, do not become stationary, or
+  /// a check fails.
   template <HasBath S, Ensemble<S> E>
     requires(NystromSystem<S> && S::dimension == N)
   gibbs(const S& system, const E& from, const burn_in_options& options = {})

@@ -49,8 +49,8 @@ class long_trajectory {
 template <int N>
 class one_long_trajectory {
  public:
-  /// Throws std::invalid_argument if the options are out of range, or there is neither a step nor
-  /// frequency_bands(); std::runtime_error if the trajectory diverges.
+  /// Throws std::invalid_argument if the options are out of range, or there are neither a step nor
+  /// frequencies or forces at the starts; std::runtime_error if the trajectory diverges.
   template <HasBath S, Ensemble<S> E>
     requires(S::dimension == N)
   one_long_trajectory(const S& system, const E& from, const long_trajectory_options& options = {})

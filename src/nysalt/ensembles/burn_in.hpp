@@ -14,6 +14,7 @@
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "slowest_mode.hpp"
+#include "step_of_motion.hpp"
 
 namespace nysalt {
 
@@ -44,7 +45,8 @@ class burn_in_search {
   burn_in_report find() {
     const auto began = std::chrono::steady_clock::now();
     burn_in_report report;
-    report.step = options_.step > 0.0 ? options_.step : step_of_frequency(*base_, 0.5, "gibbs");
+    report.step =
+        options_.step > 0.0 ? options_.step : step_of_motion(*base_, *from_, temperature_, 0.5, "gibbs");
     while (!settle(report)) {
       report.step *= 0.5;
       ++report.halvings;
@@ -58,7 +60,7 @@ class burn_in_search {
   }
 
  private:
-  static constexpr int most_halvings = 6;
+  static constexpr int most_biased = 6;  // halvings because of a bias
 
   burn_in_pilot<T> pilot(double friction, double step, int count) {
     // Far from the numbers of chains that anybody uses, and from those of other pilots.
@@ -117,10 +119,15 @@ class burn_in_search {
           sound = sound && !report.bias[i].shows();
       }
       if (sound) return true;
-    } catch (const chain_diverged&) {
-      if (report.halvings == most_halvings) throw;
+    } catch (const chain_diverged& one) {
+      // Starts may be much colder than the bath, and their frequency much too low: then chains diverge at
+      // once, and halving costs little. A motion that is not confined takes its time, however small the step.
+      constexpr std::int64_t at_once = 10'000;
+      constexpr int most_halvings = 60;
+      if (one.step > at_once || report.halvings == most_halvings) throw;
+      return false;
     }
-    if (report.halvings < most_halvings) return false;
+    if (biased_++ < most_biased) return false;
     throw std::runtime_error(
         sentence("gibbs: the step must have no bias that shows, got {}; give a smaller one",
                  in_digits(report.step, 6)));
@@ -155,6 +162,7 @@ class burn_in_search {
   burn_in_options options_;
   Eigen::VectorXd slowest_;
   std::int64_t pilots_ = 0;
+  int biased_ = 0;  // steps that showed a bias
 };
 
 }  // namespace nysalt

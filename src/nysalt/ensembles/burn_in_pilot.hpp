@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "burn_in_chains.hpp"
@@ -20,7 +21,8 @@ namespace nysalt {
 
 /// A chain ran away: the motion is not confined, or the step is too large.
 struct chain_diverged : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  chain_diverged(const std::string& text, std::int64_t at) : std::runtime_error(text), step(at) {}
+  std::int64_t step;  // number of the step
 };
 
 /// Chains 0, 1, ... from starts of their numbers, with noise from `first_noise` on.
@@ -149,11 +151,12 @@ class burn_in_pilot {
       for (int k = 0; k < blocks_[b].count; ++k) {
         const auto lost = blocks_[b].run.diverged_at(k);
         if (!lost) continue;
-        throw chain_diverged(sentence(
+        const std::string text = sentence(
             "gibbs: the motion of {} must be confined and the step small enough, got pilot chain {} that "
             "diverged at time {} with the step {}",
-            describe(chains_->system()), b * width + static_cast<std::size_t>(k),
-            in_digits(static_cast<double>(*lost) * chains_->step(), 6), in_digits(chains_->step(), 6)));
+            describe(chains_->system().base()), b * width + static_cast<std::size_t>(k),
+            in_digits(static_cast<double>(*lost) * chains_->step(), 6), in_digits(chains_->step(), 6));
+        throw chain_diverged(text, *lost);
       }
     }
   }

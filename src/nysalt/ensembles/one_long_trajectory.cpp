@@ -7,13 +7,13 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "highest_frequency.hpp"
 #include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "step_of_motion.hpp"
 
 namespace nysalt::detail {
 
@@ -33,7 +33,10 @@ void require_sound(const long_trajectory_options& o, double step) {
 long_trajectory::long_trajectory(const model& in_bath, const initial_states& from,
                                  const long_trajectory_options& options)
     : options_(options), from_(from.description()) {
-  step_ = options.step != 0.0 ? options.step : step_of_frequency(in_bath, 0.1, "one_long_trajectory");
+  const bath& in = in_bath.bath();
+  const double temperature = in.has_temperature() ? in.temperature() : 0.0;
+  step_ = options.step != 0.0 ? options.step
+                              : step_of_motion(in_bath, from, temperature, 0.1, "one_long_trajectory");
   require_sound(options, step_);
   const auto steps = static_cast<std::int64_t>(options.length / step_);
   const auto first = static_cast<std::int64_t>(std::ceil(options.burn_in / step_));

@@ -267,6 +267,7 @@ int stability(const stability_command& command, const common_settings& common) {
     warn_of_threads(common);
     prepare_starts(*system, common,
                    shown);  // a bath drives the initial states to its stationary distribution
+    if (!system->warning_of_starts().empty()) warnings.push_back(system->warning_of_starts());
     shown.part("judging the step");
     const judgement& found = system->judged(target.method, *command.step, common.threads);
     const auto rival = loses_fewest(target.method, *system, found, common.threads);
