@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "degrees_of_freedom.hpp"
 #include "did_you_mean.hpp"
 #include "nysalt/analysis/kinetic_temperature.hpp"
 #include "nysalt/energy.hpp"
@@ -88,8 +89,10 @@ inline nysalt::detail::over_scalars<nysalt::detail::of_state> observable(const i
     });
   }
   if (name == "kinetic_temperature") {
-    return of_system(system, []<class T>(const model& of, const phase_point<T, Eigen::Dynamic>& x) {
-      return kinetic_temperature<T>(of, x);
+    const double shared_by =
+        static_cast<double>(size(system)) / static_cast<double>(degrees_of_freedom(made));
+    return of_system(system, [shared_by]<class T>(const model& of, const phase_point<T, Eigen::Dynamic>& x) {
+      return kinetic_temperature<T>(of, x) * shared_by;
     });
   }
   if (name == "potential_energy") {

@@ -56,6 +56,8 @@ class recommendation {
   void step_down(candidate& contender);
 
   asked_metric metric() const { return {options_.metric, options_.observable}; }
+  /// The fastest rate of the reference; where none is known, as without a force, one turn in the horizon.
+  double rate_of_motion() const;
   trajectories_plan plan_at(double step, std::int64_t count, std::uint64_t seed) const;
   /// Coefficients at the contender's step; of a family with the optimum of a step nearby as one more start,
   /// or the only.

@@ -137,12 +137,13 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
   }
 }
 
-/// A reference that errs like the method says nothing of it.
+/// A reference that errs like the method says nothing of it; but where errors are to be below a bound, it may
+/// err by a part of that.
 void recommendation::warn_of_reference(const contest& among) {
   for (const auto& contender : among.all) {
-    if (!contender.reference_error || !contender.is_eligible() ||
-        *contender.reference_error <= 0.1 * contender.error.mean.mean)
-      continue;
+    if (!contender.reference_error || !contender.is_eligible()) continue;
+    const double allowed = std::max(contender.error.mean.mean, options_.error.value_or(0.0));
+    if (*contender.reference_error <= 0.1 * allowed) continue;
     warnings_.push_back(
         fmt::format("the reference's own error {:.1e} is not ten times smaller than that of {}, "
                     "{:.1e}",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Candidates of a recommendation.
 #include <algorithm>
+#include <numbers>
 #include <stdexcept>
 
 #include "catalogue.hpp"
@@ -26,10 +27,6 @@ void recommendation::require_sound_command() {
   if (options_.budget_seconds) require_positive("--budget-seconds", *options_.budget_seconds);
   if (options_.error) require_positive("--error", *options_.error);
   require_positive("--horizon", options_.horizon);
-  if (!(system_->fastest_rate() > 0.0)) {
-    refuse("recommend: {} must have a frequency, from which steps are chosen, got none; give --frequency",
-           system_->description());
-  }
   if (options_.learning.purpose == for_sampling) {
     refuse(
         "--for must be state, energy or distribution for runs, got sampling; call recommend_for_sampling()");
@@ -53,6 +50,11 @@ void recommendation::require_sound_command() {
   const double nominal = 1e-3 * options_.horizon;
   system_->require_measure(
       metric(), plan_at(nominal, options_.trajectories, seed_for(role::test, common_.seed)), {}, 1);
+}
+
+double recommendation::rate_of_motion() const {
+  const double known = system_->fastest_rate();
+  return known > 0.0 ? known : 2.0 * std::numbers::pi / options_.horizon;
 }
 
 /// Methods that repeat another at equal cost do not take part, nor letters O where there is no bath.
@@ -125,7 +127,7 @@ void recommendation::consider(candidate contender) {
   }
   try {
     const auto otherwise = placement_asked(options_.placement);
-    double rate = system_->fastest_rate();
+    double rate = rate_of_motion();
     if (options_.budget) rate = *options_.budget - processing_of(contender);
     if (rate <= 0.0) {
       return leave_out(fmt::format("the processor without the kernel takes {:g} evaluations per unit time",

@@ -19,7 +19,7 @@ const double recommendation::grid_ratio = std::exp2(1.0 / points_of_octave);
 /// The same steps per evaluation for all, so that methods of as many evaluations share the reference; of
 /// three digits, as people type them.
 double recommendation::grid_step(const candidate& contender, int k) const {
-  const double half_a_radian = 0.5 / system_->fastest_rate();
+  const double half_a_radian = 0.5 / rate_of_motion();
   const double exact = half_a_radian * std::exp2(static_cast<double>(k) / points_of_octave);
   const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 2.0);
   return contender.source.evaluations_per_step * std::round(exact / digit) * digit;

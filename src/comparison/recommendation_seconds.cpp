@@ -26,8 +26,8 @@ tabulated first_member(const std::string& family, std::optional<placement> where
 /// so that a family is timed before it is learned.
 void recommendation::time_steps() {
   shown_.part("timing");
-  const double small = 0.01 / system_->fastest_rate();  // of an evaluation
-  constexpr std::int64_t steps = 256;                   // beside which the first evaluation counts little
+  const double small = 0.01 / rate_of_motion();  // of an evaluation
+  constexpr std::int64_t steps = 256;            // beside which the first evaluation counts little
   std::vector<std::string> names;
   std::vector<timed_method> methods;
   std::erase_if(all_, [&](candidate& contender) {

@@ -92,7 +92,7 @@ std::vector<CLI::ConfigItem> options_file::from_config(std::istream& input) cons
     items.push_back({.parents = {}, .name = option.name, .inputs = option.values});
     if (!command.empty()) items.back().parents = {command};
     // Of two values for one option CLI11 takes the first: that of the section.
-    if (!option.section.empty()) std::ranges::rotate(items, items.end() - 1);
+    if (!option.section.empty()) std::rotate(items.begin(), items.end() - 1, items.end());
   }
   return items;
 }
