@@ -66,14 +66,18 @@ double run_in_batches(const initial_value_problem& made, const initial_states& s
   broadcast(ranks, energy_error);
   broadcast(ranks, first);
   broadcast(ranks, under_way);
+  bool is_prolonged = plan.left != nullptr;
+  broadcast(ranks, is_prolonged);
   while (first < all.count) {
     const std::int64_t count = under_way > 0 ? under_way : std::min(at_a_time, all.count - first);
     const shared_batch shared(first, count, lanes_in<P>, ranks);
-    const saved_runs saved = under_way > 0 ? shared.scatter(plan.from.batch) : saved_runs();
+    const bool goes_on = under_way > 0 || is_prolonged;
+    const saved_runs saved =
+        goes_on ? shared.scatter(runs_at_first(plan, first, count, ranks)) : saved_runs();
     std::optional<batch> runs;  // a rank may have none
     collectively(ranks, [&] {
       if (shared.count() == 0) return;
-      if (under_way > 0) {
+      if (goes_on) {
         runs.emplace(stepper, starts, all.seed, shared.first(), shared.count(), saved, all.threads);
       } else {
         runs.emplace(stepper, starts, all.seed, shared.first(), shared.count(), all.threads);
@@ -104,9 +108,9 @@ double run_in_batches(const initial_value_problem& made, const initial_states& s
         if (lost && *lost > before) records[i].diverged_at = lost;
       }
       shared.deliver(records, take);
-      if (!plan.segment || end == all.steps) continue;
+      if (!is_handed_over(plan, end)) continue;
       const run_progress at{first, shared.gather(runs ? runs->save() : saved_runs()), energy_error};
-      report_reached(plan, at, ranks);
+      report_segment(plan, at, end, ranks);
     }
     for (std::int64_t m = shared.first(); m < shared.first() + shared.count(); ++m) {
       if (!runs->diverged_at(m)) energy_error = std::max(energy_error, runs->energy_error(m));
@@ -136,6 +140,28 @@ double run_from(const initial_states& starts, const initial_value_problem& made,
 }
 
 }  // namespace
+
+saved_runs runs_at_first(const sampled_plan& plan, std::int64_t first, std::int64_t count,
+                         const communicator& ranks) {
+  saved_runs all;
+  on_first(ranks, [&] {
+    const bool is_under_way = first == plan.from.first && !plan.from.batch.diverged_at.empty();
+    all = is_under_way ? plan.from.batch : plan.left(first, count);
+  });
+  return all;
+}
+
+bool is_handed_over(const sampled_plan& plan, std::int64_t end) {
+  return plan.segment && (end < plan.trajectories.steps || end == last_check(end));
+}
+
+void report_segment(const sampled_plan& plan, const run_progress& at, std::int64_t end,
+                    const communicator& ranks) {
+  on_first(ranks, [&] {
+    if (plan.ended && end == last_check(plan.trajectories.steps)) plan.ended(at.first, at.batch);
+  });
+  if (end < plan.trajectories.steps) report_reached(plan, at, ranks);
+}
 
 void report_reached(const sampled_plan& plan, const run_progress& at, const communicator& ranks) {
   const auto signal = -static_cast<int>(ranks.minimum(-noted_signal()));

@@ -211,14 +211,18 @@ double run_on_shared_sites(const initial_value_problem& made, const initial_stat
     for (const auto& one : watched) values.push_back(one(x));
     return values;
   };
-  saved_runs saved = plan.from.batch;  // of rank 0, as is the number of the first trajectory
-  std::int64_t first = plan.from.first;
-  std::int64_t under_way = std::ssize(saved.diverged_at);
-  for (std::int64_t* number : {&first, &under_way, &saved.step}) broadcast(ranks, *number);
+  std::int64_t first = plan.from.first;  // of rank 0
+  std::int64_t under_way = std::ssize(plan.from.batch.diverged_at);
+  bool is_prolonged = plan.left != nullptr;
+  for (std::int64_t* number : {&first, &under_way}) broadcast(ranks, *number);
+  broadcast(ranks, is_prolonged);
   double energy_error = plan.from.energy_error;
   broadcast(ranks, energy_error);
   while (first < all.count) {
     const std::int64_t count = under_way > 0 ? under_way : all.count - first;
+    const bool goes_on = under_way > 0 || is_prolonged;
+    saved_runs saved = goes_on ? runs_at_first(plan, first, count, ranks) : saved_runs();
+    broadcast(ranks, saved.step);
     std::vector<shared_trajectory> runs;
     std::vector<record> records(static_cast<std::size_t>(count));
     for (std::int64_t i = 0; i < count; ++i) {
@@ -226,7 +230,7 @@ double run_on_shared_sites(const initial_value_problem& made, const initial_stat
       collectively(ranks, [&] { start = sound_start(system, starts, all.seed, first + i); });
       runs.emplace_back(system, method, all.step, *start, ranks);
       const auto at = static_cast<std::size_t>(i);
-      if (under_way > 0) {
+      if (goes_on) {
         const auto each = static_cast<std::size_t>(3 * size(system));
         const bool is_first = ranks.is_first();
         runs.back().resume(saved.step,
@@ -236,7 +240,7 @@ double run_on_shared_sites(const initial_value_problem& made, const initial_stat
         on_first(ranks, [&] { records[at].values = read(*start); });
       }
     }
-    for (std::int64_t step = under_way > 0 ? saved.step : 0, end; step < all.steps; step = end) {
+    for (std::int64_t step = saved.step, end; step < all.steps; step = end) {
       end = end_of_segment(step, all.steps, plan.segment);
       const std::int64_t before = step > 0 ? step : -1;
       for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -259,14 +263,14 @@ double run_on_shared_sites(const initial_value_problem& made, const initial_stat
                                              static_cast<double>(all.count)));
         });
       }
-      if (!plan.segment || end == all.steps) continue;
+      if (!is_handed_over(plan, end)) continue;
       saved_runs here{.step = end, .numbers = {}, .diverged_at = {}};
       for (const auto& one : runs) {
         const std::vector<double> numbers = one.save();
         here.numbers.insert(here.numbers.end(), numbers.begin(), numbers.end());
         here.diverged_at.push_back(one.diverged_at());
       }
-      report_reached(plan, {first, std::move(here), energy_error}, ranks);
+      report_segment(plan, {first, std::move(here), energy_error}, end, ranks);
     }
     for (auto& one : runs) {
       if (!one.diverged_at()) energy_error = std::max(energy_error, one.energy_error());

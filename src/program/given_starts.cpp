@@ -19,6 +19,7 @@
 #include "csv_file.hpp"
 #include "nysalt/detail/fingerprint.hpp"
 #include "nysalt/ensembles/thermal_positions.hpp"
+#include "output/written_arrays.hpp"
 
 namespace nysalt::program {
 
@@ -166,6 +167,41 @@ given_states at_one_step(const std::string& file, std::optional<std::int64_t> as
   return result;
 }
 
+/// The states of an output of `run` in arrays, at one step, or where each trajectory was last.
+given_states states_in_arrays(written_arrays& all, const columns_of_starts& columns, const std::string& file,
+                              std::optional<std::int64_t> asked) {
+  constexpr std::int64_t most_numbers = std::int64_t{1} << 22U;  // as of a table
+  const std::int64_t columns_read = std::ssize(columns.q) + std::ssize(columns.p);
+  if (all.trajectories() > most_numbers / columns_read) {
+    refuse("--start {}: states must have at most {} numbers, got {} trajectories of {}", file, most_numbers,
+           all.trajectories(), columns_read);
+  }
+  const auto count = static_cast<Eigen::Index>(columns.q.size());
+  const auto state_at = [&](std::int64_t trajectory, std::int64_t sample) {
+    phase_point<double, Eigen::Dynamic> x{Eigen::VectorXd(count), Eigen::VectorXd::Zero(count)};
+    const auto read = [&](const std::vector<std::size_t>& from, Eigen::VectorXd& to) {
+      for (std::size_t i = 0; i < from.size(); ++i)
+        to[static_cast<Eigen::Index>(i)] = all.number(trajectory, sample, from[i]);
+    };
+    read(columns.q, x.q);
+    read(columns.p, x.p);
+    return x;
+  };
+  const std::int64_t last = asked ? *asked / all.every() : all.samples() - 1;
+  const bool has_step = !asked || (*asked >= 0 && *asked % all.every() == 0 && last < all.samples());
+  given_states result;
+  for (std::int64_t m = 0; m < all.trajectories() && has_step; ++m) {
+    for (std::int64_t sample = last; sample >= (asked ? last : 0); --sample) {
+      auto x = state_at(m, sample);
+      if (!is_finite(x)) continue;  // the trajectory had diverged
+      result.push_back(std::move(x));
+      break;
+    }
+  }
+  if (result.empty() && asked) refuse("--start-step must be a step that {} has, got {}", file, *asked);
+  return result;
+}
+
 }  // namespace
 
 phase_point<double, Eigen::Dynamic> state_of(const std::string& text,
@@ -231,16 +267,23 @@ initial_states starts_in(const std::string& file, const initial_value_problem& m
              file);
     }
   };
-  read_csv("--start", file, header, [&](csv_row& row) {
-    phase_point<double, Eigen::Dynamic> x{Eigen::VectorXd(count), Eigen::VectorXd::Zero(count)};
-    for (std::size_t i = 0; i < columns.q.size(); ++i)
-      x.q[static_cast<Eigen::Index>(i)] = row.number(columns.q[i]);
-    for (std::size_t i = 0; i < columns.p.size(); ++i)
-      x.p[static_cast<Eigen::Index>(i)] = row.number(columns.p[i]);
-    states.push_back(std::move(x));
-    if (columns.trajectory && columns.step)
-      labels.emplace_back(row.number(*columns.trajectory), row.number(*columns.step));
-  });
+  if (is_of_arrays(file)) {
+    written_arrays all("--start", file);
+    header(all.observables());
+    states = states_in_arrays(all, columns, file, step);
+    step.reset();
+  } else {
+    read_csv("--start", file, header, [&](csv_row& row) {
+      phase_point<double, Eigen::Dynamic> x{Eigen::VectorXd(count), Eigen::VectorXd::Zero(count)};
+      for (std::size_t i = 0; i < columns.q.size(); ++i)
+        x.q[static_cast<Eigen::Index>(i)] = row.number(columns.q[i]);
+      for (std::size_t i = 0; i < columns.p.size(); ++i)
+        x.p[static_cast<Eigen::Index>(i)] = row.number(columns.p[i]);
+      states.push_back(std::move(x));
+      if (columns.trajectory && columns.step)
+        labels.emplace_back(row.number(*columns.trajectory), row.number(*columns.step));
+    });
+  }
   if (!labels.empty()) {
     states = at_one_step(file, step, labels, std::move(states));
   } else if (step) {

@@ -24,11 +24,11 @@ phase_point<double, Eigen::Dynamic> state_of(const std::string& text,
 /// sqrt(2), which has the law's covariance and the mean 0. Throws refusal if a state does not fit the system.
 initial_states starts_at(given_states states, const initial_value_problem& made, double spread);
 
-/// Starts of a CSV file, which names its columns in the first line and has q1, q2, ... of the system among
-/// them, or the names of its coordinates. With momenta p1, p2, ... beside them its rows are states. Without
-/// momenta, as `sample` writes it, they are drawn at the temperature. Of an output of `run` the states at one
-/// step [the last] are taken. Throws refusal if the file cannot be read, does not fit or has a column that is
-/// not known.
+/// Starts of an output of `run` in arrays, or of a CSV file, which names its columns in the first line and
+/// has q1, q2, ... of the system among them, or the names of its coordinates. With momenta p1, p2, ... beside
+/// them its rows are states. Without momenta, as `sample` writes it, they are drawn at the temperature. Of an
+/// output of `run` the states at one step [the last] are taken. Throws refusal if the file cannot be read,
+/// does not fit or has a column that is not known.
 initial_states starts_in(const std::string& file, const initial_value_problem& made,
                          const std::vector<std::string>& coordinates, std::optional<std::int64_t> step,
                          double temperature, double spread);

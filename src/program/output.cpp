@@ -26,7 +26,7 @@
 #include "nysalt/detail/fingerprint.hpp"
 #include "nysalt/detail/write_failure.hpp"
 #include "output/checkpoint_file.hpp"
-#include "output/samples.hpp"
+#include "output/written_arrays.hpp"
 #include "report/comparison_report.hpp"
 #include "report/manifest.hpp"
 
@@ -158,8 +158,7 @@ void require_table(const std::string& output, bool plot, bool may_be_array) {
   if (output.empty()) return;
   require_result(output);
   const std::string ending = std::filesystem::path(output).extension();
-  const bool is_array = ending == ".h5" || ending == ".hdf5" || ending == ".npy";
-  if (!ending.empty() && ending != ".csv" && ending != ".txt" && !(may_be_array && is_array)) {
+  if (!ending.empty() && ending != ".csv" && ending != ".txt" && !(may_be_array && is_of_arrays(output))) {
     refuse("--output must end in .csv{}, as what is written is no other kind of file, got {}",
            may_be_array ? ", .h5 or .npy" : "", output);
   }

@@ -18,10 +18,11 @@
 #include "comparison/refusal.hpp"
 #include "comparison/user_system_checks.hpp"
 #include "given_starts.hpp"
+#include "output/written_arrays.hpp"
 
 namespace nysalt::program {
 
-bool is_file_of_starts(const std::string& start) { return start.ends_with(".csv"); }
+bool is_file_of_starts(const std::string& start) { return start.ends_with(".csv") || is_of_arrays(start); }
 
 namespace {
 
@@ -83,7 +84,10 @@ start start_of(const system_settings& settings, const bath& heat_bath) {
   if (asked.empty()) return is_warm ? start::gibbs : start::law;
   if (asked == "law" || is_file_of_starts(asked)) return start::law;
   if (asked != "gibbs" && asked != "trajectory") {
-    refuse("unknown start '{}': --start is one of law, gibbs, trajectory, or a file NAME.csv", asked);
+    refuse(
+        "unknown start '{}': --start is one of law, gibbs, trajectory, or a file NAME.csv, NAME.h5 or "
+        "NAME.npy",
+        asked);
   }
   if (!is_warm) {
     refuse("--start {} must come with a bath of a temperature above 0; give --friction and --temperature",

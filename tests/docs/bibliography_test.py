@@ -7,7 +7,7 @@ from pathlib import Path
 
 root = Path(__file__).resolve().parents[2]
 # Files in which a key may be cited.
-readers = {"include": ".hpp", "src": ".hpp .cpp", "docs": ".md", "tests": ".hpp .cpp", "examples": ".hpp .cpp .py .sh",
+readers = {"include": ".hpp", "src": ".hpp .cpp", "docs": ".md", "tests": ".hpp .cpp .txt", "examples": ".hpp .cpp .py .sh",
            "bench": ".hpp .cpp", "python": ".hpp .cpp .py"}
 
 

@@ -235,3 +235,54 @@ BOOST_AUTO_TEST_CASE(an_edited_checkpoint_is_refused_or_gone_on_with) {
     BOOST_TEST(refused > 5U, line);
   }
 }
+
+BOOST_AUTO_TEST_CASE(an_edited_checkpoint_of_a_finished_run_is_refused_or_the_run_is_prolonged) {
+  const scratch folder("edited_finished");
+  const std::string line =
+      "run --system henon_heiles --spread 2.5 --method verlet --step 0.3 --trajectories 5 --sample-every 7 "
+      "--every 640 --output out.csv --checkpoint c --horizon ";
+  BOOST_TEST_REQUIRE(run(folder, line + "30").code == 0);
+  const std::string sound = contents(folder / "c");
+  const std::string output = contents(folder / "out.csv");
+  const auto end = sound.find('\n');
+  std::size_t turn = 0;
+  std::size_t refused = 0;
+  for (const auto& [what, head] : edits_of(sound.substr(0, end), turn)) {
+    write(folder / "out.csv", output);
+    fs::remove(folder / "out.csv.part");
+    write(folder / "c", signed_again(head + sound.substr(end)));
+    const auto done = run(folder, line + "60 --resume");
+    if (done.code != 0) require_refused(done, "", what);
+    refused += done.code != 0 ? 1U : 0U;
+  }
+  BOOST_TEST(refused > 5U);
+}
+
+// Format 1 has the numbers of the batch under way alone.
+BOOST_AUTO_TEST_CASE(a_checkpoint_of_format_1_is_gone_on_with_and_its_run_is_not_prolonged) {
+  const scratch folder("format_1");
+  const std::string line =
+      "run --system pendulum --method verlet --step 0.01 --trajectories 5 --sample-every 100 --every 640 "
+      "--output out.csv --checkpoint c --horizon ";
+  const auto put_format_1 = [&](bool with_numbers) {
+    const std::string text = contents(folder / "c");
+    json head = json::parse(text.substr(0, text.find('\n')));
+    head["version"] = 1;
+    for (const char* newer : {"began", "keeps_all", "is_copied"}) BOOST_TEST(head.erase(newer) == 1U);
+    const auto last_line = text.rfind("\ncrc32 ");
+    const std::string numbers =
+        with_numbers ? text.substr(text.find('\n'), last_line - text.find('\n')) : "\n";
+    write(folder / "c", signed_again(head.dump() + numbers + text.substr(last_line)));
+  };
+  BOOST_TEST_REQUIRE(run(folder, line + "40").code == 0);
+  const std::string whole = contents(folder / "out.csv");
+  put_format_1(false);
+  BOOST_TEST(run(folder, line + "40 --resume").code == 0);
+  require_refused(run(folder, line + "50 --resume"),
+                  "cannot prolong the run of c: the checkpoint does not keep", "");
+  fs::remove(folder / "c");
+  BOOST_TEST_REQUIRE(is_killed_at(folder, "rename:4", line + "40"));
+  put_format_1(true);
+  BOOST_TEST(run(folder, line + "40 --resume").code == 0);
+  BOOST_TEST(contents(folder / "out.csv") == whole);
+}

@@ -54,6 +54,25 @@ BOOST_AUTO_TEST_CASE(three_ranks_go_on_with_what_one_process_left) {
   BOOST_TEST(contents(folder / "a.csv") == whole);
 }
 
+// Each rank has its own trajectories, or its own sites of one.
+BOOST_AUTO_TEST_CASE(three_ranks_prolong_what_one_process_finished) {
+  for (const std::string of :
+       {"run --system henon_heiles --spread 2.5 --method verlet --step 0.3 --trajectories 70 --sample-every "
+        "7 ",
+        "run --system fpu --pairs 6000 --method verlet --step 0.3 --sample-every 7 "}) {
+    const scratch folder("ranks_prolong");
+    const std::string line = of + "--output a.csv --horizon ";
+    const std::string kept = " --checkpoint c --every 100";
+    BOOST_TEST(run(folder, line + "60").code == 0);
+    const std::string whole = contents(folder / "a.csv");
+    BOOST_TEST(run(folder, line + "30" + kept).code == 0);
+    BOOST_TEST(contents(folder / "a.csv") != whole);
+    const auto done = run_on(3, folder, line + "60" + kept + " --resume");
+    BOOST_TEST_REQUIRE(done.code == 0, done.err);
+    BOOST_TEST(contents(folder / "a.csv") == whole);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_refusal_is_told_once) {
   const scratch folder("ranks_refused");
   const auto done = run_on(3, folder, "run --method nobody --step 0.1 --horizon 1 --output o.csv");

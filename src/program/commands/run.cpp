@@ -112,7 +112,8 @@ void print_result(const run_command& command, std::int64_t trajectories, const j
                   bool was_finished) {
   constexpr std::size_t enough = 20;  // lines of warnings
   if (was_finished) {
-    print(fmt::format("{} is finished already: nothing was done\n", of_letters(command.output)));
+    print(fmt::format("{} is finished already: nothing was done; a longer --horizon prolongs it\n",
+                      of_letters(command.output)));
   } else if (!command.output.empty()) {
     print(fmt::format("{} trajectories of {} steps, {} force evaluations each, {:.3g} s\n", trajectories,
                       document["steps"].get<std::int64_t>(), document["evaluations"].get<std::int64_t>(),

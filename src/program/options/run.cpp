@@ -36,7 +36,8 @@ subcommand offer_run(CLI::App& app, common_settings& common) {
   command.add_flag("--plot", asked.plot, "draw the first trajectory beside the output");
   command.add_option("--checkpoint", asked.checkpoint, "file to go on from if the run is stopped");
   add_number(command, "--every", asked.every, "steps between checkpoints");
-  command.add_flag("--resume", asked.resume, "go on from the checkpoint");
+  command.add_flag("--resume", asked.resume,
+                   "go on from the checkpoint; of a finished run to a longer --horizon");
   add_common(command, common);
   add_force(command, common, "run a scheme at another step or system than it was learned for");
   command.footer(

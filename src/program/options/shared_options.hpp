@@ -18,9 +18,10 @@ void add_force(CLI::App& command, common_settings& common, const char* what);
 
 /// A system, what it is in, and where trajectories start in it; `start` says what --start is. Returns the
 /// options.
-std::vector<CLI::Option*> add_system(
-    CLI::App& command, system_settings& system,
-    const char* start = "law, gibbs or trajectory, or a CSV file of positions [gibbs in a bath, else law]");
+std::vector<CLI::Option*> add_system(CLI::App& command, system_settings& system,
+                                     const char* start =
+                                         "law, gibbs or trajectory, or a file of states: CSV, or .h5, .npy "
+                                         "that run wrote [gibbs in a bath, else law]");
 
 /// Options of methods in a bath.
 void add_placement(CLI::App& command, std::string& placement);

@@ -21,7 +21,7 @@ namespace nysalt::program {
 namespace {
 
 constexpr const char* format_of_checkpoint = "nysalt checkpoint";
-constexpr int version_of_checkpoint = 1;
+constexpr int version_of_checkpoint = 2;
 
 static_assert(std::endian::native == std::endian::little, "checkpoints hold doubles as this machine does");
 

@@ -137,6 +137,38 @@ std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path& file,
   return places;
 }
 
+std::vector<std::pair<dataset, std::uint64_t>> datasets_in_hdf5(const std::filesystem::path& file) {
+  set_up_library();
+  const handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, file_access()), H5Fclose);
+  H5G_info_t links{};
+  require_done(H5Gget_info(opened, &links));
+  std::vector<std::pair<dataset, std::uint64_t>> all;
+  for (hsize_t i = 0; i < links.nlinks; ++i) {
+    const auto name_of = [&](char* name, std::size_t room) {
+      return H5Lget_name_by_idx(opened, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, room, H5P_DEFAULT);
+    };
+    const auto length = name_of(nullptr, 0);
+    require_done(length);
+    std::string name(static_cast<std::size_t>(length) + 1, '\0');
+    require_done(name_of(name.data(), name.size()));
+    name.pop_back();
+    const hid_t found = H5Dopen2(opened, name.c_str(), H5P_DEFAULT);
+    if (found < 0) continue;  // no dataset
+    const handle one(found, H5Dclose);
+    const handle type(H5Dget_type(one), H5Tclose);
+    const handle space(H5Dget_space(one), H5Sclose);
+    const int dimensions = H5Sget_simple_extent_ndims(space);
+    require_done(dimensions);
+    std::vector<hsize_t> shape(static_cast<std::size_t>(dimensions));
+    require_done(H5Sget_simple_extent_dims(space, shape.data(), nullptr));
+    const bool is_of_integers = H5Tequal(type, H5T_STD_I64LE) > 0;
+    const haddr_t first = H5Dget_offset(one);
+    if (first == HADDR_UNDEF || (!is_of_integers && H5Tequal(type, H5T_IEEE_F64LE) <= 0)) continue;
+    all.push_back({{name, {shape.begin(), shape.end()}, is_of_integers}, first});
+  }
+  return all;
+}
+
 #else
 
 bool has_hdf5() { return false; }
@@ -145,6 +177,7 @@ void make_hdf5(const std::filesystem::path&, const std::vector<dataset>&, const 
 std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path&, const std::vector<dataset>&) {
   return {};
 }
+std::vector<std::pair<dataset, std::uint64_t>> datasets_in_hdf5(const std::filesystem::path&) { return {}; }
 
 #endif
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "comparison/json.hpp"
@@ -38,5 +39,9 @@ void make_hdf5(const std::filesystem::path& file, const std::vector<dataset>& da
 /// datasets.
 std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path& file,
                                           const std::vector<dataset>& datasets);
+
+/// The datasets of a file whose numbers lie in it in one piece, and where they begin, in bytes. Throws
+/// std::runtime_error for what is no file of HDF5.
+std::vector<std::pair<dataset, std::uint64_t>> datasets_in_hdf5(const std::filesystem::path& file);
 
 }  // namespace nysalt::program

@@ -25,7 +25,8 @@ class run_output {
   /// file cannot be made; for a checkpoint that is none, not whole or of another run; to resume, if there is
   /// none or the output under way is not what it knows; to begin, if there is one of a run that was stopped.
   /// In a table what follows the checkpoint is cut off. In a file of arrays it is written again, and only
-  /// what is not in the arrays must be as it was.
+  /// what is not in the arrays must be as it was. A finished run of fewer steps is prolonged: its output
+  /// stays until the longer one takes its name.
   run_output(const planned_run& planned, bool as_json);
   /// Of a run that reached nothing, as it was refused after all, nothing stays.
   ~run_output();
@@ -57,13 +58,17 @@ class run_output {
   void require_new_checkpoint() const;
   void make_part(const json& question);
   void lay_out();
-  void go_on(const json& question, std::int64_t dimension);
+  void go_on(const json& question);
+  void prolong(const json& question);
   void reached(const run_progress& at, bool ends);
   void save(const run_progress& at, const std::function<void()>& check = {});
+  void keep(std::int64_t first, const saved_runs& runs);
 
   std::string output_;
   std::filesystem::path checkpoint_;  // empty if there are none
   std::int64_t every_;                // steps between checkpoints
+  sampled_shape shape_;
+  std::int64_t dimension_;
   bool is_of_arrays_;
   checkpoint state_;
   struct {

@@ -12,6 +12,7 @@
 #include "hdf5_layout.hpp"
 #include "nysalt/detail/write_failure.hpp"
 #include "samples.hpp"
+#include "written_arrays.hpp"
 
 namespace nysalt::program {
 
@@ -108,6 +109,40 @@ class sample_arrays final : public sample_writer {
     return true;
   }
 
+  void copy(const std::filesystem::path& from, unfinished_file& to, const sampled_shape& before,
+            std::int64_t last) override {
+    const std::size_t columns = shape_.observables.size() / gathered_.size();
+    const auto places = sample_arrays(from, before, {}).places_in(from);
+    std::ifstream input(from, std::ios::binary);
+    const auto samples = static_cast<std::uint64_t>(last / shape_.every + 1);
+    std::vector<char> bytes;
+    const auto copied = [&](std::uint64_t first, std::uint64_t count, std::uint64_t at) {
+      constexpr std::uint64_t at_a_time = std::uint64_t{1} << 20U;
+      input.seekg(static_cast<std::streamoff>(first));
+      for (std::uint64_t done = 0; done < count && input; done += bytes.size()) {
+        bytes.resize(std::min(at_a_time, count - done));
+        input.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        to.put(at + done, std::as_bytes(std::span(bytes)));
+      }
+    };
+    const auto trajectories = static_cast<std::uint64_t>(shape_.trajectories);
+    for (std::size_t a = 0; a < gathered_.size(); ++a) {
+      for (std::uint64_t m = 0; m < trajectories; ++m) {
+        const auto row = [&](const sampled_shape& of) {
+          return 8 * m * static_cast<std::uint64_t>(of.samples) * columns;
+        };
+        copied(places[a].first + row(before), 8 * samples * columns, places_[a].first + row(shape_));
+      }
+    }
+    for (std::uint64_t m = 0; m < trajectories && !is_npy_ && input; ++m) {
+      std::int64_t step = 0;
+      input.seekg(static_cast<std::streamoff>(places.back().first + 8 * m));
+      input.read(reinterpret_cast<char*>(&step), sizeof step);
+      if (step <= last) to.put(places_.back().first + 8 * m, std::as_bytes(std::span(&step, 1)));
+    }
+    if (!input) refuse("cannot read {}: the file cannot be read again", from.string());
+  }
+
   std::optional<file_sum> sum_in(const std::filesystem::path& file) const override try {
     std::vector<byte_range> left_out;
     for (const auto& one : places_in(file)) left_out.push_back({one.first, one.first + 8 * one.count});
@@ -164,18 +199,8 @@ class sample_arrays final : public sample_writer {
     return all;
   }
 
-  /// Of version 1.0: six bytes of magic, two of the version, two of the length of what follows, a literal of
-  /// Python, and blanks up to a multiple of 64 bytes in all.
   std::string npy_head() const {
-    std::string text = fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}, {}), }}",
-                                   shape_.trajectories, shape_.samples, shape_.observables.size());
-    constexpr std::size_t before = 10;
-    text.append(63 - (before + text.size()) % 64, ' ');
-    text += '\n';
-    std::string head("\x93NUMPY\x01\x00", 8);
-    head += static_cast<char>(text.size() % 256);
-    head += static_cast<char>(text.size() / 256);
-    return head + text;
+    return program::npy_head({shape_.trajectories, shape_.samples, std::ssize(shape_.observables)});
   }
 
   std::vector<array_place> places_in(const std::filesystem::path& file) const {
@@ -226,11 +251,6 @@ class sample_arrays final : public sample_writer {
 };
 
 }  // namespace
-
-bool is_of_arrays(const std::filesystem::path& file) {
-  const std::string ending = file.extension();
-  return ending == ".h5" || ending == ".hdf5" || ending == ".npy";
-}
 
 std::unique_ptr<sample_writer> array_writer(const std::filesystem::path& file, sampled_shape shape,
                                             const json& about) {

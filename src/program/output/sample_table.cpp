@@ -52,6 +52,20 @@ class sample_table final : public sample_writer {
   }
 
   bool go_on(unfinished_file& file, const file_sum& written) override { return file.cut_after(written); }
+  void copy(const std::filesystem::path& from, unfinished_file& to, const sampled_shape&,
+            std::int64_t last) override {
+    std::ifstream table(from);
+    std::string row;
+    std::getline(table, row);
+    to.write(row + '\n');
+    while (std::getline(table, row)) {
+      std::int64_t step = 0;
+      std::from_chars(row.data() + row.find(',') + 1, row.data() + row.size(), step);
+      if (step <= last) to.write(row + '\n');
+    }
+    if (!table.eof()) refuse("cannot read {}: the file cannot be read again", from.string());
+  }
+
   std::optional<file_sum> sum_in(const std::filesystem::path& file) const override { return sum_of(file); }
 
   first_trajectory read_first(const std::filesystem::path& file, std::int64_t every) const override {

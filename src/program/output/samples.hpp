@@ -50,6 +50,10 @@ class sample_writer {
   virtual void lay_out(unfinished_file&) {}
   /// Goes on in a file that was left by another run; false if it is not as that one wrote it.
   virtual bool go_on(unfinished_file& file, const file_sum& written) = 0;
+  /// Into a file that was laid out, and to which the writer may refer: the samples up to a step of a finished
+  /// file of fewer samples, which has that shape and is otherwise alike.
+  virtual void copy(const std::filesystem::path& from, unfinished_file& to, const sampled_shape& before,
+                    std::int64_t last) = 0;
   /// The record in a checkpoint of a file of such samples, finished or not; nothing if it is none.
   virtual std::optional<file_sum> sum_in(const std::filesystem::path& file) const = 0;
   /// Of a finished file, of every n-th sample. Throws refusal if it cannot be read.
@@ -68,8 +72,6 @@ std::unique_ptr<sample_writer> table_writer(sampled_shape shape, std::function<v
 /// Throws std::runtime_error if it cannot be read or written; then an older file is as it was.
 void put_by_trajectory(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Whether the ending of its name says that a file is one of arrays: .h5, .hdf5 or .npy.
-bool is_of_arrays(const std::filesystem::path& file);
 /// Every number of a file of arrays has its place from the first moment, where it is put when it is known;
 /// what is not taken stays NaN. `about` becomes the attributes of an HDF5 file. Throws refusal where there is
 /// no HDF5, or such a file would be too large.
