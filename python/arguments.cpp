@@ -244,6 +244,7 @@ program::run_command run_of(const argument_reader& arguments, const program::sys
   arguments.take("trajectories", command.trajectories);
   arguments.take("observables", command.observables);
   arguments.take("sample_every", command.sample_every);
+  arguments.take("checks", command.checks);
   return command;
 }
 

@@ -52,13 +52,16 @@ class comparison {
 
 /// Errors and costs of methods on a system from its initial distribution; in a warm bath of systems with
 /// frequency bands, from the stationary distribution in the bath. Where the frequency is 0 it is found along
-/// 64 starts. The force is checked against the potential first. Progress is shown on a terminal. Throws
-/// std::invalid_argument, naming the option, for bad input, before any work is done. Cost: that of the
-/// trajectories, of a reference some ten times finer, and of a fit for each learned method and step.
+/// 64 starts. The force is checked against the potential first. Throws std::invalid_argument, naming the
+/// option, for bad input, before any work is done. Cost: that of the trajectories, of a reference some ten
+/// times finer, and of a fit for each learned method and step.
 comparison compare(const initial_value_problem& problem, const comparison_options& options,
                    const execution_options& execution = {});
 
-/// A comparison with a report: a page with tables and pictures in a folder.
+/// A comparison with a report: a page with tables and pictures in a folder. Parts that are finished stand in
+/// journal.jsonl there at once, and the file goes when the report is written: after an interruption the same
+/// call goes on from it. Throws std::invalid_argument if the journal is of other options, or of a system with
+/// other forces at its first starts; std::runtime_error if it cannot be written.
 comparison report(const initial_value_problem& problem, comparison_options options,
                   const std::filesystem::path& folder, const execution_options& execution = {});
 

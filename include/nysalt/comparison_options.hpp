@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,6 +17,9 @@ struct execution_options {
   std::uint64_t seed = 1;  ///< below 2^51: learning, judging and testing draw apart from each other by it
   int threads = 1;         ///< results are the same bits for any number
   bool force = false;      ///< whether a scheme may be used at another step or system than that of learning
+  /// Told what is being done and the share of it that is done, from any thread, one call at a time. What it
+  /// throws ends the work. Empty: a line on a terminal, and elsewhere a line a minute, on standard error.
+  std::function<void(const std::string& part, double share)> progress = {};
 };
 
 /// Options of learning at a step that is given elsewhere.

@@ -45,6 +45,9 @@ struct judging_options {
   bool watches_energy = true;  ///< false: only divergence counts, as for proposals of Hybrid Monte Carlo
 };
 
+/// Largest number of force evaluations of a trial: what `work` comes to.
+std::int64_t evaluations_of_trial(const model& system, const judging_options& options = {});
+
 /// Errors of the energy of trajectories, each the largest |H - H_0| over the median kinetic energy.
 struct energy_errors {
   double median = 0.0;      ///< of the trajectories

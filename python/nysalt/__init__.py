@@ -395,13 +395,14 @@ class Run:
 def run(system: System, method: Method, step: float, horizon: float, *, q: Any = None, p: Any = None,
         trajectories: Optional[int] = None, observables: Optional[Texts] = None,
         sample_every: Optional[int] = None, seed: int = 1, placement: Optional[str] = None, force: bool = False,
-        out: Optional[np.ndarray] = None, threads: Optional[int] = None) -> Run:
+        checks: bool = True, out: Optional[np.ndarray] = None, threads: Optional[int] = None) -> Run:
     """Trajectories of a method from states q and p, or from the starts of a system, sampled every `sample_every` steps.
 
     q and p have the shape (dimension,), or (trajectories, dimension) for several; without p all is at rest.
     The samples are written where NumPy has them, in a new array, or in `out`: a writable one of float64 and of
     shape (trajectories, samples, observables), with samples = floor(horizon/step)//sample_every + 1.
-    force=True runs a scheme where it was not learned.
+    force=True runs a scheme where it was not learned. checks=False tries neither the step nor the force of a system
+    of your own before the run, and the judgement says so.
     """
     asked = dict(locals())
     for name in ("system", "out", "q", "p"):

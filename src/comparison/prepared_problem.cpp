@@ -62,7 +62,9 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
       source_of_kind_(std::move(source)),
       start_(conditions.start),
       is_start_usual_(conditions.is_start_usual),
-      frequency_asked_(conditions.frequency) {
+      frequency_asked_(conditions.frequency),
+      examined_(conditions.examined),
+      is_bundled_(conditions.is_bundled) {
   if (conditions.starts) made_.starts = conditions.starts(made_);
   for (const auto& one : made_.letters) letters_.push_back(one.named);
   if (made_.frequency == 0.0) made_.frequency = conditions.frequency.value_or(0.0);
@@ -293,7 +295,7 @@ std::array<compared_rates, 2> rates_of_sum(const model& system, const run_time_w
 void prepared_problem::require_sound_letters(const std::string& name, const run_time_word& word,
                                              double step) const {
   constexpr Eigen::Index most = 2000;  // coordinates: the Jacobian of a letter has 4 times their square
-  if (!word.has_own_letters() || size(made_.system) > most) return;
+  if (examined_ != examination::whole || !word.has_own_letters() || size(made_.system) > most) return;
   const std::string tried = fmt::format("{} {}", word.letters(), step);
   if (sound_.contains(tried)) return;
   const model base = made_.system.base();
@@ -407,24 +409,63 @@ stability_guard prepared_problem::guard(const run_time_word& word) const {
 }
 
 const judgement& prepared_problem::judged(const tabulated& method, double step, int threads) const {
-  const std::string key =
-      fmt::format("{} {} {}", method.letters().letters(), fmt::join(method.coefficients(), " "), step);
+  return judged_by(method, step, threads, evaluations_of_trial(made_.system));
+}
+
+const judgement& prepared_problem::judged_before(const tabulated& method,
+                                                 const trajectories_plan& run) const {
+  const std::int64_t all = evaluations_of_trial(made_.system);
+  const auto taken =
+      static_cast<double>(run.count) * static_cast<double>(run.steps) * method.letters().evaluations_per_step;
+  // A trial of all evaluations is some tenths of a second in lanes, if a force costs what it is taken to
+  // cost. The force of a user may be one of pairs, and cost its coordinates squared.
+  const auto coordinates = static_cast<double>(dimension());
+  const double cost = force_cost(made_.system);
+  const bool is_stated = cost != coordinates && cost != 4.0 * coordinates * coordinates;
+  constexpr double few = 16.0;  // coordinates, whose pairs cost little
+  double dearer = 1.0;
+  if (!is_bundled_ && !is_stated && made_.system.sites() == nullptr) dearer = coordinates / few;
+  dearer = std::max(dearer, static_cast<double>(default_lanes / lanes()));
+  const double least = static_cast<double>(all) / dearer;
+  if (std::max(taken, least) >= static_cast<double>(all)) return judged(method, run.step, run.threads);
+  return judged_by(method, run.step, run.threads, static_cast<std::int64_t>(std::max(taken, least)));
+}
+
+const judgement& prepared_problem::judged_by(const tabulated& method, double step, int threads,
+                                             std::int64_t evaluations) const {
+  const std::string key = fmt::format("{} {} {} {}", method.letters().letters(),
+                                      fmt::join(method.coefficients(), " "), step, evaluations);
   if (const auto known = judged_.find(key); known != judged_.end()) return known->second;
+  const auto not_tried = [&](std::string reason) -> const judgement& {
+    judgement found;
+    found.step = step;
+    found.reason = std::move(reason);
+    return judged_.emplace(key, found).first->second;
+  };
   // 500 steps of one trajectory would cost more than twice what a judge may do, as with 10^5 rows of data.
   constexpr double most_cost = 2e6;
   if (const double cost = force_cost(made_.system); cost > most_cost && !is_black_box(made_.system)) {
-    judgement found;
-    found.step = step;
-    found.reason = fmt::format(
-        "an evaluation of the force costs as much as {:.1e} coordinates, too much for a trial", cost);
-    return judged_.emplace(key, found).first->second;
+    return not_tried(fmt::format(
+        "an evaluation of the force costs as much as {:.1e} coordinates, too much for a trial", cost));
+  }
+  const std::int64_t all = evaluations_of_trial(made_.system);
+  const std::int64_t fewest = 500 * method.letters().evaluations_per_step;
+  if (evaluations < all && fewest > 5 * evaluations / 2) {
+    return not_tried(
+        fmt::format("a trial takes {} force evaluations or more, too many before so short a run; stability "
+                    "tries the step without a run",
+                    fewest));
   }
   constexpr std::size_t most = 16;  // a judge keeps its starts
   if (judges_.size() == most) judges_.clear();
-  auto judge = judges_.find(step);
+  const std::pair at(step, evaluations);
+  auto judge = judges_.find(at);
   if (judge == judges_.end()) {
+    judging_options options{.threads = threads};
+    const double share = static_cast<double>(evaluations) / static_cast<double>(all);
+    if (evaluations < all) options.work = std::llround(std::ceil(share * static_cast<double>(options.work)));
     const phase_points starts = starts_to_judge(made_.system, starts_or_law());
-    judge = judges_.emplace(step, step_judge(made_.system, starts, step, {.threads = threads})).first;
+    judge = judges_.emplace(at, step_judge(made_.system, starts, step, options)).first;
   }
   return judged_.emplace(key, judge->second.of(method)).first->second;
 }

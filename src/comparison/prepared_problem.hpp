@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "examination.hpp"
 #include "nysalt/analysis/acceptance.hpp"
 #include "nysalt/analysis/error_measure.hpp"
 #include "nysalt/analysis/gathered_statistics.hpp"
@@ -50,6 +51,8 @@ struct surroundings {
   /// Makes the starts that are taken in the place of the system's own distribution; empty: none are.
   std::function<initial_states(const initial_value_problem&)> starts = {};
   bool is_start_usual = false;  // nobody asked for it, and the law is taken where it cannot be had
+  examination examined = examination::whole;  // of a user's system
+  bool is_bundled = false;                    // the system is one of ours: its force costs what it says
 };
 
 /// The angular frequency that a method is fitted to, and where it is known from.
@@ -132,6 +135,10 @@ class prepared_problem {
   /// coefficients, whatever the method is called and whichever command asks. Cost: that of step_judge::of();
   /// of a method that was judged at the step before none.
   const judgement& judged(const tabulated& method, double step, int threads) const;
+  /// The same before a run, by a trial of no more force evaluations than the run takes, or than take some
+  /// tenths of a second if these are more; nothing is tried where they are too few. Counted, not measured:
+  /// equal runs have equal judgements.
+  const judgement& judged_before(const tabulated& method, const trajectories_plan& run) const;
   /// Throws refusal for a word that the system does not serve.
   void require_served(const run_time_word& word) const;
   /// Letters of one's own that the system has, by name.
@@ -198,6 +205,9 @@ class prepared_problem {
  private:
   /// Trajectories begin at the law, and warning_of_starts() says why.
   void take_law(const std::string& why);
+  /// By a trial of some evaluations.
+  const judgement& judged_by(const tabulated& method, double step, int threads,
+                             std::int64_t evaluations) const;
   model_reference reference() const;
   error_measure measure_named(const asked_metric& metric) const;
   /// In which noise is wanted to learn with.
@@ -222,12 +232,14 @@ class prepared_problem {
   bool is_start_usual_;
   std::string warning_of_starts_;
   std::optional<double> frequency_asked_;
+  examination examined_;
+  bool is_bundled_;
   std::optional<initial_states> starts_;
   mutable std::optional<seen_frequencies> highest_seen_;
   mutable std::optional<std::vector<frequency_band>> bands_along_motion_;
   detail::named_letters letters_;
-  mutable std::map<double, step_judge> judges_;      // by step
-  mutable std::map<std::string, judgement> judged_;  // by letters, coefficients and step
+  mutable std::map<std::pair<double, std::int64_t>, step_judge> judges_;  // by step and evaluations
+  mutable std::map<std::string, judgement> judged_;  // by letters, coefficients, step and evaluations
   mutable std::set<std::string> sound_;              // by letters and step
 };
 

@@ -11,6 +11,7 @@
 #include "nysalt/derivatives/hessian_spectrum.hpp"
 #include "nysalt/ensemble.hpp"
 #include "observables.hpp"
+#include "progress.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -58,13 +59,16 @@ void require_force(const initial_value_problem& made, const std::string& name) {
   if (!found.passed()) refuse("cannot take {}: {}", name, found.report());
 }
 
-/// Of a system that declares no frequency: the highest frequency, or rate at which motions part, along 64
+/// Of a system that declares no frequency: the highest frequency, or rate at which motions part, along some
 /// starts; 0 where the force is the same at all of them, and where they do not show it.
 double frequency_of(const initial_value_problem& made) {
   constexpr Eigen::Index most = 1000;  // coordinates
   if (size(made.system) > most) return 0.0;
+  // A large system has many parts in each start, and its force may be one of pairs.
+  constexpr Eigen::Index pairs = 64 * 64 * 64;
+  const std::int64_t count = std::clamp<Eigen::Index>(pairs / (size(made.system) * size(made.system)), 4, 64);
   std::vector<phase_point<double, Eigen::Dynamic>> starts;
-  for (std::int64_t n = 0; n < 64; ++n) starts.push_back(sound_start(made.system, made.starts, 1, n));
+  for (std::int64_t n = 0; n < count; ++n) starts.push_back(sound_start(made.system, made.starts, 1, n));
   double found = 0.0;
   if (has_quadratic_kinetic(made.system)) {
     const auto stiffness = hessian_spectrum(made.system, starts);
@@ -82,13 +86,20 @@ bool is_plain_name(std::string_view name) {
   return !name.empty() && std::ranges::all_of(name, is_allowed) && name.front() >= 'a';
 }
 
-void examine(initial_value_problem& made, const std::string& name) {
+void examine(initial_value_problem& made, const std::string& name, examination how) {
   require_observables(made, name);
   if (!(made.frequency >= 0.0) || !std::isfinite(made.frequency)) {
     refuse("{}: frequency(...) must be positive and finite, got {}", name, made.frequency);
   }
-  require_force(made, name);
-  if (made.frequency == 0.0) made.frequency = frequency_of(made);
+  if (how == examination::none) return;
+  progress shown;
+  if (how == examination::whole) {
+    shown.part("checking the force of " + name);
+    require_force(made, name);
+  }
+  if (made.frequency != 0.0) return;
+  shown.part("sampling frequencies of " + name);
+  made.frequency = frequency_of(made);
 }
 
 }  // namespace nysalt::program

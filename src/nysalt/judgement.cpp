@@ -36,13 +36,6 @@ constexpr double few_lost = 0.02;
 constexpr double few_in_trial = few_lost / detail::longer;
 constexpr double most = 0.95;  // quantile of energy errors, and confidence of the bound on the share lost
 
-/// Force evaluations that a judge may spend on one method.
-std::int64_t evaluations_of(const model& system, const judging_options& options) {
-  constexpr double of_black_box = 2000.0;
-  const double cost = is_black_box(system) ? of_black_box : force_cost(system);
-  return std::max<std::int64_t>(1, static_cast<std::int64_t>(static_cast<double>(options.work) / cost));
-}
-
 /// Slope of some numbers, one for each window, over all windows: the median of the slopes between any two
 /// [sen_1968].
 double slope_of(const std::array<double, windows>& level) {
@@ -189,6 +182,12 @@ void decide(judgement& found, Eigen::Index size) {
 
 }  // namespace
 
+std::int64_t evaluations_of_trial(const model& system, const judging_options& options) {
+  constexpr double of_black_box = 2000.0;
+  const double cost = is_black_box(system) ? of_black_box : force_cost(system);
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(static_cast<double>(options.work) / cost));
+}
+
 double judgement::most_lost() const {
   if (trajectories == 0) return 1.0;
   if (lost == trajectories) return 1.0;
@@ -229,11 +228,18 @@ struct step_judge::known {
 
 namespace {
 
-/// States from which frequencies are known: some of those along the motion, and then some starts.
+/// States from which frequencies are known: some of those along the motion, and then some starts. Of each as
+/// many derivatives of the force are taken as there are coordinates, or some forty: in all no more than a
+/// tenth of the evaluations of a trial, but for the fewest states.
 phase_points states_of(const accurate_motion& motion, const states& starts, Eigen::Index size,
-                       std::size_t& typical) {
+                       std::int64_t evaluations, std::size_t& typical) {
   constexpr Eigen::Index parts = 16'384;  // a large system has many in each state
-  const auto wanted = static_cast<std::size_t>(std::clamp<Eigen::Index>(parts / size, 8, 256));
+  constexpr Eigen::Index most_derivatives = 40;
+  constexpr Eigen::Index fewest = 8;
+  constexpr Eigen::Index most_states = 256;
+  const Eigen::Index affordable = evaluations / (10 * std::min(size, most_derivatives)) * 4 / 5;
+  const auto wanted =
+      static_cast<std::size_t>(std::clamp(std::min(parts / size, affordable), fewest, most_states));
   phase_points result;
   for (const std::size_t k : detail::spread_pairs(motion.seen.size(), wanted))
     result.push_back(motion.seen[k]);
@@ -243,9 +249,9 @@ phase_points states_of(const accurate_motion& motion, const states& starts, Eige
 }
 
 stability_guard guard_of(const model& system, const accurate_motion& motion, const states& starts,
-                         const run_time_word& word) {
+                         std::int64_t evaluations, const run_time_word& word) {
   std::size_t typical = 0;
-  const phase_points at = states_of(motion, starts, size(system), typical);
+  const phase_points at = states_of(motion, starts, size(system), evaluations, typical);
   return {system, at, word, linear_steps, typical == 0 ? at.size() : typical};
 }
 
@@ -297,10 +303,10 @@ step_judge::step_judge(model system, const phase_points& starts, double step,
                                             .no_guard = {},
                                             .unconfined = {}});
   const model& of = made->system;
-  made->evaluations = evaluations_of(of, options);
+  made->evaluations = evaluations_of_trial(of, options);
   made->motion = detail::follow(of, made->starts, step, made->evaluations, options);
   try {
-    made->guard = guard_of(of, made->motion, made->starts, run_time_word("BAB"));
+    made->guard = guard_of(of, made->motion, made->starts, made->evaluations, run_time_word("BAB"));
   } catch (const std::invalid_argument& problem) {  // the force has no derivative there
     made->no_guard = problem.what();
   }
@@ -330,7 +336,7 @@ judgement step_judge::of(const tabulated& method) const {
   found.frequencies = no_guard;
   if (has_rotation(word) || word.has_own_letters()) {
     try {
-      add_linear(guard_of(system, motion, starts, word), method, size(system), found);
+      add_linear(guard_of(system, motion, starts, evaluations, word), method, size(system), found);
     } catch (const std::invalid_argument& problem) {
       found.frequencies = problem.what();
     }

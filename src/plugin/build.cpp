@@ -20,8 +20,8 @@
 
 #include "comparison/child_process.hpp"
 #include "comparison/inputs.hpp"
+#include "comparison/progress.hpp"
 #include "comparison/refusal.hpp"
-#include "comparison/standard_error.hpp"
 #include "nysalt/detail/objection_to_replacing.hpp"
 #include "nysalt/detail/unfinished_names.hpp"
 #include "nysalt/detail/write_failure.hpp"
@@ -218,7 +218,8 @@ void compile(const fs::path& source, const std::string& identity, const fs::path
   }
   command.push_back(made.path.string());
   command.insert(command.end(), how.libraries.begin(), how.libraries.end());
-  if (::isatty(STDERR_FILENO) != 0) to_standard_error(fmt::format("compiling {} ...\n", source.string()));
+  progress shown;
+  shown.part(fmt::format("compiling {}", source.filename().string()));
   const child_result compiler = run_child(command, {}, error_output::kept);
   if (!compiler.code || *compiler.code == 127)
     refuse("cannot compile {}: the compiler {} cannot be started; install it", source.string(),

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "comparison/examination.hpp"
 #include "comparison/exported_source.hpp"
 #include "comparison/settings.hpp"
 #include "given_starts.hpp"
@@ -41,6 +42,7 @@ struct system_settings {
   std::vector<std::string> at;             // states to begin at, as typed: x=1,y=0;px=0,py=0.5
   std::optional<std::int64_t> start_step;  // of the file
   given_states states{};                   // of the caller's own, to begin at
+  examination examined = examination::whole;
 };
 
 struct learn_command {
@@ -73,6 +75,7 @@ struct run_command {
   std::string checkpoint;
   std::optional<std::int64_t> every;  // steps between checkpoints
   bool resume = false;
+  bool checks = true;  // of the system and of the step
 };
 
 struct compare_command : comparison_options {

@@ -132,7 +132,13 @@ surroundings surroundings_of(const system_settings& settings) {
   const double spread = spread_of(settings.spread, where);
   auto starts = given_starts_of(settings, heat_bath);
   const double of_law = starts ? 1.0 : spread;
-  return {heat_bath, where, of_law, settings.frequency, std::move(starts), settings.start.empty()};
+  return {.bath = heat_bath,
+          .start = where,
+          .spread = of_law,
+          .frequency = settings.frequency,
+          .starts = std::move(starts),
+          .is_start_usual = settings.start.empty(),
+          .examined = settings.examined};
 }
 
 /// The typed value of a parameter, as its declaration has it.
@@ -242,9 +248,10 @@ std::string options_of(const system_declaration& system) {
 }
 
 std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
-  const surroundings conditions = surroundings_of(settings);
+  surroundings conditions = surroundings_of(settings);
   if (settings.own) return settings.own(conditions);
   const system_declaration& declared = declared_by(settings);
+  conditions.is_bundled = declared.is_checked;
   const auto typed = typed_values(settings);
   require_options(settings, typed, declared);
   parameter_values values;
@@ -263,7 +270,7 @@ std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
   if (declared.is_checked) return std::make_unique<prepared_problem>(make(), named, conditions, source);
   try {
     initial_value_problem made = make();
-    examine(made, declared.name);
+    examine(made, declared.name, conditions.examined);
     if (!settings.potential.text.empty()) add_named(coordinate_names(settings.potential), made);
     return std::make_unique<prepared_problem>(std::move(made), named, conditions, source);
   } catch (const refusal&) {

@@ -2,10 +2,12 @@
 #include "nysalt/compare.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
 #include "comparison_report.hpp"
+#include "nysalt/ensemble.hpp"
 #include "own_problem.hpp"
 #include "write_file.hpp"
 
@@ -17,13 +19,29 @@ class comparison::measurement {
  public:
   measurement(const initial_value_problem& problem, const comparison_options& options,
               const execution_options& execution)
-      : all(program::prepared(problem), options, program::settings_of(execution)) {
-    program::journal nowhere;
-    all.learn_and_measure(nowhere);
-  }
+      : all(program::prepared(problem), options, program::settings_of(execution)) {}
 
   program::comparison all;
 };
+
+namespace {
+
+/// What identifies a system in C++, of which a journal has no more than the name: energies and forces, to the
+/// bit, at its first starts.
+program::json seen_at_starts(const initial_value_problem& problem) {
+  program::json seen = program::json::array();
+  for (std::int64_t n = 0; n < 4; ++n) {
+    const auto start = sound_start(problem.system, problem.starts, 1, n);
+    auto f = make_vector<double>(problem.system);
+    force<double>(problem.system, start.q, f);
+    double sum = 0.0;  // of weights that differ: no two coordinates can be exchanged
+    for (Eigen::Index i = 0; i < f.size(); ++i) sum += f[i] / static_cast<double>(i + 1);
+    seen.push_back({has_energy(problem.system) ? energy<double>(problem.system, start) : 0.0, sum});
+  }
+  return seen;
+}
+
+}  // namespace
 
 std::vector<compared_method> comparison::rows() const {
   const auto& all = found_->all;
@@ -64,16 +82,35 @@ void comparison::write(const std::filesystem::path& folder) const {
 comparison compare(const initial_value_problem& problem, const comparison_options& options,
                    const execution_options& execution) {
   return with_cpp_messages([&] {
-    return comparison(std::make_shared<const comparison::measurement>(problem, options, execution));
+    const program::told_caller told(execution);
+    const auto found = std::make_shared<comparison::measurement>(problem, options, execution);
+    program::journal nowhere;
+    found->all.learn_and_measure(nowhere);
+    return comparison(found);
   });
 }
 
 comparison report(const initial_value_problem& problem, comparison_options options,
                   const std::filesystem::path& folder, const execution_options& execution) {
   options.energies = true;
-  auto found = compare(problem, options, execution);
-  found.write(folder);
-  return found;
+  return with_cpp_messages([&] {
+    const program::told_caller told(execution);
+    const auto found = std::make_shared<comparison::measurement>(problem, options, execution);
+    auto question = found->all.question();
+    question["seen_at_starts"] = seen_at_starts(problem);
+    make_folders(folder);
+    program::journal kept(folder / program::journal_of_report, question, true);
+    try {
+      found->all.learn_and_measure(kept);
+    } catch (...) {
+      if (kept.is_empty()) kept.remove();
+      throw;
+    }
+    comparison result(found);
+    result.write(folder);
+    kept.remove();
+    return result;
+  });
 }
 
 }  // namespace nysalt

@@ -19,6 +19,12 @@ std::unique_ptr<prepared_problem> prepared(initial_value_problem problem) {
                                             surroundings{.bath = in, .start = where, .is_start_usual = true});
 }
 
+told_caller::told_caller(const execution_options& execution) {
+  if (!execution.progress) return;
+  caller_.hears = execution.progress;
+  work_.emplace(caller_);
+}
+
 std::vector<std::string> with_cpp_terms(std::vector<std::string> warnings) {
   for (auto& text : warnings) text = with_arguments(text, in_cpp);
   return warnings;

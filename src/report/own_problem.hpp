@@ -3,12 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "comparison/argument_names.hpp"
 #include "comparison/prepared_problem.hpp"
+#include "comparison/progress.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/comparison_options.hpp"
 
@@ -19,6 +21,16 @@ std::unique_ptr<prepared_problem> prepared(initial_value_problem problem);
 
 /// With a whole seed and some threads. Throws refusal.
 common_settings settings_of(const execution_options& execution);
+
+/// Hears what the caller asks to be told, while it lives.
+class told_caller {
+ public:
+  explicit told_caller(const execution_options& execution);
+
+ private:
+  quiet_caller caller_;
+  std::optional<work_for> work_;  // nothing: the caller asks for nothing
+};
 
 /// Warnings in terms of C++.
 std::vector<std::string> with_cpp_terms(std::vector<std::string> warnings);

@@ -88,14 +88,18 @@ std::vector<std::string> recommendation::warnings() const {
 
 recommendation recommend(const initial_value_problem& problem, const recommendation_options& options,
                          const execution_options& execution) {
-  return program::with_cpp_messages(
-      [&] { return recommendation(std::make_shared<const best_for_runs>(problem, options, execution)); });
+  return program::with_cpp_messages([&] {
+    const program::told_caller told(execution);
+    return recommendation(std::make_shared<const best_for_runs>(problem, options, execution));
+  });
 }
 
 recommendation recommend_for_sampling(const initial_value_problem& problem, const sampling_options& options,
                                       const execution_options& execution) {
-  return program::with_cpp_messages(
-      [&] { return recommendation(std::make_shared<const best_for_sampling>(problem, options, execution)); });
+  return program::with_cpp_messages([&] {
+    const program::told_caller told(execution);
+    return recommendation(std::make_shared<const best_for_sampling>(problem, options, execution));
+  });
 }
 
 }  // namespace nysalt

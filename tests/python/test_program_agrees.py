@@ -65,6 +65,19 @@ def test_a_judgement_is_that_of_the_program_and_of_a_run(program):
     assert nysalt.run(pendulum, "verlet", step=0.1, horizon=1).energy_error < 0.1
 
 
+def test_a_run_without_checks_has_the_same_numbers_and_says_so(program):
+    pendulum = nysalt.system("pendulum")
+    checked = nysalt.run(pendulum, "verlet", step=0.1, horizon=10)
+    with pytest.warns(UserWarning, match="checks are left out"):
+        ran = nysalt.run(pendulum, "verlet", step=0.1, horizon=10, checks=False)
+    assert np.array_equal(ran.values, checked.values)
+    assert (checked.judgement["verdict"], ran.judgement["verdict"]) == ("good", "not tried")
+    with pytest.warns(UserWarning, match="not tried"):  # it would have been unstable
+        nysalt.run(pendulum, "verlet", step=2.5, horizon=25, checks=False)
+    with pytest.raises(ValueError, match="checks must be True or False"):
+        nysalt.run(pendulum, "verlet", step=0.1, horizon=10, checks=1)
+
+
 def test_a_recommendation_is_the_document_of_the_program(program, tmp_path):
     pendulum = nysalt.system("pendulum")
     found, method = nysalt.recommend(pendulum, 2, budget=4, families="nystrom", trajectories=8, learn_trajectories=5,

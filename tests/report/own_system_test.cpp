@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O1: 15 s at -O0, 2.5 s at -O1.
 // Comparisons, recommendations and pages of systems that callers of the library bring.
+#include <algorithm>
 #include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
@@ -17,27 +21,28 @@ namespace {
 struct morse_pair {
   static constexpr int dimension = 2;
   double sign = 1.0;  // -1: a force that is not -grad V
+  double depth = 1.0;
 
   template <class T>
   T potential(const vector<T, 2>& q) const {
     using std::exp;
     const T a = 1.0 - exp(-q[0]);
     const T b = 1.0 - exp(q[0] - q[1]);
-    return a * a + b * b;
+    return (a * a + b * b) * depth;
   }
   template <class T>
   void force(const vector<T, 2>& q, vector<T, 2>& f) const {
     using std::exp;
     const T a = 2.0 * (1.0 - exp(-q[0])) * exp(-q[0]);
     const T b = 2.0 * (1.0 - exp(q[0] - q[1])) * exp(q[0] - q[1]);
-    f[0] = (b - a) * sign;
-    f[1] = -b * sign;
+    f[0] = (b - a) * (sign * depth);
+    f[1] = -b * (sign * depth);
   }
 };
 
-initial_value_problem morse(double sign = 1.0) {
+initial_value_problem morse(double sign = 1.0, double depth = 1.0) {
   const vector<double, 2> rest(0.0, 0.0);
-  return {.system = morse_pair{sign}, .starts = normal_around<2>({rest, rest}, 0.1, 0.2)};
+  return {.system = morse_pair{sign, depth}, .starts = normal_around<2>({rest, rest}, 0.1, 0.2)};
 }
 
 comparison_options quick() {
@@ -104,6 +109,42 @@ BOOST_AUTO_TEST_CASE(a_report_is_a_folder_with_a_page) {
   for (const auto& entry : std::filesystem::directory_iterator(folder / "page")) {
     BOOST_TEST(!has(entry.path().string(), "manifest"));  // there is no command that made it
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_report_that_was_interrupted_goes_on_from_its_journal) {
+  const test::scratch folder("own_system_journal");
+  const auto page = folder / "page";
+  auto options = quick();
+  options.steps = {0.2};
+  options.methods = {"verlet", "pefrl"};
+  std::vector<std::string> parts;
+  bool stops = true;
+  const execution_options told{.progress = [&](const std::string& part, double share) {
+    BOOST_TEST((0.0 <= share && share <= 1.0));
+    if (parts.empty() || parts.back() != part) parts.push_back(part);
+    if (stops && part.starts_with("energies of")) throw std::runtime_error("stopped");
+  }};
+  const auto has_compared = [&] {
+    return std::ranges::any_of(parts, [](const auto& part) { return part.starts_with("comparing"); });
+  };
+  BOOST_CHECK_THROW(report(morse(), options, page, told), std::runtime_error);
+  BOOST_TEST(has_compared());
+  BOOST_TEST(std::filesystem::file_size(page / "journal.jsonl") > 100U);
+  auto others = options;
+  others.trajectories = 9;
+  BOOST_TEST(test::refuses<std::invalid_argument>([&] { report(morse(), others, page); },
+                                                  {"another question (trajectories)"}));
+  BOOST_TEST(test::refuses<std::invalid_argument>([&] { report(morse(1.0, 1.1), options, page); },
+                                                  {"another question (seen_at_starts)"}));
+  stops = false;
+  parts.clear();
+  const auto resumed = report(morse(), options, page, told).rows();
+  BOOST_TEST(!has_compared());  // it is in the journal
+  BOOST_TEST(!std::filesystem::exists(page / "journal.jsonl"));
+  BOOST_TEST(std::filesystem::exists(page / "report.html"));
+  const auto whole = compare(morse(), options).rows();
+  BOOST_REQUIRE(whole.size() == resumed.size());
+  for (std::size_t n = 0; n < whole.size(); ++n) BOOST_TEST(whole[n].value.mean == resumed[n].value.mean);
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_in_terms_of_the_options) {

@@ -19,7 +19,6 @@ namespace nysalt::program {
 
 namespace {
 
-constexpr const char* journal_name = "journal.jsonl";
 constexpr int unfinished = -1;  // no exit code
 
 /// The report, if the folder has a whole one. Throws refusal if it answers another question.
@@ -41,7 +40,7 @@ bool has_value(const json& report) {
 
 /// Prints the report, if the folder has a whole one: the exit code.
 int print_finished_report(const std::filesystem::path& folder, const comparison& all) {
-  if (is_there(folder / journal_name)) return unfinished;
+  if (is_there(folder / journal_of_report)) return unfinished;
   const auto there = finished_report(folder, all.question());
   if (!there) return unfinished;
   print(all.common().json ? text_of(*there)
@@ -53,7 +52,7 @@ int print_finished_report(const std::filesystem::path& folder, const comparison&
 void measure_in(const std::filesystem::path& folder, comparison& all, bool resume) {
   std::vector<std::filesystem::path> made;
   on_first(all_ranks(), [&] { made = make_folder(folder); });
-  journal kept(folder / journal_name, all.question(), resume);
+  journal kept(folder / journal_of_report, all.question(), resume);
   try {
     all.learn_and_measure(kept);
   } catch (...) {
@@ -90,7 +89,7 @@ int compare(const compare_command& command, const common_settings& common) {
   } else {
     int code = unfinished;
     on_first(all_ranks(), [&] {
-      require_report(folder, {"report.json", "report.md", "report.html", "rows.csv", journal_name});
+      require_report(folder, {"report.json", "report.md", "report.html", "rows.csv", journal_of_report});
       if (const auto schemes = all.scheme_files(); !schemes.empty()) {
         require_files_in(folder / folder_of_schemes, schemes);
       }

@@ -155,13 +155,14 @@ int run(const run_command& asked, const common_settings& common) {
   on_first(all_ranks(), [&] { output.emplace(planned, common.json); });
   const bool was_finished = agreed(output && output->is_finished());
   warn_of_threads(common);
-  if (!was_finished || common.json) prepare_starts(system, common, shown);
-  shown.clear();
   std::vector<std::string> warnings = planned.warnings;
   double energy_error = 0.0;
   if (!was_finished || common.json) {
+    prepare_starts(system, common, shown);
+    if (command.checks) shown.part("judging the step");
     for (const auto& text : planned.warnings_of_starts()) warnings.push_back(text);
   }
+  shown.clear();
   if (!was_finished) {
     if (!common.json) {  // only now: a refusal is one line
       for (const auto& text : warnings) warn(text);
@@ -169,7 +170,11 @@ int run(const run_command& asked, const common_settings& common) {
     sampled_plan sampled{plan, command.observables, command.sample_every,
                          segment_of(command, system.dimension())};
     on_first(all_ranks(), [&] { output->begin(sampled); });
-    const auto take = [&](std::int64_t m, const record& one) { output->take(m, one); };
+    const bool prints_rows = command.output.empty() && !common.json;
+    const auto take = [&](std::int64_t m, const record& one) {
+      if (prints_rows) shown.step_aside();
+      output->take(m, one);
+    };
     shown.part("running");
     std::optional<signals_are_noted> noted;
     if (!command.checkpoint.empty()) noted.emplace();

@@ -38,6 +38,8 @@ subcommand offer_run(CLI::App& app, common_settings& common) {
   add_number(command, "--every", asked.every, "steps between checkpoints");
   command.add_flag("--resume", asked.resume,
                    "go on from the checkpoint; of a finished run to a longer --horizon");
+  const auto leave_out = [&asked](std::int64_t times) { asked.checks = times == 0; };
+  command.add_flag_function("--no-checks", leave_out, "try neither the step nor a force of your own first");
   add_common(command, common);
   add_force(command, common, "run a scheme at another step or system than it was learned for");
   command.footer(

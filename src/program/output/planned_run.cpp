@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "comparison/all_ranks.hpp"
+#include "comparison/catalogue.hpp"
 #include "comparison/checks.hpp"
 #include "comparison/judging.hpp"
 #include "comparison/refusal.hpp"
@@ -34,11 +35,27 @@ trajectories_plan plan_of(const run_command& command, const prepared_problem& sy
   return {command.step, steps, count, seed_for(role::test, common.seed), common.threads};
 }
 
+/// A method that is fitted to a frequency needs it, also without checks.
+bool is_fitted_to_frequency(const std::string& typed) {
+  const std::string name = canonical_method(typed);
+  return std::ranges::any_of(adaptive_methods(),
+                             [&](const auto& known) { return name.starts_with(known.name); });
+}
+
+system_settings examined_as_asked(const run_command& asked) {
+  system_settings settings = asked.system;
+  if (!asked.checks) {
+    settings.examined =
+        is_fitted_to_frequency(asked.method) ? examination::frequency_only : examination::none;
+  }
+  return settings;
+}
+
 }  // namespace
 
 planned_run::planned_run(const run_command& asked, const common_settings& common)
     : command(asked),
-      system(make_system(asked.system)),
+      system(make_system(examined_as_asked(asked))),
       plan(plan_of(asked, *system, common)),
       seed(common.seed) {
   if (command.observables.empty()) command.observables = {system->default_observable()};
@@ -47,9 +64,13 @@ planned_run::planned_run(const run_command& asked, const common_settings& common
   command.method = source.typed;  // of an alias the name
   method = coefficients_at(source, *system, command.step, common.force, placement_asked(command.placement),
                            warnings);
+  unchecked.step = plan.step;
+  unchecked.reason = "checks are left out, as asked";
 }
 
-const judgement& planned_run::judged() const { return system->judged(*method, plan.step, plan.threads); }
+const judgement& planned_run::judged() const {
+  return command.checks ? system->judged_before(*method, plan) : unchecked;
+}
 
 std::optional<std::string> planned_run::warning_of_energy(double largest) const {
   // Of the kinetic energy: in proportion to time it becomes all of that in a run four times as long.

@@ -24,12 +24,13 @@ struct planned_run {
   trajectories_plan plan;
   method_source source;
   std::optional<tabulated> method;  // always there
+  judgement unchecked;              // what stands where checks are left out
   std::uint64_t seed;
   std::vector<std::string> warnings;  // of the method as it is
 
   /// Also of its steps from these starts, which must be prepared.
   std::vector<std::string> warnings_of_starts() const;
-  /// The judgement of the method at the step.
+  /// The judgement of the method at the step: nothing is tried where checks are left out.
   const judgement& judged() const;
   /// What is to be said at the end if the largest |H - H_0| there is not small.
   std::optional<std::string> warning_of_energy(double largest) const;
