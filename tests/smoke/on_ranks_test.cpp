@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(three_ranks_prolong_what_one_process_finished) {
   for (const std::string of :
        {"run --system henon_heiles --spread 2.5 --method verlet --step 0.3 --trajectories 70 --sample-every "
         "7 ",
-        "run --system fpu --pairs 6000 --method verlet --step 0.3 --sample-every 7 "}) {
+        "run --system fpu --pairs 6000 --method verlet --step 0.02 --sample-every 50 "}) {
     const scratch folder("ranks_prolong");
     const std::string line = of + "--output a.csv --horizon ";
     const std::string kept = " --checkpoint c --every 100";
