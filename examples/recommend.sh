@@ -43,6 +43,7 @@ nysalt recommend --system pendulum --budget 4 --horizon 20 --trajectories 50 --f
 # srkn14a                        6     2.8               5.0~2.75e-04            tail        4.86e-04     0/100
 # phase_fitted_vefrl             4     0.8               5.0~2.47e-04            tail        5.11e-04     0/100
 # fg4_processed                  6  0.9302               5.0~3.87e-04            tail        7.69e-04     0/100
+# blanes_moan_s10                6       2               5.0~5.88e-04            tail        1.05e-03     0/100
 # impulse                        2     0.2               5.0~6.52e-04            tail        1.23e-03     0/100
 # vefrl                          4     0.8               5.0~1.10e-03            tail        1.87e-03     0/100
 # takahashi_imada                2     0.4               5.0~2.25e-03            tail        3.59e-03     0/100

@@ -106,7 +106,11 @@ int compare(const compare_command& command, const common_settings& common) {
     for (const auto& text : all.warnings()) warn(text);
     if (!command.output.empty()) print(line_of_written(command.output));
   }
-  return all.has_result() ? done : no_result;
+  if (all.has_result()) return done;
+  warn(
+      "no method has an error to show, as all diverged or none could be measured; take smaller --steps, or a "
+      "shorter --horizon");
+  return no_result;
 }
 
 }  // namespace nysalt::program

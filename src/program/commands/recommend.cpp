@@ -59,7 +59,8 @@ int print_result(auto& all, const std::string& output, const common_settings& co
     if (writes && written) print(line_of_written(output));
   });
   if (chosen) return done;
-  if (!output.empty()) warn(fmt::format("no method is accepted, and {} was not written", file));
+  warn(output.empty() ? "no method is accepted"
+                      : fmt::format("no method is accepted, and {} was not written", file));
   return no_result;
 }
 
