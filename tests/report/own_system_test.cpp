@@ -89,6 +89,7 @@ BOOST_AUTO_TEST_CASE(every_method_has_a_row_at_every_step_by_every_metric) {
   const auto first_with = [](std::uint64_t seed) {
     auto classical = quick();
     classical.methods = {"verlet"};
+    classical.steps = {0.2};
     return compare(morse(), classical, {.seed = seed}).rows().front().value.mean;
   };
   BOOST_TEST(first_with(1) == first_with(1));
@@ -116,7 +117,7 @@ BOOST_AUTO_TEST_CASE(a_report_that_was_interrupted_goes_on_from_its_journal) {
   const auto page = folder / "page";
   auto options = quick();
   options.steps = {0.2};
-  options.methods = {"verlet", "pefrl"};
+  options.methods = {"verlet"};
   std::vector<std::string> parts;
   bool stops = true;
   const execution_options told{.progress = [&](const std::string& part, double share) {
