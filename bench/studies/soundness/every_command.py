@@ -6,10 +6,11 @@ usage: every_command.py PROGRAM FOLDER [--systems A,B] [--commands A,B]
 
 A cell is `works` (exit code 0), the clause of the refusal (exit code 2 and one line), or `no result` with what was said
 (exit code 3). Everything else is a fault: another exit code, a refusal of several lines, none at all, or a time above ten
-minutes. Writes every_command.md and the systems of K other than p^2/2m as plug-ins. Exit code 1 if there is a fault.
+minutes. Writes every_command.md, and the systems that are no formula as plug-ins. Exit code 1 if there is a fault.
 """
 import argparse
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -67,7 +68,7 @@ NYSALT_SYSTEM(time_as_coordinate, "a swing", starts([](const time_as_coordinate&
 """),
     "constant_force": ("V = 9.81 z", FORMULA("9.81*x")),
     "free": ("V = 0", FORMULA("0*x")),
-    "cusp": ("V = |x|", FORMULA("abs(x)")),
+    "cusp": ("V = abs(x)", FORMULA("abs(x)")),
     "unbounded": ("V = x^2/2 - x^3/3, open above 1/6", FORMULA("x^2/2 - x^3/3")),
     "singular": ("V = -1/r, an ellipse", FORMULA("-1/sqrt(x^2 + y^2)", "x,y", "--around", "x=1", "--parameter",
                                                  "deviation_q=0.01,deviation_p=0.01", "--at", "x=1;py=0.9", "--spread", "0.01")),
@@ -105,6 +106,36 @@ def outcome(program, options, folder):
     return "no result: " + last.removeprefix("nysalt: "), done.returncode != 3 or not done.stderr.strip()
 
 
+PAGE = """# Every command on every kind of system
+
+w: works, with exit code 0 (`sample` says beside it whether its chains agree, which they do not where there is no distribution); a number:
+the answer below, in one line. K is sum p^2/2m unless it is said. Made by
+
+```sh
+bench/studies/soundness/every_command.py build/release/nysalt build/every_command
+```
+
+"""
+
+
+def write_page(path, rows):
+    """The table of rows (system, command, answer, whether that is a fault)."""
+    own = r"(the system )?\b({0}\(\)|{0}|swing in time|given_potential\([^;]*; [a-z,]*\))"
+    plain = lambda name, said: re.sub(own.format(name), "the system", said).replace("the system: the system", "the system")
+    rows = [(name, command, plain(name, said)) for name, command, said, _ in rows]
+    notes = list(dict.fromkeys(said for *_, said in rows if said != "works"))
+    commands = list(dict.fromkeys(command for _, command, _ in rows))
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(PAGE)
+        print("| " + " | ".join(["system", *commands]) + " |\n|" + "---|" * (len(commands) + 1), file=file)
+        for name in dict.fromkeys(name for name, *_ in rows):
+            cells = ["w" if said == "works" else str(notes.index(said) + 1) for who, _, said in rows if who == name]
+            print("| " + " | ".join([KINDS[name][0], *cells]) + " |", file=file)
+        print(file=file)
+        for number, said in enumerate(notes, 1):
+            print(f"{number}. {said}", file=file)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=pathlib.Path)
@@ -126,18 +157,7 @@ def main():
             faults += is_fault
             rows.append((name, command, said, is_fault))
             print(f"{name:20} {command:16} {'FAULT ' if is_fault else ''}{said}", flush=True)
-    with open(asked.folder / "every_command.md", "w", encoding="utf-8") as file:
-        commands = asked.commands.split(",")
-        print("# Every command on every kind of system\n\nw: works; a number: the answer below. Made by `bench/studies/soundness/"
-              "every_command.py build/release/nysalt build/every_command`.\n", file=file)
-        print("| " + " | ".join(["system", *commands]) + " |\n|" + "---|" * (len(commands) + 1), file=file)
-        notes = list(dict.fromkeys(said for _, _, said, _ in rows if said != "works"))
-        for name in asked.systems.split(","):
-            cells = ["w" if said == "works" else str(notes.index(said) + 1) for who, _, said, _ in rows if who == name]
-            print("| " + " | ".join([KINDS[name][0], *cells]) + " |", file=file)
-        print(file=file)
-        for number, said in enumerate(notes, 1):
-            print(f"{number}. {said}", file=file)
+    write_page(asked.folder / "every_command.md", rows)
     return 1 if faults else 0
 
 
