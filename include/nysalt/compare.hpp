@@ -50,8 +50,8 @@ class comparison {
   std::shared_ptr<const measurement> found_;
 };
 
-/// Errors and costs of methods on a system from its initial distribution; in a warm bath of systems with
-/// frequency bands, from the stationary distribution in the bath. Where the frequency is 0 it is found along
+/// Errors and costs of methods on a system from its initial distribution; in a warm bath from the Gibbs
+/// distribution, where one is found. Where the frequency is 0 it is found along
 /// 64 starts. The force is checked against the potential first. Throws std::invalid_argument, naming the
 /// option, for bad input, before any work is done. Cost: that of the trajectories, of a reference some ten
 /// times finer, and of a fit for each learned method and step.

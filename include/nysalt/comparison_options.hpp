@@ -17,8 +17,9 @@ struct execution_options {
   std::uint64_t seed = 1;  ///< below 2^51: learning, judging and testing draw apart from each other by it
   int threads = 1;         ///< results are the same bits for any number
   bool force = false;      ///< whether a scheme may be used at another step or system than that of learning
-  /// Told what is being done and the share of it that is done, from any thread, one call at a time. What it
-  /// throws ends the work. Empty: a line on a terminal, and elsewhere a line a minute, on standard error.
+  /// Callback with the name of the current part and its completed share, from any thread, one call at a time.
+  /// An exception that it throws cancels the work. Empty: progress is written to standard error, on a
+  /// terminal as one line, and elsewhere once a minute.
   std::function<void(const std::string& part, double share)> progress = {};
 };
 

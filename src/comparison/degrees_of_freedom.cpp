@@ -101,7 +101,7 @@ Eigen::Index degrees_of_freedom(const initial_value_problem& problem) {
   }
   if (conserved.cols() == 0) return n;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> independent(conserved);
-  independent.setThreshold(1e-6);  // relations are known to some 1e-8
+  independent.setThreshold(1e-6);  // relations are known to the root of the roundings above, 2e-7
   return std::max<Eigen::Index>(1, n - independent.rank());
 }
 

@@ -50,7 +50,7 @@ struct surroundings {
   std::optional<double> frequency = {};  // to which methods are fitted; nothing: declared, or seen
   /// Makes the starts that are taken in the place of the system's own distribution; empty: none are.
   std::function<initial_states(const initial_value_problem&)> starts = {};
-  bool is_start_usual = false;  // nobody asked for it, and the law is taken where it cannot be had
+  bool is_start_usual = false;  // `start` is the default: where it cannot be sampled, the law is
   examination examined = examination::whole;  // of a user's system
   bool is_bundled = false;                    // the system is one of ours: its force costs what it says
 };

@@ -17,8 +17,8 @@ namespace nysalt::program {
 /// A caller that uses the program as a library: no line is printed, and the caller may end the work early.
 struct quiet_caller {
   std::atomic<bool> wants_an_end = false;
-  /// Told what is done, and the share of it that is done, one call at a time; what it throws ends the work.
-  /// Empty: nothing is told.
+  /// Callback with the name of the current part and its completed share, one call at a time; an exception
+  /// that it throws cancels the work. Empty: no callback.
   std::function<void(const std::string&, double)> hears = {};
 };
 /// The exception that a counter throws then.
