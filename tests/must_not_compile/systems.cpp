@@ -16,6 +16,7 @@
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/pendulum.hpp"
+#include "nysalt/systems/sum_of_parts.hpp"
 
 // expect: nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a
 //   template or over double, const all of them; see nysalt/system.hpp
@@ -224,6 +225,30 @@ struct sloped : well {
 };
 inline void use() { members_of_another_form::step_all<heavy, moving, whole, sloped>(); }
 }  // namespace members_of_another_name
+
+// The parts of a sum, and what derives from one, are asked too.
+// expect: nysalt: a member of a name such as mass or masses is not used; give masses by `double
+//   inverse_mass(Eigen::Index i) const`, or rename it
+// expect: nysalt: a member of a name near to force or gradient is not used; write `template <class T> void
+//   force(q, f) const`, f = -grad V, or rename it
+// expect: nysalt: kick is not of the form `template <class T, class C> void kick(q, p, c) const`
+namespace members_of_a_sum {
+struct sloped : well {
+  double gradient(double q) const { return 2.0 * q; }
+};
+struct kicked : well {
+  void kick(double c) const;
+};
+struct heavy : nysalt::sum_of_parts<well, well> {
+  explicit heavy(const well& part) : sum_of_parts(part, part) {}
+  double mass(Eigen::Index) const { return 2.0; }
+};
+inline void use() {
+  nysalt::sum_of_parts(well(), either<well, sloped>());
+  nysalt::sum_of_parts(well(), either<well, kicked>());
+  nysalt::make_stepper(either<nysalt::sum_of_parts<well>, heavy>(well()), nysalt::verlet(), 0.1);
+}
+}  // namespace members_of_a_sum
 
 // What models nothing is refused by the name of the concept, wherever it is handed over.
 // expect: Scalar

@@ -114,6 +114,7 @@ NYSALT_TEST_NEAR(mentions_near_velocity, velocities)
 NYSALT_TEST_NEAR(mentions_near_velocity, velocty)
 NYSALT_TEST_NEAR(mentions_hamiltonian, hamiltonian)
 NYSALT_TEST_NEAR(mentions_hamiltonian, Hamiltonian)
+NYSALT_TEST_NEAR(mentions_hamiltonian, energy)
 NYSALT_TEST_NEAR(mentions_near_potential, potential_energy)
 NYSALT_TEST_NEAR(mentions_near_potential, potental)
 NYSALT_TEST_NEAR(mentions_near_force, forces)
@@ -135,7 +136,10 @@ static_assert(mentions_masses<with_masses> && !mentions_near_force<with_room>);
 // What wrappers have under constraints is not taken for their own.
 static_assert(std::is_same_v<written_system<counted<in_bath<bare>>>::type, bare>);
 static_assert(std::is_same_v<written_system<bare>::type, bare>);
-struct of_parts : sum_of_parts<bare, bare> {};
+struct of_parts : sum_of_parts<bare, bare> {
+  double mass(int) const;
+};
+static_assert(mentions_masses<of_parts> && !mentions_masses<sum_of_parts<bare, bare>>);
 static_assert(std::is_same_v<written_system<of_parts>::type, bare>);
 
 }  // namespace

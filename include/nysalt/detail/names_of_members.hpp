@@ -30,7 +30,7 @@ namespace nysalt::detail {
   X(veloity) X(velocty) X(velociy) X(velocit) X(evlocity) X(vleocity) X(veolcity) X(velcoity) \
   X(veloicty) X(veloctiy) X(velociyt)
 #define NYSALT_NEAR_HAMILTONIAN(X) \
-  X(hamiltonian) X(Hamiltonian) X(hamilton) X(total_energy)
+  X(hamiltonian) X(Hamiltonian) X(hamilton) X(total_energy) X(energy) X(energies)
 #define NYSALT_NEAR_POTENTIAL(X) \
   X(potentials) X(potential_energy) X(potentialEnergy) X(energy_potential) X(otential) X(ptential) \
   X(poential) X(potntial) X(potetial) X(potenial) X(potental) X(potentil) X(potentia) X(optential) \

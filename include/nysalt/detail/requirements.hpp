@@ -30,7 +30,7 @@ concept TellsHasModes = requires(const S& s) {
 template <class S>
 concept TellsKinetic = HasInverseMass<S> || HasKineticEnergy<S, double> || HasVelocity<S, double>;
 
-/// Compiles if every member of a name that the library uses, or of a name near to one, is used.
+/// Compiles if every member of a name that the library uses is used.
 template <class S>
 constexpr void require_used_members() {
   using D = dual<double, 1>;
@@ -73,7 +73,11 @@ constexpr void require_used_members() {
                 "nysalt: description is not of the form `std::string description() const`");
   static_assert(TellsKind<S> || !mentions_kind<S>,
                 "nysalt: kind is not of the form `std::string kind() const`");
+}
 
+/// Compiles if no member has a name near to one that the library uses, where that one is missing.
+template <class S>
+constexpr void require_no_near_members() {
   static_assert(TellsKinetic<S> || !mentions_masses<S>,
                 "nysalt: a member of a name such as mass or masses is not used; give masses by "
                 "`double inverse_mass(Eigen::Index i) const`, or rename it");
@@ -114,7 +118,10 @@ constexpr void require_suited() {
       "nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a "
       "template or over double, const all of them; see nysalt/system.hpp");
   if constexpr (SeparableSystem<S> && !ErasedSystem<S>) {
-    detail::require_used_members<typename detail::written_system<S>::type>();
+    using written = typename detail::written_system<S>::type;
+    detail::require_used_members<written>();
+    detail::require_no_near_members<written>();
+    detail::require_no_near_members<S>();  // what derives from a sum of parts may have members of its own
   }
   if constexpr (requires { std::bool_constant<M::requires_quadratic_kinetic>{}; }) {
     static_assert(!M::requires_quadratic_kinetic || NystromSystem<S>,

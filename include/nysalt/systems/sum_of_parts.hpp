@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "nysalt/detail/requirements.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/lanes.hpp"
@@ -31,6 +32,8 @@ class sum_of_parts {
 
   /// Throws std::invalid_argument unless all parts have one size.
   explicit sum_of_parts(const First& first, const Rest&... rest) : parts_(first, rest...) {
+    (detail::require_used_members<typename detail::written_system<Rest>::type>(), ...);
+    (detail::require_no_near_members<typename detail::written_system<Rest>::type>(), ...);
     [[maybe_unused]] const auto require_same = [&](const auto& other) {
       if (nysalt::size(other) == nysalt::size(first)) return;
       throw std::invalid_argument(
