@@ -54,7 +54,7 @@ json to_json(const judgement& found) {
 }
 
 std::optional<std::string> warning_of(const std::string& name, const judgement& found) {
-  if (found.verdict == step_verdict::good) return std::nullopt;
+  if (found.reason.empty()) return std::nullopt;
   return fmt::format("{} at step {:g}: {}", name, found.step, found.in_words());
 }
 

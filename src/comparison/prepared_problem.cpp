@@ -49,6 +49,20 @@ std::int64_t most_steps_of_pilots(const model& system, const burn_in_options& op
   return std::clamp<std::int64_t>(static_cast<std::int64_t>(work / of_a_step), 2048, options.most_steps);
 }
 
+/// What a part of a trial says: a verdict is of a whole one, whatever command shows it. No reason: no fault
+/// was found.
+judgement in_part(judgement found) {
+  if (found.verdict == step_verdict::not_tried) return found;
+  found.reason = found.verdict == step_verdict::good
+                     ? ""
+                     : fmt::format(
+                           "before so short a run only a part of the trial is made, by which the step is {}; "
+                           "stability tries it in full",
+                           found.in_words());
+  found.verdict = step_verdict::not_tried;
+  return found;
+}
+
 }  // namespace
 
 std::string to_string(start where) {
@@ -467,7 +481,9 @@ const judgement& prepared_problem::judged_by(const tabulated& method, double ste
     const phase_points starts = starts_to_judge(made_.system, starts_or_law());
     judge = judges_.emplace(at, step_judge(made_.system, starts, step, options)).first;
   }
-  return judged_.emplace(key, judge->second.of(method)).first->second;
+  judgement found = judge->second.of(method);
+  if (evaluations < all) found = in_part(std::move(found));
+  return judged_.emplace(key, std::move(found)).first->second;
 }
 
 int prepared_problem::derivative_calls() const { return made_.system.facts().derivative_calls; }

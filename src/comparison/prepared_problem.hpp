@@ -136,8 +136,9 @@ class prepared_problem {
   /// of a method that was judged at the step before none.
   const judgement& judged(const tabulated& method, double step, int threads) const;
   /// The same before a run, by a trial of no more force evaluations than the run takes, or than take some
-  /// tenths of a second if these are more; nothing is tried where they are too few. Counted, not measured:
-  /// equal runs have equal judgements.
+  /// tenths of a second if these are more; nothing is tried where they are too few. The verdict of less than
+  /// a whole trial is `not_tried`: its reason is the fault that was found, and is empty if there was none.
+  /// Counted, not measured: equal runs have equal judgements.
   const judgement& judged_before(const tabulated& method, const trajectories_plan& run) const;
   /// Throws refusal for a word that the system does not serve.
   void require_served(const run_time_word& word) const;
