@@ -67,7 +67,8 @@ learnable prepared_problem::make_learnable(const learn_plan& plan, const counter
   const run_time_family family = placed(plan.family, plan.where, letters());
   const int parts = noise_parts(family);
   fit_options options = options_for(family, plan.how, plan.threads);
-  options.seed = plan.seed;
+  // The random starts of the search are those of every seed: a seed decides on data, not on the minima that
+  // are found.
   options.frequency = frequency_asked_;
   if (!plan.from.empty()) {
     const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(plan.from.data(), std::ssize(plan.from));
