@@ -86,6 +86,12 @@ void take_learning(const argument_reader& arguments, const std::string& prefix, 
 
 }  // namespace
 
+py::list list_of(const std::vector<std::string>& texts) {
+  py::list all;
+  for (const auto& text : texts) all.append(text);
+  return all;
+}
+
 std::vector<std::string> argument_reader::names() const {
   std::vector<std::string> all;
   for (const auto& [name, value] : arguments_) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The keyword arguments of a call, as the commands take them: what is None is left as it is.
+// The keyword arguments of a call, as the commands take them: what is None is left as it is. And texts as
+// Python shows and takes them.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -15,6 +16,8 @@ namespace nysalt::python {
 
 /// As Python shows it, in one line of moderate length.
 std::string shown(const pybind11::handle& value);
+/// Texts that a call returns, such as warnings.
+pybind11::list list_of(const std::vector<std::string>& texts);
 
 class argument_reader {
  public:

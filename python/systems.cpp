@@ -111,6 +111,7 @@ program::role role_named(const std::string& name) {
   refuse("unknown role '{}': it is one of training, held_out, test", name);
 }
 
+/// q, p and warnings.
 py::tuple starts(const held_system& system, const py::dict& arguments) {
   const argument_reader asked(arguments);
   std::int64_t count = 1;
@@ -125,10 +126,11 @@ py::tuple starts(const held_system& system, const py::dict& arguments) {
   py::array_t<double> p({count, n});
   const std::span<double> to_q(q.mutable_data(), static_cast<std::size_t>(q.size()));
   const std::span<double> to_p(p.mutable_data(), static_cast<std::size_t>(p.size()));
+  std::vector<std::string> warnings;
   compute(system.calls_python(), [&] {
     const auto made = make_system(system.settings);
     program::progress shown;
-    prepare_starts(*made, common, shown);
+    prepare_starts(*made, common, shown, warnings);
     for (std::int64_t m = 0; m < count; ++m) {
       const auto first = static_cast<std::size_t>(m * n);
       const auto width = static_cast<std::size_t>(n);
@@ -136,7 +138,7 @@ py::tuple starts(const held_system& system, const py::dict& arguments) {
                         to_p.subspan(first, width));
     }
   });
-  return py::make_tuple(q, p);
+  return py::make_tuple(q, p, list_of(warnings));
 }
 
 py::dict facts(const held_system& system) {

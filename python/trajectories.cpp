@@ -27,12 +27,6 @@ using program::refuse;
 
 namespace {
 
-py::list list_of(const std::vector<std::string>& texts) {
-  py::list all;
-  for (const auto& text : texts) all.append(text);
-  return all;
-}
-
 bool overlap(std::span<const double> a, std::span<const double> b) {
   return a.data() < b.data() + b.size() && b.data() < a.data() + a.size();
 }
@@ -108,9 +102,9 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
   compute(system.calls_python(), [&] {
     program::progress shown;
     auto& planned_system = *planned->system;
-    prepare_starts(planned_system, common, shown);
     warnings = planned->warnings;
-    for (const auto& text : planned->warnings_of_starts()) warnings.push_back(text);
+    prepare_starts(planned_system, common, shown, warnings);
+    for (const auto& text : planned->warnings_of_steps()) warnings.push_back(text);
     const program::sampled_plan sampled{.trajectories = plan,
                                         .observables = observables,
                                         .every = every,
@@ -199,23 +193,23 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
   return py::make_tuple(to_q, to_p, list_of(warnings));
 }
 
-/// The judgement of a method at a step, as the text of a document.
-std::string judge(const held_system& system, const py::dict& arguments) {
+/// The judgement of a method at a step, as the text of a document, and warnings.
+py::tuple judge(const held_system& system, const py::dict& arguments) {
   const argument_reader asked(arguments);
   const auto common = common_of(asked, system.calls_python());
   const auto command = run_of(asked, system.settings);
   program::require_positive("--step", command.step);
   std::string document;
+  std::vector<std::string> warnings;
   compute(system.calls_python(), [&] {
-    std::vector<std::string> warnings;
     program::progress shown;
-    prepare_starts(*system.model, common, shown);
+    prepare_starts(*system.model, common, shown, warnings);
     const auto source = program::find_method(command.method, command.held, system.model->letters());
     const auto method = coefficients_at(source, *system.model, command.step, common.force,
                                         program::placement_asked(command.placement), warnings);
     document = program::to_json(system.model->judged(method, command.step, common.threads)).dump();
   });
-  return document;
+  return py::make_tuple(document, list_of(warnings));
 }
 
 }  // namespace

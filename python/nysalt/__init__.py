@@ -125,7 +125,9 @@ class System:
         With a seed `run` and `compare` begin at those of the role "test"; `learn` learns from "training" and
         judges on "held_out".
         """
-        return self._held.starts(dict(trajectories=trajectories, seed=seed, role=role))
+        q, p, warnings = self._held.starts(dict(trajectories=trajectories, seed=seed, role=role))
+        _warn(warnings)
+        return q, p
 
 
 def _held_by(system: Any) -> Any:
@@ -314,8 +316,10 @@ def learn(system: System, family: str = "bab6", *, step: Optional[float] = None,
     asked = dict(locals())
     asked.pop("system")
     asked["fix"] = _fixed(fix)
-    fit, text = _nysalt.learn(_held_by(system), asked)
-    return Scheme(text, f"scheme:{family}", _json.loads(fit))
+    text, file = _nysalt.learn(_held_by(system), asked)
+    fit = _json.loads(text)
+    _warn(fit["warnings"])
+    return Scheme(file, f"scheme:{family}", fit)
 
 
 def load(path: Union[str, "_os.PathLike[str]"]) -> Union[Scheme, Table]:
@@ -423,7 +427,9 @@ def judge(system: System, method: Method, step: float, *, placement: Optional[st
     """
     (name,), held = _held_by_name([method])
     asked = dict(method=name, held=held, step=step, placement=placement, force=force, threads=threads)
-    return _json.loads(_nysalt.judge(_held_by(system), asked))
+    text, warnings = _nysalt.judge(_held_by(system), asked)
+    _warn(warnings)
+    return _json.loads(text)
 
 
 def integrate(system: System, method: Method, step: float, q: Any, p: Any, steps: int, *,

@@ -28,8 +28,7 @@ std::vector<row*> usable(const std::vector<row*>& all) {
 }  // namespace
 
 void comparison::learn_and_measure(journal& kept) {
-  prepare_starts(*system_, common_, shown_);
-  if (!system_->warning_of_starts().empty()) warnings_.push_back(system_->warning_of_starts());
+  prepare_starts(*system_, common_, shown_, warnings_);
   for (const auto& source : schemes_) {
     const auto of_energies = warning_of_energies(source, *system_, plan_at(rows_.front().step));
     if (of_energies) warnings_.push_back(*of_energies);

@@ -146,9 +146,11 @@ learn_plan plan_for(const std::string& family, std::optional<placement> where, d
           .threads = common.threads};
 }
 
-void prepare_starts(prepared_problem& system, const common_settings& common, progress& shown) {
+void prepare_starts(prepared_problem& system, const common_settings& common, progress& shown,
+                    std::vector<std::string>& warnings) {
   shown.part("preparing the starts");
   system.prepare_starts(seed_for(role::training, common.seed));
+  if (const auto& text = system.warning_of_starts(); !text.empty()) warnings.push_back(text);
 }
 
 std::vector<double> theta_of(const fit_summary& fit) {

@@ -31,7 +31,9 @@ std::vector<double> theta_of(const fit_summary& fit);
 learn_plan plan_for(const std::string& family, std::optional<placement> where, double step,
                     const learning_options& how, const common_settings& common);
 
-/// Before learning or running; with a burn-in that can take a moment.
-void prepare_starts(prepared_problem& system, const common_settings& common, progress& shown);
+/// Before learning or running; with a burn-in that can take a moment. A warning is added where trajectories
+/// do not begin where they usually do.
+void prepare_starts(prepared_problem& system, const common_settings& common, progress& shown,
+                    std::vector<std::string>& warnings);
 
 }  // namespace nysalt::program

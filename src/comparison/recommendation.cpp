@@ -27,8 +27,7 @@ recommendation::recommendation(std::unique_ptr<prepared_problem> system, recomme
 
 void recommendation::learn_and_rank(const choice_observer& keep) {
   keep_ = keep;
-  prepare_starts(*system_, common_, shown_);
-  if (!system_->warning_of_starts().empty()) warnings_.push_back(system_->warning_of_starts());
+  prepare_starts(*system_, common_, shown_, warnings_);
   time_steps();
   if (options_.budget) {
     by_evaluations_ = {.unit = cost_unit::evaluations,

@@ -248,8 +248,7 @@ void sampling_choice::learn_and_rank(const choice_observer& keep) {
     sort_by_step();
     if (const auto best = chosen(); keep && best) keep(*best);
   };
-  prepare_starts(*system_, common_, shown_);
-  if (!system_->warning_of_starts().empty()) warnings_.push_back(system_->warning_of_starts());
+  prepare_starts(*system_, common_, shown_, warnings_);
   run_pilot();
   shown_.part("steps of classical words");
   double best = 0.0;

@@ -106,11 +106,15 @@ fitted_family::fitted_family(const learn_command& command, const common_settings
 
 void fitted_family::learn() {
   progress shown;
-  prepare_starts(*system_, common_, shown);
+  prepare_starts(*system_, common_, shown, warnings_);
   learned_ = learn_curve(*system_, plan_, steps_, shown);
   shown.part("judging the step");
   for (const auto& one : learned_)
     losing_fewest_.push_back(loses_fewest(one.method, *system_, one.fit.judgement, common_.threads));
+  for (const auto& one : learned_) {
+    if (one.course && !one.course->is_reached)
+      warnings_.push_back(fmt::format("at step {:g} {}", one.fit.step, one.course->report()));
+  }
 }
 
 const learned_scheme* fitted_family::unusable() const {
@@ -119,13 +123,12 @@ const learned_scheme* fitted_family::unusable() const {
 }
 
 json fitted_family::document() const {
-  if (command_.step)
-    return document_of(learned_.front(), *system_, losing_fewest_.front(), plan_.where, purpose());
-  json result;
-  result["fits"] = json::array();
+  json fits = json::array();
   for (std::size_t k = 0; k < learned_.size(); ++k) {
-    result["fits"].push_back(document_of(learned_[k], *system_, losing_fewest_[k], plan_.where, purpose()));
+    fits.push_back(document_of(learned_[k], *system_, losing_fewest_[k], plan_.where, purpose()));
   }
+  json result = command_.step ? fits.front() : json{{"fits", fits}};
+  result["warnings"] = warnings_;
   return result;
 }
 

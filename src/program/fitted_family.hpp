@@ -21,7 +21,6 @@ class fitted_family {
 
   void learn();
 
-  const prepared_problem& system() const { return *system_; }
   /// Where the letters O are; nothing without a bath.
   const std::optional<placement>& where() const { return plan_.where; }
   /// The purpose that set the loss; empty if a loss was asked for.
@@ -32,6 +31,9 @@ class fitted_family {
   const std::vector<std::optional<rival_judgement>>& losing_fewest() const { return losing_fewest_; }
   /// The first that is not usable; null if all are.
   const learned_scheme* unusable() const;
+
+  /// Of the starts, and of data that were not enough; known once it is learned.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// The fit, as JSON.
   json document() const;
@@ -46,6 +48,7 @@ class fitted_family {
   learn_plan plan_{};
   std::vector<learned_scheme> learned_;
   std::vector<std::optional<rival_judgement>> losing_fewest_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace nysalt::program

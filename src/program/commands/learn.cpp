@@ -47,11 +47,7 @@ int learn(const learn_command& command, const common_settings& common) {
     if (keep && written) print(line_of_written(command.output));
   });
   if (!common.json) {
-    if (const auto& text = training.system().warning_of_starts(); !text.empty()) warn(text);
-    for (const auto& one : learned) {
-      if (!one.course || one.course->is_reached) continue;
-      warn(fmt::format("at step {:g} {}", one.fit.step, one.course->report()));
-    }
+    for (const auto& text : training.warnings()) warn(text);
   }
   if (bad == nullptr) return done;
   const bool withheld = !command.output.empty() && !keep;

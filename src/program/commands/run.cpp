@@ -158,9 +158,9 @@ int run(const run_command& asked, const common_settings& common) {
   std::vector<std::string> warnings = planned.warnings;
   double energy_error = 0.0;
   if (!was_finished || common.json) {
-    prepare_starts(system, common, shown);
+    prepare_starts(system, common, shown, warnings);
     if (command.checks) shown.part("judging the step");
-    for (const auto& text : planned.warnings_of_starts()) warnings.push_back(text);
+    for (const auto& text : planned.warnings_of_steps()) warnings.push_back(text);
   }
   shown.clear();
   if (!was_finished) {

@@ -303,8 +303,7 @@ int sample(const sample_command& command, const common_settings& common) {
 
   progress line;
   warn_of_threads(common);
-  prepare_starts(*system, common, line);
-  if (!system->warning_of_starts().empty()) warnings.push_back(system->warning_of_starts());
+  prepare_starts(*system, common, line, warnings);
   const json question = question_of(command, *system, method, options);
   require_agreement("chains", question.dump(-1, ' ', false, json::error_handler_t::replace));
   kept_draws draws(command.chains, command.draws, shown);

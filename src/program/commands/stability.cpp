@@ -265,9 +265,8 @@ int stability(const stability_command& command, const common_settings& common) {
     result.document["step"] = *command.step;
     progress shown;
     warn_of_threads(common);
-    prepare_starts(*system, common,
-                   shown);  // a bath drives the initial states to its stationary distribution
-    if (!system->warning_of_starts().empty()) warnings.push_back(system->warning_of_starts());
+    // A bath drives the initial states to its stationary distribution.
+    prepare_starts(*system, common, shown, warnings);
     shown.part("judging the step");
     const judgement& found = system->judged(target.method, *command.step, common.threads);
     const auto rival = loses_fewest(target.method, *system, found, common.threads);

@@ -82,9 +82,8 @@ std::optional<std::string> planned_run::warning_of_energy(double largest) const 
       command.method, plan.step, largest, largest / kinetic);
 }
 
-std::vector<std::string> planned_run::warnings_of_starts() const {
+std::vector<std::string> planned_run::warnings_of_steps() const {
   std::vector<std::string> found;
-  if (!system->warning_of_starts().empty()) found.push_back(system->warning_of_starts());
   for (const auto& text :
        {warning_of(command.method, judged()), warning_of_energies(source, *system, plan)}) {
     if (text) found.push_back(*text);

@@ -28,8 +28,8 @@ struct planned_run {
   std::uint64_t seed;
   std::vector<std::string> warnings;  // of the method as it is
 
-  /// Also of its steps from these starts, which must be prepared.
-  std::vector<std::string> warnings_of_starts() const;
+  /// Of its steps from the starts, which must be prepared.
+  std::vector<std::string> warnings_of_steps() const;
   /// The judgement of the method at the step: nothing is tried where checks are left out.
   const judgement& judged() const;
   /// What is to be said at the end if the largest |H - H_0| there is not small.
