@@ -77,15 +77,12 @@ std::set<std::string> libraries_of(const std::string& text) {
 }
 
 /// All that it includes, by whatever includes it.
-void add_reached(const texts& files, const std::string& path, std::set<std::string>& all) {
-  if (!files.contains(path)) return;
+std::set<std::string> reached_from(const texts& files, const std::string& path,
+                                   std::set<std::string> all = {}) {
+  if (!files.contains(path)) return all;
   for (const auto& next : includes_of(files.at(path))) {
-    if (all.insert(next).second) add_reached(files, next, all);
+    if (all.insert(next).second) all = reached_from(files, next, std::move(all));
   }
-}
-std::set<std::string> reached_from(const texts& files, const std::string& path) {
-  std::set<std::string> all;
-  add_reached(files, path, all);
   return all;
 }
 

@@ -26,6 +26,23 @@ bool repeats(const phase_points& points, std::size_t count) {
   return all;
 }
 
+/// As fmt writes it, and such that it is read back to the bit.
+void require_same(double x) {
+  const std::string written = sentence("{}", x);
+  if (written != fmt::format("{}", x)) BOOST_ERROR(written + " is " + fmt::format("{}", x) + " for fmt");
+  const double back = std::strtod(written.c_str(), nullptr);
+  if (!std::isnan(x) && std::bit_cast<std::uint64_t>(back) != std::bit_cast<std::uint64_t>(x)) {
+    BOOST_ERROR(written + " is read back as another number");
+  }
+}
+
+template <class I>
+void require_same_at_ends() {
+  for (const I x : {std::numeric_limits<I>::min(), std::numeric_limits<I>::max(), I{0}, I{1}}) {
+    BOOST_TEST(sentence("{}", x) == fmt::format("{}", x));
+  }
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(points_of_any_dimension_become_a_list_and_come_out_of_it) {
@@ -119,35 +136,20 @@ BOOST_AUTO_TEST_CASE(vectors_stand_one_after_the_other) {
   BOOST_TEST((vectors.size() == 0U && vectors.begin() == vectors.end()));
 }
 
-BOOST_AUTO_TEST_CASE(pieces_of_a_sentence_come_in_order) {
+BOOST_AUTO_TEST_CASE(pieces_of_a_sentence_come_in_order_and_numbers_are_cut_to_their_first_digits) {
   const std::string text = "text";
   BOOST_TEST(sentence("nothing") == "nothing");
   BOOST_TEST(sentence("{}{} of {}, {}; {}", 'a', "b", text, std::string_view(text), true) ==
              "ab of text, text; true");
   BOOST_TEST(sentence("{}", "{}") == "{}");  // a piece has no holes
   BOOST_TEST(sentence("{} x {}", 3U, -4L) == "3 x -4");
+  BOOST_TEST(in_digits(0.125, 2) == "0.12");
+  BOOST_TEST(in_digits(2.0 / 3.0, 6) == "0.666667");
+  BOOST_TEST(in_digits(1234567.0, 6) == "1.23457e+06");
+  BOOST_TEST(in_digits(100.0, 4) == "100");
+  BOOST_TEST(in_digits(0.005, 12) == "0.005");
+  BOOST_TEST(in_digits(-limits::infinity(), 6) == "-inf");
 }
-
-namespace {
-
-/// As fmt writes it, and such that it is read back to the bit.
-void require_same(double x) {
-  const std::string written = sentence("{}", x);
-  if (written != fmt::format("{}", x)) BOOST_ERROR(written + " is " + fmt::format("{}", x) + " for fmt");
-  const double back = std::strtod(written.c_str(), nullptr);
-  if (!std::isnan(x) && std::bit_cast<std::uint64_t>(back) != std::bit_cast<std::uint64_t>(x)) {
-    BOOST_ERROR(written + " is read back as another number");
-  }
-}
-
-template <class I>
-void require_same_at_ends() {
-  for (const I x : {std::numeric_limits<I>::min(), std::numeric_limits<I>::max(), I{0}, I{1}}) {
-    BOOST_TEST(sentence("{}", x) == fmt::format("{}", x));
-  }
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(numbers_are_written_as_by_fmt) {
   require_same_at_ends<short>();
@@ -172,15 +174,6 @@ BOOST_AUTO_TEST_CASE(numbers_are_written_as_by_fmt) {
     require_same(std::ldexp(static_cast<double>(draw() >> 11), -80 + static_cast<int>(draw() % 96)));
   }
   BOOST_TEST(std::to_string(0.1) != fmt::format("{}", 0.1));  // another form would be seen
-}
-
-BOOST_AUTO_TEST_CASE(numbers_are_cut_to_their_first_digits) {
-  BOOST_TEST(in_digits(0.125, 2) == "0.12");
-  BOOST_TEST(in_digits(2.0 / 3.0, 6) == "0.666667");
-  BOOST_TEST(in_digits(1234567.0, 6) == "1.23457e+06");
-  BOOST_TEST(in_digits(100.0, 4) == "100");
-  BOOST_TEST(in_digits(0.005, 12) == "0.005");
-  BOOST_TEST(in_digits(-limits::infinity(), 6) == "-inf");
 }
 
 // The horizon is N steps as a decimal number, and as a product of doubles, up to 2^40 steps.

@@ -10,7 +10,6 @@ using namespace nysalt::test;
 
 namespace {
 
-using wrong = std::invalid_argument;
 using numbers = std::vector<double>;
 using O = ornstein_uhlenbeck;
 
@@ -82,6 +81,19 @@ void type_knows_what_data_know() {
   }
 }
 
+using enum placement;
+
+void has_letters_o(const char* plain, placement where, const char* letters, const numbers& expected,
+                   const numbers& coefficients) {
+  BOOST_TEST(thermostatted(run_time_word(plain), where).letters() == letters);
+  const numbers found = thermostatted_coefficients(run_time_word(plain), where, coefficients);
+  BOOST_TEST(found == expected, boost::test_tools::per_element());
+}
+
+static_assert(placements == std::array{end, symmetric, middle});
+static_assert(to_string(end) == "end" && to_string(symmetric) == "symmetric" &&
+              to_string(middle) == "middle");
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(costs_and_places_of_evaluations_follow_from_the_letters) {
@@ -123,8 +135,8 @@ BOOST_AUTO_TEST_CASE(a_palindrome_follows_from_its_first_coefficients) {
 }
 
 BOOST_AUTO_TEST_CASE(letters_and_words_that_cannot_be_are_refused) {
-  const auto refused = [](const char* letters, std::initializer_list<std::string_view> words) {
-    return refuses<wrong>([&] { run_time_word{letters}; }, words);
+  const auto refused = [](const char* letters, said words) {
+    return refuses([&] { run_time_word{letters}; }, words);
   };
   for (const char* mixed : {"BAS", "SRB", "BAH", "GRS", "SRHRG", "RBR", "ASA", "RAS"}) {
     BOOST_TEST(refused(mixed, {mixed, "A, B, G", "R, S, H"}));
@@ -136,23 +148,6 @@ BOOST_AUTO_TEST_CASE(letters_and_words_that_cannot_be_are_refused) {
   for (const char* right : {"BAG", "SRH", "RSR", "AB", "OA"}) BOOST_TEST(!refused(right, {}));
 }
 
-namespace {
-
-using enum placement;
-
-void has_letters_o(const char* plain, placement where, const char* letters, const numbers& expected,
-                   const numbers& coefficients) {
-  BOOST_TEST(thermostatted(run_time_word(plain), where).letters() == letters);
-  const numbers found = thermostatted_coefficients(run_time_word(plain), where, coefficients);
-  BOOST_TEST(found == expected, boost::test_tools::per_element());
-}
-
-static_assert(placements == std::array{end, symmetric, middle});
-static_assert(to_string(end) == "end" && to_string(symmetric) == "symmetric" &&
-              to_string(middle) == "middle");
-
-}  // namespace
-
 BOOST_AUTO_TEST_CASE(letters_o_are_added_where_they_are_placed) {
   has_letters_o("BAB", end, "BABO", {.25, 1., .75, 1.}, {.25, 1., .75});
   has_letters_o("BAB", symmetric, "OBABO", {.5, .25, 1., .75, .5}, {.25, 1., .75});
@@ -161,11 +156,10 @@ BOOST_AUTO_TEST_CASE(letters_o_are_added_where_they_are_placed) {
   has_letters_o("BA", end, "BAO", {1., 1., 1.}, {1., 1.});
   has_letters_o("BA", symmetric, "OBAO", {.5, 1., 1., .5}, {1., 1.});
   has_letters_o("A", middle, "AOA", {.5, 1., .5}, {1.});
-  BOOST_TEST(refuses<wrong>([] { thermostatted(run_time_word("BA"), middle); },
-                            {"BA", "a central letter", "end", "symmetric"}));
+  BOOST_TEST(refuses([] { thermostatted(run_time_word("BA"), middle); },
+                     {"BA", "a central letter", "end", "symmetric"}));
   for (const placement where : placements) {
-    BOOST_TEST(
-        refuses<wrong>([&] { thermostatted(run_time_word("BAOAB"), where); }, {"BAOAB", "no letters O"}));
+    BOOST_TEST(refuses([&] { thermostatted(run_time_word("BAOAB"), where); }, {"BAOAB", "no letters O"}));
   }
 }
 
@@ -178,9 +172,8 @@ BOOST_AUTO_TEST_CASE(without_letters_o_the_conservative_part_is_left) {
   BOOST_TEST((conservative_part(baoab::word{}, std::array{0.1, 0.2, 0.3, 0.4, 0.5}) ==
               std::array{0.1, 0.2, 0.4, 0.5}));
   // A coefficient too many or too few must not be lost with the letters.
-  const auto refused = [](const char* letters, std::size_t count,
-                          std::initializer_list<std::string_view> words) {
-    return refuses<wrong>([&] { conservative_part(run_time_word(letters), numbers(count, 0.5)); }, words);
+  const auto refused = [](const char* letters, std::size_t count, said words) {
+    return refuses([&] { conservative_part(run_time_word(letters), numbers(count, 0.5)); }, words);
   };
   BOOST_TEST(refused("BAB", 4, {"BAB", "3 letters", "4 coefficients"}));
   BOOST_TEST(refused("OBABO", 4, {"OBABO", "5 letters", "4 coefficients"}));
@@ -209,9 +202,7 @@ BOOST_AUTO_TEST_CASE(letters_o_share_a_step_in_their_order_each_by_its_coefficie
   BOOST_TEST(shared(of_word, 2, {{0, 1}, {1, 2}}));
   BOOST_TEST(shared(intervals_of_noise(verlet::word{}, verlet::coefficients()).in_parts(6), 6, {}));
 
-  const auto refused = [&](const numbers& c, std::initializer_list<std::string_view> words) {
-    return refuses<wrong>([&] { of_letters(c); }, words);
-  };
+  const auto refused = [&](const numbers& c, said words) { return refuses([&] { of_letters(c); }, words); };
   BOOST_TEST(refused({0.5}, {"letters O of O", "cover one step", "got 0.5"}));
   BOOST_TEST(refused({0.5, 0.6}, {"OO", "cover one step", "got 1.1"}));
   BOOST_TEST(refused({0.5, 0.5 + 2e-9}, {"got 1.000000002"}));
@@ -224,12 +215,11 @@ BOOST_AUTO_TEST_CASE(letters_o_share_a_step_in_their_order_each_by_its_coefficie
 }
 
 BOOST_AUTO_TEST_CASE(a_system_that_does_not_serve_a_letter_refuses_the_word) {
-  const auto refused = [](const char* letters, const model& system,
-                          std::initializer_list<std::string_view> words = {}) {
+  const auto refused = [](const char* letters, const model& system, said words = {}) {
     const bool over_double =
-        refuses<wrong>([&] { require_served<model, double>(run_time_word(letters), system); }, words);
+        refuses([&] { require_served<model, double>(run_time_word(letters), system); }, words);
     const bool over_slopes =
-        refuses<wrong>([&] { require_served<model, detail::slopes>(run_time_word(letters), system); }, words);
+        refuses([&] { require_served<model, detail::slopes>(run_time_word(letters), system); }, words);
     return over_double || over_slopes;
   };
   const with_quadratic_part split(two_masses(), Eigen::MatrixXd::Identity(2, 2));
@@ -249,9 +239,8 @@ BOOST_AUTO_TEST_CASE(a_system_that_does_not_serve_a_letter_refuses_the_word) {
   }
   BOOST_TEST(!refused("ABABA", relativistic()));
   // The stepper refuses too; and it says that G has two coefficients.
-  const auto stepped = [](const model& system, const char* letters, const numbers& c,
-                          std::initializer_list<std::string_view> words) {
-    return refuses<wrong>([&] { stepper(system, run_time_word(letters), c, 0.1); }, words);
+  const auto stepped = [](const model& system, const char* letters, const numbers& c, said words) {
+    return refuses([&] { stepper(system, run_time_word(letters), c, 0.1); }, words);
   };
   BOOST_TEST(stepped(two_masses(), "RSR", {0.5, 1.0, 0.5}, {"RSR", "quadratic part"}));
   BOOST_TEST(!stepped(split, "RSR", {0.5, 1.0, 0.5}, {}));

@@ -209,11 +209,11 @@ BOOST_AUTO_TEST_CASE(a_state_among_others_takes_few_evaluations) {
 }
 
 BOOST_AUTO_TEST_CASE(nothing_to_look_at_is_refused) {
-  BOOST_TEST(refuses<std::invalid_argument>(
-      [] { hessian_spectrum(trapped_pair(), states_of<trapped_pair>()); }, {"states must", "none"}));
+  BOOST_TEST(
+      refuses([] { hessian_spectrum(trapped_pair(), states_of<trapped_pair>()); }, {"states must", "none"}));
   const phase_point<double, 2> together{vector<double, 2>(0.0, 0.0), vector<double, 2>(0.0, 0.0)};
-  BOOST_TEST(refuses<std::invalid_argument>([&] { hessian_spectrum(trapped_pair(), std::vector{together}); },
-                                            {"finite derivative", "state 0"}));
+  BOOST_TEST(refuses([&] { hessian_spectrum(trapped_pair(), std::vector{together}); },
+                     {"finite derivative", "state 0"}));
 }
 
 BOOST_AUTO_TEST_CASE(all_frequencies_of_a_state_are_those_of_the_hessian) {

@@ -83,7 +83,7 @@ double two_stage_limit(double b1, double beta1) {
 
 /// A root of trace/2 = +-1 in z^2 errs by the trace's rounding over its slope, some ten operations; where
 /// two windows nearly touch, the slope vanishes. Relative 1e-13 leaves room for a slope of 1/50.
-const auto nearly = boost::test_tools::tolerance(1e-13);
+const auto nearly = tolerance(1e-13);
 
 /// The first z of a grid, which goes past the last window, where steps are not as stable as the windows say,
 /// or 0. Next to an end rounding decides.
@@ -97,8 +97,6 @@ double first_wrong(const windows& claimed, const tabulated& method) {
   }
   return 0.0;
 }
-
-using boost::test_tools::tolerance;
 
 /// n steps of symplectic Euler, each 1/n of the whole.
 stability_chart chart_of_eulers(std::size_t n) {
@@ -133,25 +131,25 @@ bernstein_polynomial chebyshev(int n, double low, double high) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(two_windows) {
+// Of Chin's method trace/2 + 1 = -(z^2 - 12)^3/864: values tell a threefold root to the third root of
+// rounding only.
+BOOST_AUTO_TEST_CASE(windows_end_where_they_are_known_to_end) {
   const auto found = windows_at(0.5, 0.4);
   BOOST_REQUIRE(found.size() == 2U);
   for (const std::size_t i : {0U, 1U}) {
     BOOST_TEST(found[i].low == with_a_gap[i].low, nearly);
     BOOST_TEST(found[i].high == with_a_gap[i].high, nearly);
   }
-}
-
-BOOST_AUTO_TEST_CASE(verlet_ends_at_two) {
   for (const double limit : {stability_limit(verlet()), stability_limit(verlet_aba()),
                              stability_limit(member<nystrom>({0.5, 0.5}))})
     BOOST_TEST(limit == 2.0, nearly);
+  BOOST_TEST(stability_limit(chin4a()) == std::sqrt(12.0), nearly);
+  BOOST_TEST(stability_windows(chin4a()).size() == 1U);
 }
 
 BOOST_AUTO_TEST_CASE(two_stages_end_by_the_formula) {
   const auto [b1, beta1] = nystrom::start();
-  BOOST_TEST(stability_limit(mclachlan2()) == two_stage_limit(b1, beta1),
-             boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(stability_limit(mclachlan2()) == two_stage_limit(b1, beta1), tolerance(1e-12));
   BOOST_TEST(std::abs(stability_limit(mclachlan2()) - 2.5531) < 5e-5);  // as printed
   BOOST_TEST(two_stage_limit(0.5, 0.4) == std::sqrt(20.0 / 3.0), nearly);
   draws random;
@@ -161,7 +159,7 @@ BOOST_AUTO_TEST_CASE(two_stages_end_by_the_formula) {
     const double expected = two_stage_limit(theta[0], theta[1]);
     if (!(expected < 2.8)) continue;  // trace/2 stays above -1, or the two windows nearly touch
     ++formula_holds;
-    BOOST_TEST(stability_limit(member<nystrom>(theta)) == expected, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(stability_limit(member<nystrom>(theta)) == expected, tolerance(1e-12));
   }
   BOOST_TEST(formula_holds > 50);
 }
@@ -177,7 +175,7 @@ BOOST_AUTO_TEST_CASE(what_is_never_stable_has_no_window) {
   BOOST_TEST(chart_of("A", std::array{1.0}).windows.empty());
   const auto found = chart_of("AB", std::array{1.0, -1.0}).windows;
   BOOST_TEST((found.empty() || found.front().low > 0.0));
-  for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+  for (const double wrong : {std::nan(""), infinite}) {
     BOOST_TEST(chart_of("BAB", std::array{0.5, wrong, 0.5}).windows.empty());
   }
 }
@@ -198,17 +196,10 @@ BOOST_AUTO_TEST_CASE(windows_hold_everywhere_and_wrong_ones_do_not) {
   BOOST_TEST(first_wrong({{0.0, 1.0}, {1.1, end}, with_a_gap[1]}, method) > 1.0);
 }
 
-// trace/2 + 1 = -(z^2 - 12)^3/864: values tell a threefold root to the third root of rounding only.
-BOOST_AUTO_TEST_CASE(a_threefold_root_is_known_as_well_as_others) {
-  BOOST_TEST(stability_limit(chin4a()) == std::sqrt(12.0), nearly);
-  BOOST_TEST(stability_windows(chin4a()).size() == 1U);
-}
-
 BOOST_AUTO_TEST_CASE(letters_that_the_oscillator_lacks_are_refused) {
-  using error = std::invalid_argument;
-  BOOST_CHECK_THROW(chart_of("RSR", std::array{0.5, 1.0, 0.5}), error);
-  BOOST_CHECK_THROW(chart_of("S", std::array{1.0}), error);
-  BOOST_CHECK_THROW(chart_of("BAB", std::array{0.5, 1.0}), error);
+  BOOST_CHECK_THROW(chart_of("RSR", std::array{0.5, 1.0, 0.5}), std::invalid_argument);
+  BOOST_CHECK_THROW(chart_of("S", std::array{1.0}), std::invalid_argument);
+  BOOST_CHECK_THROW(chart_of("BAB", std::array{0.5, 1.0}), std::invalid_argument);
   BOOST_TEST(chart_of("OBABO", std::array{0.5, 0.5, 1.0, 0.5, 0.5}).windows.back().high == 2.0, nearly);
 }
 
@@ -218,16 +209,13 @@ BOOST_AUTO_TEST_CASE(a_margin_is_the_share_to_the_end_of_the_window) {
   BOOST_TEST(stability_margin(of_verlet, 0.0, 2.0) == 0.0);
   BOOST_TEST(stability_margin(of_verlet, 0.0, 0.0) == 1.0);
   for (const double low : {0.0, 2.5}) BOOST_TEST(stability_margin(of_verlet, low, 3.0) == -0.5, near);
-}
-
-// In a later window both ends count, the nearer one most.
-BOOST_AUTO_TEST_CASE(a_gap_below_is_an_end_too) {
-  const auto near = tolerance(8.0 * eps);
-  BOOST_TEST(stability_margin(with_a_gap, 3.2, 3.3) == 1.0 - again / 3.2, near);
-  BOOST_TEST(stability_margin(with_a_gap, 4.0, 4.05) == 1.0 - 4.05 / last, near);
+  // In a later window both ends count, the nearer one most.
+  const auto nearly_so = tolerance(8.0 * eps);
+  BOOST_TEST(stability_margin(with_a_gap, 3.2, 3.3) == 1.0 - again / 3.2, nearly_so);
+  BOOST_TEST(stability_margin(with_a_gap, 4.0, 4.05) == 1.0 - 4.05 / last, nearly_so);
   // From below the gap into the later window: unstable, by as much as it is beyond the first.
-  BOOST_TEST(stability_margin(with_a_gap, 0.0, 3.5) == 1.0 - 3.5 / end, near);
-  BOOST_TEST(stability_margin(with_a_gap, 2.9, 3.0) == 1.0 - 3.0 / end, near);
+  BOOST_TEST(stability_margin(with_a_gap, 0.0, 3.5) == 1.0 - 3.5 / end, nearly_so);
+  BOOST_TEST(stability_margin(with_a_gap, 2.9, 3.0) == 1.0 - 3.0 / end, nearly_so);
 }
 
 BOOST_AUTO_TEST_CASE(a_margin_is_negative_where_unstable_and_nowhere_else) {
@@ -238,10 +226,9 @@ BOOST_AUTO_TEST_CASE(a_margin_is_negative_where_unstable_and_nowhere_else) {
       BOOST_TEST((stability_margin(with_a_gap, low, low + width) >= 0.0) == stable, low << " " << width);
     }
   }
-  const double nothing = -std::numeric_limits<double>::infinity();
-  BOOST_TEST(stability_margin({}, 0.0, 1.0) == nothing);
-  BOOST_TEST(stability_margin({{1.0, 2.0}}, 0.5, 0.6) == nothing);
-  BOOST_TEST(stability_margin(of_verlet, 0.0, std::numeric_limits<double>::infinity()) == nothing);
+  BOOST_TEST(stability_margin({}, 0.0, 1.0) == -infinite);
+  BOOST_TEST(stability_margin({{1.0, 2.0}}, 0.5, 0.6) == -infinite);
+  BOOST_TEST(stability_margin(of_verlet, 0.0, infinite) == -infinite);
 }
 
 BOOST_AUTO_TEST_CASE(stable_steps_are_those_of_all_bands) {
@@ -363,7 +350,6 @@ BOOST_AUTO_TEST_CASE(turns_are_counted) {
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_number_is_within_nothing) {
-  const double nan = std::nan("");
-  BOOST_TEST(where_larger(bernstein_polynomial(0.0, 1.0, nan), 1e300).has_value());
-  BOOST_TEST(where_larger(with_roots(0.0, 1.0, {0.1, nan, 0.2}), 1e300).has_value());
+  BOOST_TEST(where_larger(bernstein_polynomial(0.0, 1.0, not_a_number), 1e300).has_value());
+  BOOST_TEST(where_larger(with_roots(0.0, 1.0, {0.1, not_a_number, 0.2}), 1e300).has_value());
 }

@@ -4,7 +4,6 @@
 // paper.
 #include <map>
 
-#include "../laws/laws.hpp"
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/derivatives/jacobian.hpp"
@@ -24,18 +23,6 @@ constexpr bool are_families(std::tuple<F...>*) {
   return (Family<F> && ...) && (Method<member<F>> && ...);
 }
 static_assert(are_families(static_cast<all_families*>(nullptr)));
-
-/// A family of one's own, all of it.
-struct mine : composition<1> {
-  using word = nysalt::word<kick, drift, kick>;
-  static constexpr std::string_view name = "mine";
-  static std::array<double, 1> start() { return {0.5}; }
-  template <Scalar C>
-  static std::array<C, 3> coefficients(const std::array<C, 1>& b) {
-    return {b[0], C(1.0), C(1.0) - b[0]};
-  }
-};
-static_assert(Family<mine>);
 
 /// The letters of a word where its quadratic part is nothing.
 std::string unsplit(std::string letters) {
@@ -104,18 +91,54 @@ bool can_turn(const run_time_family& family) {
   return family.letters.reads == field::whole && family.parameters() >= (family.symmetric ? 2 : 3);
 }
 
+const bonded_chain<3> chain(stiff_bonds<3>(5.0), soft_charges<3>(1.0));
+/// A word that holds the letters 0, 1 and k.
+const run_time_word of_parts(word<kick_of_part<0>, drift, kick_of_part<1>, kick_of_parts<0, 1>>{}, chain);
+
+/// The part of H for each coefficient.
+std::string times_of(const std::string& letters) {
+  std::string times;
+  for (const char letter : letters) times += letter == 'k' ? "01" : std::string(1, letter);
+  return times;
+}
+run_time_family family_of(const std::string& letters) {
+  return symmetric_word("tried", of_parts.with_letters(letters), times_of(letters));
+}
+std::vector<double> start_of(const run_time_family& family) {
+  return family.coefficients(family.starts.front().theta);
+}
+
+/// A palindrome of 3 to 15 letters without equal neighbours.
+std::string random_word(std::mt19937& random) {
+  const std::string letters = "A01k";
+  std::string half;
+  const std::size_t length = 2 + random() % 7;
+  while (half.size() < length) {
+    const char next = letters[random() % letters.size()];
+    if (half.empty() || half.back() != next) half += next;
+  }
+  return half + std::string(half.rbegin() + 1, half.rend());
+}
+
+void close(const std::vector<double>& found, const std::vector<double>& expected) {
+  BOOST_TEST_REQUIRE(found.size() == expected.size());
+  // Sums of at most 15 numbers below 4: some roundings of them.
+  for (std::size_t k = 0; k < found.size(); ++k) BOOST_TEST(std::abs(found[k] - expected[k]) < 1e-14);
+}
+
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(classical_members_are_those_methods) {
+// That coefficients of all members add up: methods/laws_test.cpp.
+BOOST_AUTO_TEST_CASE(starts_are_in_range_and_classical_members_are_those_methods) {
   int tried = 0;
   for (const auto& family : families_as_data()) {
     for (const auto& [name, theta] : family.starts) {
+      BOOST_TEST(family.is_in_range(theta), name << " of " << family.name);
       const auto row = std::find_if(std::begin(classical_table), std::end(classical_table),
                                     [&, &called = name](const auto& each) { return each.name == called; });
       if (row == std::end(classical_table)) continue;
       ++tried;
       BOOST_TEST_CONTEXT(name << " in " << family.name) {
-        BOOST_TEST(family.is_in_range(theta));
         BOOST_TEST(is_at(theta, family, as_data(*row)));
         auto off = theta;
         off[0] += 1e-12;
@@ -124,13 +147,6 @@ BOOST_AUTO_TEST_CASE(classical_members_are_those_methods) {
     }
   }
   BOOST_TEST(tried >= 15);
-}
-
-// That their coefficients add up, as those of all members do: methods/step_laws_test.cpp.
-BOOST_AUTO_TEST_CASE(searches_begin_within_the_ranges) {
-  for (const auto& family : families_as_data()) {
-    BOOST_TEST(family.is_in_range(family.starts.front().theta), family.name);
-  }
 }
 
 // That many equal steps, of drift-kick-drift or of kick-drift-kick.
@@ -183,20 +199,18 @@ BOOST_AUTO_TEST_CASE(it_is_the_phase_fitted_method_of_the_first_classical_member
   const auto found = phase_fitted_start(run_time_family(aba<5>{}), 2.0);
   BOOST_REQUIRE(found);
   BOOST_TEST((found->theta == column_of(phase_fitted<aba<5>, mclachlan5>(2.0).parameters())));
-}
-
-BOOST_AUTO_TEST_CASE(letters_of_the_bath_count_for_nothing) {
+  // Letters of the bath count for nothing.
   const run_time_family plain(fg4{});
   const auto expected = phase_fitted_start(plain, 2.0);
-  const auto found = phase_fitted_start(thermostatted(plain, placement::symmetric), 2.0);
-  BOOST_REQUIRE((expected && found));
-  BOOST_TEST((found->theta == expected->theta));
+  const auto in_bath = phase_fitted_start(thermostatted(plain, placement::symmetric), 2.0);
+  BOOST_REQUIRE((expected && in_bath));
+  BOOST_TEST((in_bath->theta == expected->theta));
 }
 
 BOOST_AUTO_TEST_CASE(impossible_z_are_refused) {
-  for (const double z : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
-    BOOST_TEST(refuses<std::invalid_argument>([&] { phase_fitted_start(run_time_family(fg4{}), z); },
-                                              {"phase_fitted_start", "positive and finite"}));
+  for (const double z : {0.0, -1.0, not_a_number}) {
+    BOOST_TEST(refuses([&] { phase_fitted_start(run_time_family(fg4{}), z); },
+                       {"phase_fitted_start", "positive and finite"}));
   }
 }
 
@@ -213,7 +227,7 @@ BOOST_AUTO_TEST_CASE(members_of_order_four_of_the_word_of_fg4) {
     theta[2] += 1e-10;
     BOOST_TEST(largest_defect(family, column_of(theta), 0.0) > 8.0 * eps);
   }
-  BOOST_TEST(refuses<std::invalid_argument>([] { fg4::of_order_four(0.5); }, {"of_order_four", "0.5"}));
+  BOOST_TEST(refuses([] { fg4::of_order_four(0.5); }, {"of_order_four", "0.5"}));
 }
 
 // On a fixed and a dynamic system, and on a black box; all of unit masses. Both forms take some 12 operations
@@ -249,45 +263,6 @@ BOOST_AUTO_TEST_CASE(the_word_of_nystrom_is_the_tableau_of_its_paper) {
 
 // Words as data: any palindrome of letters, symmetric, with coefficients that add up to one for each part of
 // H, and equal steps to begin with.
-
-namespace {
-
-const bonded_chain<3> chain(stiff_bonds<3>(5.0), soft_charges<3>(1.0));
-/// A word that holds the letters 0, 1 and k.
-const run_time_word of_parts(word<kick_of_part<0>, drift, kick_of_part<1>, kick_of_parts<0, 1>>{}, chain);
-
-/// The part of H for each coefficient.
-std::string times_of(const std::string& letters) {
-  std::string times;
-  for (const char letter : letters) times += letter == 'k' ? "01" : std::string(1, letter);
-  return times;
-}
-run_time_family family_of(const std::string& letters) {
-  return symmetric_word("tried", of_parts.with_letters(letters), times_of(letters));
-}
-std::vector<double> start_of(const run_time_family& family) {
-  return family.coefficients(family.starts.front().theta);
-}
-
-/// A palindrome of 3 to 15 letters without equal neighbours.
-std::string random_word(std::mt19937& random) {
-  const std::string letters = "A01k";
-  std::string half;
-  const std::size_t length = 2 + random() % 7;
-  while (half.size() < length) {
-    const char next = letters[random() % letters.size()];
-    if (half.empty() || half.back() != next) half += next;
-  }
-  return half + std::string(half.rbegin() + 1, half.rend());
-}
-
-void close(const std::vector<double>& found, const std::vector<double>& expected) {
-  BOOST_TEST_REQUIRE(found.size() == expected.size());
-  // Sums of at most 15 numbers below 4: some roundings of them.
-  for (std::size_t k = 0; k < found.size(); ++k) BOOST_TEST(std::abs(found[k] - expected[k]) < 1e-14);
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(members_of_any_word_are_palindromes_that_add_up_to_one) {
   std::mt19937 random(1);
@@ -337,14 +312,14 @@ BOOST_AUTO_TEST_CASE(a_start_is_made_of_equal_steps) {
   close(start_of(family_of("10A0A01")), {0.5, 0.25, 0.5, 0.5, 0.5, 0.25, 0.5});
   BOOST_TEST(family_of("kA0Ak").parameters() == 1);
   BOOST_TEST(family_of("kA0A0A0Ak").parameter_names == (std::vector<std::string>{"01", "A1", "02"}),
-             boost::test_tools::per_element());
+             per_element());
 }
 
 BOOST_AUTO_TEST_CASE(other_words_are_refused) {
   const auto refused = [](const std::string& letters, const std::string& times, const char* why) {
-    BOOST_TEST(refuses<std::invalid_argument>(
-                   [&] { symmetric_word("tried", of_parts.with_letters(letters), times); }, {"tried", why}),
-               letters);
+    BOOST_TEST(
+        refuses([&] { symmetric_word("tried", of_parts.with_letters(letters), times); }, {"tried", why}),
+        letters);
   };
   refused("A0A1", "A0A1", "must read the same from both ends");
   refused("A00A", "A00A", "must not have two equal neighbours");

@@ -2,11 +2,17 @@
 // What a letter states of itself is true of its flow, for each letter that a word as data can name. R is the
 // exact flow of the quadratic part, with masses and with a frequency of zero. G and H are their formula,
 // p += b h f + 2 c h^3 f'(q) M^-1 f, and cost two evaluations, of a black box three; D is
-// p += b h f(q + c h^2 M^-1 f(q)). O does to a momentum what the bath says, each mass in its measure.
+// p += b h f(q + c h^2 M^-1 f(q)). O does to a momentum what the bath says, each mass in its measure. Letters
+// of one's own go where letters of the library go: into words as types and as data, over packs and
+// derivatives, and into learning; to the same bits.
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
-#include "nysalt/derivatives/check_letter.hpp"
+#include "nysalt/derivatives/linear_stability.hpp"
+#include "nysalt/detail/named_letters.hpp"
 #include "nysalt/detail/step_on_oscillator.hpp"
+#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/flows/exact_flow.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/references/exact_linear.hpp"
 
 using namespace nysalt;
@@ -72,6 +78,126 @@ state after_stepping(const run_time_word& word, const std::vector<double>& c, co
   return {z.q[0], z.p[0]};
 }
 
+/// To the modes and back each sums three products of numbers below 10, both ways of reckoning alike.
+constexpr double rounding_of_modes = 2.0 * (2.0 * 3.0 + 6.0) * eps * 10.0;
+
+constexpr double h = 0.4;
+constexpr double b = 0.7;
+constexpr double c = 0.013;
+constexpr double rounding = 30.0 * eps;  // some 30 operations on numbers below 2
+
+template <SeparableSystem S>
+auto kicked(const char* letter, const S& system, phase_point<double, S::dimension> x, double of_g = c) {
+  stepper(system, run_time_word(letter), {b, of_g}, h).step(x);
+  return x;
+}
+
+/// Evaluations of a plain step, and of ten steps of a run.
+std::array<std::int64_t, 2> evaluations_of(const auto& system, const run_time_word& word,
+                                           const std::vector<double>& coefficients) {
+  const counted watched(system);
+  const stepper one(watched, word, coefficients, 0.01);
+  const auto x = draws().state(system, 0.3);
+  auto y = x;
+  one.step(y);
+  const std::int64_t plain = watched.evaluations;
+  auto run = one.open(x);
+  one.advance(run, 10);
+  return {plain, watched.evaluations - plain};
+}
+
+template <Family F>
+void check_cost(const auto& system, std::int64_t plain, std::int64_t ten_steps) {
+  using W = typename F::word;
+  const auto c = F::coefficients(F::start());
+  BOOST_TEST_CONTEXT(F::name << " on " << describe(system)) {
+    BOOST_TEST(
+        (evaluations_of(system, run_time_word(W()), {c.begin(), c.end()}) == std::array{plain, ten_steps}));
+    using S = std::decay_t<decltype(system)>;
+    const int more = (derivative_calls<S> - 1) * W::force_derivatives;  // than what the word says of others
+    BOOST_TEST(W::evaluations_of_plain_step + more == plain);
+    BOOST_TEST(W::evaluations_to_open + 10 * (W::evaluations_per_step + more) == ten_steps);
+  }
+}
+
+template <System S, Scalar C = double>
+flow_state<double, 2> after_o(const S& system, const ornstein_uhlenbeck::prepared<C>& flow,
+                              const vector<double, 2>& p, const vector<double, 2>& xi) {
+  flow_state<double, 2> x{{{0.3, -0.2}, p}, {0.0, 0.0}};
+  ornstein_uhlenbeck::apply(system, flow, xi, x);
+  return x;
+}
+
+/// The drift, written again.
+struct my_drift : exact_flow<'a'> {
+  template <System S, class State, class C>
+  static void apply(const S&, const C& t, State& x, auto&) {
+    for (Eigen::Index i = 0; i < x.size(); ++i) x.q[i] += x.p[i] * t;
+  }
+};
+/// The kick, written again: it evaluates the force itself.
+struct my_kick : exact_flow<'b'> {
+  static constexpr bool moves_q = false;
+  static constexpr int displaced_forces = 1;
+  template <System S, class State, class C>
+  static void apply(const S& system, const C& t, State& x, auto& room) {
+    using T = typename State::scalar_type;
+    force<T>(system, x.q, room.x);
+    for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] += room.x[i] * t;
+  }
+};
+
+template <class W>
+struct method_of {
+  using word = W;
+  static constexpr int order = 2;
+  static constexpr bool symmetric = true;
+  static constexpr bool requires_quadratic_kinetic = false;
+  static std::string name() { return word::letters(); }
+  static typename word::template coefficients<double> coefficients() { return {0.3, 0.5, 0.4, 0.5, 0.3}; }
+};
+using own_drifts_first = method_of<word<my_drift, my_kick, my_drift, my_kick, my_drift>>;
+using own_kicks_first = method_of<word<my_kick, my_drift, my_kick, my_drift, my_kick>>;
+using mixed = method_of<word<drift, my_kick, drift, my_kick, drift>>;
+using library_drifts_first = method_of<word<drift, kick, drift, kick, drift>>;
+using library_kicks_first = method_of<word<kick, drift, kick, drift, kick>>;
+
+const phase_point<double, 2> start{{0.1, -0.2}, {0.3, 0.1}};
+
+/// The states that a watched run of 7 steps shows, every second of them and the last.
+template <class S, class M>
+std::vector<double> seen(const S& system, const M& method, const phase_point<double, S::dimension>& from) {
+  const auto steps = make_stepper(system, method, 0.2);
+  std::vector<double> all;
+  const auto note = [&](const auto& x) {
+    all.insert(all.end(), x.q.begin(), x.q.end());
+    all.insert(all.end(), x.p.begin(), x.p.end());
+  };
+  auto run = steps.open(from);
+  steps.advance(run, 7, 2, [&](std::int64_t, const auto& x) { note(x); });
+  note(steps.synchronous(run));
+  auto x = from;
+  steps.step(x);
+  note(x);
+  return all;
+}
+
+struct own_family : symmetric_composition<my_drift, my_kick, 7> {
+  static constexpr std::string_view name = "own";
+};
+/// p -= sin(q) of another force.
+struct off_kick : my_kick {
+  static constexpr bool moves_q = false;
+  template <System S, class State, class C>
+  static void apply(const S&, const C& t, State& x, auto&) {
+    x.p[0] -= x.q[1] * t;
+    x.p[1] += x.q[0] * t;
+  }
+};
+struct off_family : symmetric_composition<my_drift, off_kick, 7> {
+  static constexpr std::string_view name = "off";
+};
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_action_on_an_oscillator_is_that_of_the_flow) {
@@ -121,15 +247,6 @@ BOOST_AUTO_TEST_CASE(letters_of_a_quadratic_part_are_those_that_need_one) {
   static_assert(!word<kick, drift, kick>::rotates());
 }
 
-// R.
-
-namespace {
-
-/// To the modes and back each sums three products of numbers below 10, both ways of reckoning alike.
-constexpr double rounding_of_modes = 2.0 * (2.0 * 3.0 + 6.0) * eps * 10.0;
-
-}  // namespace
-
 BOOST_AUTO_TEST_CASE(on_a_linear_system_a_rotation_is_the_exact_flow) {
   const auto chain = free_chain();
   const exact_linear exact(chain);
@@ -154,51 +271,6 @@ BOOST_AUTO_TEST_CASE(on_a_linear_system_a_rotation_is_the_exact_flow) {
     }
   }
 }
-
-// G, H and D.
-
-namespace {
-
-constexpr double h = 0.4;
-constexpr double b = 0.7;
-constexpr double c = 0.013;
-constexpr double rounding = 30.0 * eps;  // some 30 operations on numbers below 2
-
-template <SeparableSystem S>
-auto kicked(const char* letter, const S& system, phase_point<double, S::dimension> x, double of_g = c) {
-  stepper(system, run_time_word(letter), {b, of_g}, h).step(x);
-  return x;
-}
-
-/// Evaluations of a plain step, and of ten steps of a run.
-std::array<std::int64_t, 2> evaluations_of(const auto& system, const run_time_word& word,
-                                           const std::vector<double>& coefficients) {
-  const counted watched(system);
-  const stepper one(watched, word, coefficients, 0.01);
-  const auto x = draws().state(system, 0.3);
-  auto y = x;
-  one.step(y);
-  const std::int64_t plain = watched.evaluations;
-  auto run = one.open(x);
-  one.advance(run, 10);
-  return {plain, watched.evaluations - plain};
-}
-
-template <Family F>
-void check_cost(const auto& system, std::int64_t plain, std::int64_t ten_steps) {
-  using W = typename F::word;
-  const auto c = F::coefficients(F::start());
-  BOOST_TEST_CONTEXT(F::name << " on " << describe(system)) {
-    BOOST_TEST(
-        (evaluations_of(system, run_time_word(W()), {c.begin(), c.end()}) == std::array{plain, ten_steps}));
-    using S = std::decay_t<decltype(system)>;
-    const int more = (derivative_calls<S> - 1) * W::force_derivatives;  // than what the word says of others
-    BOOST_TEST(W::evaluations_of_plain_step + more == plain);
-    BOOST_TEST(W::evaluations_to_open + 10 * (W::evaluations_per_step + more) == ten_steps);
-  }
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(gradient_kicks_are_those_of_the_formula) {
   draws random;
@@ -278,20 +350,6 @@ BOOST_AUTO_TEST_CASE(gradient_and_displaced_kicks_cost_two_evaluations_and_diffe
   check_cost<r_fg4>(split_masses(), 4, 10 * 4);  // rotations cost none
 }
 
-// O.
-
-namespace {
-
-template <System S, Scalar C = double>
-flow_state<double, 2> after_o(const S& system, const ornstein_uhlenbeck::prepared<C>& flow,
-                              const vector<double, 2>& p, const vector<double, 2>& xi) {
-  flow_state<double, 2> x{{{0.3, -0.2}, p}, {0.0, 0.0}};
-  ornstein_uhlenbeck::apply(system, flow, xi, x);
-  return x;
-}
-
-}  // namespace
-
 static_assert(Flow<ornstein_uhlenbeck> && StochasticFlow<ornstein_uhlenbeck>);
 static_assert(!ornstein_uhlenbeck::additive && !ornstein_uhlenbeck::moves_q &&
               ornstein_uhlenbeck::reads == field::none);
@@ -316,15 +374,14 @@ BOOST_AUTO_TEST_CASE(noise_cannot_go_back_in_time) {
   const auto heating = bath::of_sigma(0.0, 0.9);
   const auto cold = bath::of_sigma(0.4, 0.0);
   for (const auto& heat_bath : {noisy, heating}) {
-    BOOST_TEST(refuses<std::invalid_argument>([&] { ornstein_uhlenbeck::prepare(1.0, -0.2, heat_bath); },
-                                              {"letter O", "back in time", "-0.2", "the sign of the step"}));
-    BOOST_TEST(refuses<std::invalid_argument>([&] { ornstein_uhlenbeck::prepare(-1.0, 0.2, heat_bath); },
-                                              {"back in time"}));
+    BOOST_TEST(refuses([&] { ornstein_uhlenbeck::prepare(1.0, -0.2, heat_bath); },
+                       {"letter O", "back in time", "-0.2", "the sign of the step"}));
+    BOOST_TEST(refuses([&] { ornstein_uhlenbeck::prepare(-1.0, 0.2, heat_bath); }, {"back in time"}));
     BOOST_TEST(ornstein_uhlenbeck::prepare(0.0, 0.2, heat_bath).deviation == 0.0);
     BOOST_TEST(ornstein_uhlenbeck::prepare(-1.0, -0.2, heat_bath).deviation == heat_bath.deviation(0.2));
   }
-  BOOST_TEST(refuses<std::invalid_argument>(
-      [&] { ornstein_uhlenbeck::prepare(pack<double, 3>(-1.0), 0.2, noisy); }, {"back in time"}));
+  BOOST_TEST(
+      refuses([&] { ornstein_uhlenbeck::prepare(pack<double, 3>(-1.0), 0.2, noisy); }, {"back in time"}));
   // What damps alone grows backwards: one undoes the other, to rounding.
   const double there = ornstein_uhlenbeck::prepare(1.0, 0.2, cold).decay;
   const double back = ornstein_uhlenbeck::prepare(1.0, -0.2, cold).decay;
@@ -342,4 +399,116 @@ BOOST_AUTO_TEST_CASE(derivatives_flow_through_the_letter_o) {
   BOOST_TEST(x.p[0].value == flow.decay.value + 0.7 * flow.deviation.value);
   BOOST_TEST(x.p[0].derivative[0] == flow.decay.derivative[0] + 0.7 * flow.deviation.derivative[0]);
   BOOST_TEST(x.p[0].derivative[0] != 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(as_data_it_has_the_bits_of_its_type) {
+  const auto check = [](const auto& system, const auto& method, const auto& from) {
+    const auto as_type = seen(system, method, from);
+    const phase_point<double, Eigen::Dynamic> dynamic{from.q, from.p};
+    BOOST_TEST(as_type == seen(system, tabulated(method, system), from));
+    BOOST_TEST(as_type == seen(model(system), tabulated(method, system), dynamic));
+  };
+  check(henon_heiles(), own_drifts_first(), start);
+  check(henon_heiles(), own_kicks_first(), start);
+  check(henon_heiles(), mixed(), start);
+  const phase_point<double, Eigen::Dynamic> from{Eigen::VectorXd::LinSpaced(5, -0.3, 0.4),
+                                                 Eigen::VectorXd::LinSpaced(5, 0.2, -0.1)};
+  check(phi4_chain<>(5), own_kicks_first(), from);
+}
+
+BOOST_AUTO_TEST_CASE(letters_written_again_have_the_bits_of_the_library) {
+  const henon_heiles system;
+  BOOST_TEST(seen(system, own_drifts_first(), start) == seen(system, library_drifts_first(), start));
+  BOOST_TEST(seen(system, own_kicks_first(), start) == seen(system, library_kicks_first(), start));
+  BOOST_TEST(seen(system, own_kicks_first(), start) != seen(system, library_drifts_first(), start));
+}
+
+BOOST_AUTO_TEST_CASE(lanes_change_no_bit) {
+  draws random;
+  const auto& one = specimen_of("henon_heiles");
+  const tabulated method(own_kicks_first{}, henon_heiles{});
+  BOOST_TEST((run_of{one.system, method, 0.2}.lanes_are_alone(one, random)));
+}
+
+BOOST_AUTO_TEST_CASE(evaluations_are_those_of_the_word) {
+  using W = own_kicks_first::word;
+  static_assert(W::merges && W::evaluations_per_step == 2 && W::evaluations_of_plain_step == 3 &&
+                W::evaluations_to_open == 1 && W::evaluations_to_observe == 1);
+  const run_time_word as_data(W{}, henon_heiles());
+  BOOST_TEST(as_data.letters() == "babab");
+  BOOST_TEST(as_data.merges);
+  BOOST_TEST(as_data.has_own_letters());
+  BOOST_TEST(as_data.evaluations_per_step == 2);
+  BOOST_TEST(as_data.evaluations_of_plain_step == 3);
+  BOOST_TEST((as_data.evaluations_to_open == 1 && as_data.evaluations_to_observe == 1));
+}
+
+BOOST_AUTO_TEST_CASE(letters_are_taken_from_a_list_by_their_names) {
+  const henon_heiles system;
+  const detail::own_letters known{
+      std::make_shared<const detail::bound_letter<my_drift, henon_heiles>>(system),
+      std::make_shared<const detail::bound_letter<my_kick, henon_heiles>>(system, "henon_heiles()")};
+  const tabulated method("named", run_time_word("ababa", known), {0.3, 0.5, 0.4, 0.5, 0.3}, {2, true, false});
+  BOOST_TEST(seen(system, method, start) == seen(system, own_drifts_first(), start));
+  BOOST_TEST(seen(system, method, start) != seen(system, own_kicks_first(), start));
+  BOOST_TEST(!run_time_word("BAB", known).has_own_letters());  // what a word does not hold it does not carry
+  BOOST_TEST(run_time_word("BaB", known).own_letter('b') == nullptr);
+  BOOST_TEST(refuses([&] { run_time_word("aca", known); }, {"aca with the letter c"}));
+}
+
+BOOST_AUTO_TEST_CASE(what_a_file_states_of_a_letter_is_read_and_not_stepped) {
+  const henon_heiles system;
+  const run_time_word bound(own_kicks_first::word{}, system);
+  const detail::own_letters stated{
+      std::make_shared<const detail::stated_letter>(detail::facts_of_letter<my_drift>(), "henon_heiles()"),
+      std::make_shared<const detail::stated_letter>(detail::facts_of_letter<my_kick>(), "henon_heiles()")};
+  const run_time_word word("babab", stated);
+  BOOST_TEST(word.evaluations_per_step == bound.evaluations_per_step);
+  BOOST_TEST(word.evaluations_to_observe == bound.evaluations_to_observe);
+  BOOST_TEST(word.merges);
+  const tabulated method("stated", word, std::vector<double>{0.3, 0.5, 0.4, 0.5, 0.3}, {2, true, false});
+  BOOST_TEST(
+      refuses([&] { make_stepper(system, method, 0.1); }, {"of henon_heiles() must come with the system"}));
+}
+
+BOOST_AUTO_TEST_CASE(what_a_bound_word_cannot_do_is_refused) {
+  using wrong = std::invalid_argument;
+  const henon_heiles same;
+  const pendulum other;
+  const tabulated method(own_drifts_first{}, henon_heiles{});
+  BOOST_CHECK_NO_THROW(make_stepper(same, method, 0.1));
+  BOOST_TEST(refuses([&] { make_stepper(other, method, 0.1); },
+                     {"the word ababa must be made with the system pendulum(), got the letter a of "
+                      "henon_heiles(); make the word with this system"}));
+  struct other_drift : my_drift {};  // of the same name
+  using twice = word<my_drift, my_kick, other_drift>;
+  BOOST_TEST(refuses([] { run_time_word(twice{}, henon_heiles()); },
+                     {"the word aba: letters of one's own must have different names, "
+                      "got a twice; name one of them otherwise"}));
+  // Its action on an oscillator is not guessed.
+  BOOST_CHECK_THROW(stability_windows(method.letters(), method.coefficients()), wrong);
+}
+
+// The losses have equal bits, so that a search from one start goes the same way.
+BOOST_AUTO_TEST_CASE(what_is_learned_with_it_is_what_is_learned_with_the_library) {
+  const henon_heiles system;
+  const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.1);
+  const auto data = [&](std::uint64_t seed) {
+    return make_flow_map_data(system, starts, fine_steps<>(0.01),
+                              {.step = 0.5, .horizon = 2.0, .trajectories = 16, .seed = seed});
+  };
+  const auto first = data(1);
+  const auto second = data(2);
+  const learn_options<own_family> options{.classical_starts = false, .random_starts = 0, .guarded = false};
+  const learn_options<aba<3>> same{.classical_starts = false, .random_starts = 0, .guarded = false};
+  const auto own = learn(own_family(), system, first, second, options);
+  const auto known = learn(aba<3>(), system, first, second, same);
+  BOOST_TEST(own.summary.loss == known.summary.loss);
+  BOOST_TEST(own.method.parameters() == known.method.parameters());
+  // Of drifts and kicks of one's own, but of the library's own letters the bands.
+  BOOST_TEST(own.summary.guard.starts_with("linearised motion of abababa along "), own.summary.guard);
+  BOOST_TEST(!known.summary.guard.starts_with("linearised"), known.summary.guard);
+  BOOST_TEST(own.summary.loss < own.summary.held_out_start_loss);
+  BOOST_TEST(refuses([&] { learn(off_family(), system, first, second); },
+                     {"the letter b is not symplectic: it is off by "}));
 }

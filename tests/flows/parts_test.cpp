@@ -69,6 +69,80 @@ phase_point<double, 4> after(const M& method, double step, int steps) {
   return integrate(chain, method, step, start, steps).finish;
 }
 
+using point = std::array<double, 3>;
+
+/// Where r'' = -r/|r|^3 leads from the pericentre of an orbit of eccentricity e and pericentre 1 in time t.
+std::array<point, 2> moved(double e, double t) {
+  point q{1.0, 0.0, 0.0};
+  point v{0.0, std::sqrt(1.0 + e), 0.0};
+  detail::move_on_orbit(1.0, t, q, v);
+  return {q, v};
+}
+
+/// Kepler's equation and Barker's: the time from the pericentre to q on that orbit, from its shape alone.
+double time_of(double e, const point& q) {
+  const double r = std::hypot(q[0], q[1]);
+  if (e < 1.0) {
+    const double a = 1.0 / (1.0 - e);
+    const double anomaly = std::atan2(q[1] / (a * std::sqrt(1.0 - e * e)), q[0] / a + e);
+    return std::pow(a, 1.5) * (anomaly - e * std::sin(anomaly));
+  }
+  if (e == 1.0) {
+    const double w = q[1] / (r + q[0]);  // the tangent of half the true anomaly
+    return std::numbers::sqrt2 * (w + w * w * w / 3.0);
+  }
+  const double a = 1.0 / (e - 1.0);
+  const double anomaly = std::asinh(q[1] / (a * std::sqrt(e * e - 1.0)));
+  return std::pow(a, 1.5) * (e * std::sinh(anomaly) - anomaly);
+}
+
+/// The outer solar system with the masses of the planets times a factor, on the same orbits.
+std::pair<solar_system<5>, phase_point<double, 15>> with_masses(double factor) {
+  const auto known = outer_solar_system();
+  const auto& masses = known.part<0>().masses();
+  std::array<double, 6> scaled{};
+  for (std::size_t k = 0; k < 6; ++k) scaled[k] = masses.mass(k) * (k == 0 ? 1.0 : factor);
+  const solar_system<5> system(scaled, masses.gravity());
+  auto from = outer_solar_system_start();
+  for (Eigen::Index i = 0; i < 15; ++i) from.p[i] *= known.inverse_mass(i) / system.inverse_mass(i);
+  return {system, from};
+}
+
+/// Largest relative error of the energy in 30,000 days.
+template <class M>
+double energy_error(const solar_system<5>& system, const phase_point<double, 15>& from, const M& method,
+                    double step) {
+  const double before = energy<double>(system, from);
+  return largest_change(system, method, step, from, static_cast<std::int64_t>(30'000.0 / step),
+                        [&](const auto& x) { return energy<double>(system, x) / before; });
+}
+
+const penning_trap trap(penning_potential(1.0, 0.1), 5.0);
+const phase_point<double, 3> ion = trap.at({0.3, -0.2, 0.4}, {0.5, 0.1, -0.3});
+
+/// Lorentz' equation by the classical method of Runge and Kutta, which knows of no letters.
+phase_point<double, 3> by_runge_kutta(double step, int steps) {
+  using state = Eigen::Matrix<double, 6, 1>;
+  const auto rate = [](const state& y) {
+    vector<double, 3> f;
+    trap.part<0>().force(vector<double, 3>(y.head<3>()), f);
+    const double omega = trap.cyclotron_frequency();
+    state result;
+    result << y.tail<3>(), f[0] + omega * y[4], f[1] - omega * y[3], f[2];
+    return result;
+  };
+  state y;
+  y << ion.q, trap.velocity_of(ion);
+  for (int n = 0; n < steps; ++n) {
+    const state a = rate(y);
+    const state b = rate(y + 0.5 * step * a);
+    const state c = rate(y + 0.5 * step * b);
+    const state d = rate(y + step * c);
+    y += step / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+  }
+  return trap.at(y.head<3>(), y.tail<3>());
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(parts_are_one_system) {
@@ -121,12 +195,6 @@ BOOST_AUTO_TEST_CASE(evaluations_are_counted_part_by_part) {
   static_assert(evaluations_of_part<learned>(0) == 6 && evaluations_of_part<learned>(1) == 2);
 }
 
-BOOST_AUTO_TEST_CASE(kicks_of_parts_are_what_they_state) {
-  const std::vector points{start, phase_point<double, 4>{-2.0 * start.q, 0.5 * start.p}};
-  must_be_what_they_state<kick_of_parts<0, 1>, kick_of_part<1>>(chain, points, 0.1);
-  BOOST_TEST((check_letter<kick_of_parts<0, 1>>(chain, points, 0.1, {0.3, 0.7}).passed()));
-}
-
 // J^T Omega J - Omega sums 2 N products of entries up to |J|^2, each off by some hundred roundings.
 BOOST_AUTO_TEST_CASE(r_respa_is_symplectic_reversible_and_of_order_two) {
   const r_respa<0, 1, 4> method;
@@ -174,60 +242,6 @@ BOOST_AUTO_TEST_CASE(a_family_over_two_forces_is_learned) {
   BOOST_TEST(first == (r_respa<0, 1, 4>::coefficients()));
 }
 
-// The solar system.
-
-namespace {
-
-using point = std::array<double, 3>;
-
-/// Where r'' = -r/|r|^3 leads from the pericentre of an orbit of eccentricity e and pericentre 1 in time t.
-std::array<point, 2> moved(double e, double t) {
-  point q{1.0, 0.0, 0.0};
-  point v{0.0, std::sqrt(1.0 + e), 0.0};
-  detail::move_on_orbit(1.0, t, q, v);
-  return {q, v};
-}
-
-/// Kepler's equation and Barker's: the time from the pericentre to q on that orbit, from its shape alone.
-double time_of(double e, const point& q) {
-  const double r = std::hypot(q[0], q[1]);
-  if (e < 1.0) {
-    const double a = 1.0 / (1.0 - e);
-    const double anomaly = std::atan2(q[1] / (a * std::sqrt(1.0 - e * e)), q[0] / a + e);
-    return std::pow(a, 1.5) * (anomaly - e * std::sin(anomaly));
-  }
-  if (e == 1.0) {
-    const double w = q[1] / (r + q[0]);  // the tangent of half the true anomaly
-    return std::numbers::sqrt2 * (w + w * w * w / 3.0);
-  }
-  const double a = 1.0 / (e - 1.0);
-  const double anomaly = std::asinh(q[1] / (a * std::sqrt(e * e - 1.0)));
-  return std::pow(a, 1.5) * (e * std::sinh(anomaly) - anomaly);
-}
-
-/// The outer solar system with the masses of the planets times a factor, on the same orbits.
-std::pair<solar_system<5>, phase_point<double, 15>> with_masses(double factor) {
-  const auto known = outer_solar_system();
-  const auto& masses = known.part<0>().masses();
-  std::array<double, 6> scaled{};
-  for (std::size_t k = 0; k < 6; ++k) scaled[k] = masses.mass(k) * (k == 0 ? 1.0 : factor);
-  const solar_system<5> system(scaled, masses.gravity());
-  auto from = outer_solar_system_start();
-  for (Eigen::Index i = 0; i < 15; ++i) from.p[i] *= known.inverse_mass(i) / system.inverse_mass(i);
-  return {system, from};
-}
-
-/// Largest relative error of the energy in 30,000 days.
-template <class M>
-double energy_error(const solar_system<5>& system, const phase_point<double, 15>& from, const M& method,
-                    double step) {
-  const double before = energy<double>(system, from);
-  return largest_change(system, method, step, from, static_cast<std::int64_t>(30'000.0 / step),
-                        [&](const auto& x) { return energy<double>(system, x) / before; });
-}
-
-}  // namespace
-
 // On ellipses, a parabola and hyperbolas the time is that of the place: the place is off by some tens of
 // roundings, by which the time is as far off as the orbit is long.
 BOOST_AUTO_TEST_CASE(the_place_has_the_time_of_keplers_equation) {
@@ -254,17 +268,7 @@ BOOST_AUTO_TEST_CASE(many_revolutions_lead_where_part_of_one_does) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(keplers_letter_is_what_it_states) {
-  const auto system = outer_solar_system();
-  const auto from = outer_solar_system_start();
-  auto later = from;
-  stepper<solar_system<5>, word<kepler_flow>>(system, {1.0}, 4000.0).step(later);
-  const std::vector points{from, later};
-  for (const double step : {1.0, 400.0, 20'000.0}) must_be_what_they_state<kepler_flow>(system, points, step);
-  must_be_what_they_state<kick_of_part<1>>(system, points, 400.0);
-}
-
-BOOST_AUTO_TEST_CASE(forces_of_the_solar_system_are_gradients_and_add_up) {
+BOOST_AUTO_TEST_CASE(forces_are_gradients_and_those_of_the_solar_system_add_up) {
   const auto system = outer_solar_system();
   const auto q = outer_solar_system_start().q;
   BOOST_TEST(check_force(system.part<0>(), {q, vector<double, 15>(1.1 * q)}).passed());
@@ -286,6 +290,9 @@ BOOST_AUTO_TEST_CASE(forces_of_the_solar_system_are_gradients_and_add_up) {
   BOOST_CHECK_THROW(solar_system<1>({1.0, 0.0}, 1.0), std::invalid_argument);
   BOOST_CHECK_THROW(solar_system<1>({-1.0, 0.1}, 1.0), std::invalid_argument);
   BOOST_CHECK_THROW(solar_system<1>({1.0, 0.1}, 0.0), std::invalid_argument);
+  BOOST_TEST(check_force(trap.part<0>(), {ion.q, vector<double, 3>(2.0 * ion.q)}).passed());
+  BOOST_CHECK_THROW(penning_trap(penning_potential(1.0), 0.0), std::invalid_argument);
+  BOOST_CHECK_THROW(penning_potential(0.0), std::invalid_argument);
 }
 
 // The known error, epsilon h^2 with epsilon the masses of the planets over that of the sun
@@ -302,49 +309,24 @@ BOOST_AUTO_TEST_CASE(the_error_of_wisdom_holman_is_the_mass_of_the_planets_times
   BOOST_TEST(error < 0.01 * of_verlet);
 }
 
-// A magnetic field.
+BOOST_AUTO_TEST_CASE(letters_are_what_they_state) {
+  const std::vector of_chain{start, phase_point<double, 4>{-2.0 * start.q, 0.5 * start.p}};
+  must_be_what_they_state<kick_of_parts<0, 1>, kick_of_part<1>>(chain, of_chain, 0.1);
+  BOOST_TEST((check_letter<kick_of_parts<0, 1>>(chain, of_chain, 0.1, {0.3, 0.7}).passed()));
 
-namespace {
+  const auto system = outer_solar_system();
+  const auto from = outer_solar_system_start();
+  auto later = from;
+  stepper<solar_system<5>, word<kepler_flow>>(system, {1.0}, 4000.0).step(later);
+  const std::vector of_planets{from, later};
+  for (const double time : {1.0, 400.0, 20'000.0})
+    must_be_what_they_state<kepler_flow>(system, of_planets, time);
+  must_be_what_they_state<kick_of_part<1>>(system, of_planets, 400.0);
 
-const penning_trap trap(penning_potential(1.0, 0.1), 5.0);
-const phase_point<double, 3> ion = trap.at({0.3, -0.2, 0.4}, {0.5, 0.1, -0.3});
-
-/// Lorentz' equation by the classical method of Runge and Kutta, which knows of no letters.
-phase_point<double, 3> by_runge_kutta(double step, int steps) {
-  using state = Eigen::Matrix<double, 6, 1>;
-  const auto rate = [](const state& y) {
-    vector<double, 3> f;
-    trap.part<0>().force(vector<double, 3>(y.head<3>()), f);
-    const double omega = trap.cyclotron_frequency();
-    state result;
-    result << y.tail<3>(), f[0] + omega * y[4], f[1] - omega * y[3], f[2];
-    return result;
-  };
-  state y;
-  y << ion.q, trap.velocity_of(ion);
-  for (int n = 0; n < steps; ++n) {
-    const state a = rate(y);
-    const state b = rate(y + 0.5 * step * a);
-    const state c = rate(y + 0.5 * step * b);
-    const state d = rate(y + step * c);
-    y += step / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+  const std::vector of_trap{ion, trap.at({-0.1, 0.5, 0.2}, {0.2, -0.6, 0.1})};
+  for (const double time : {0.05, 3.0}) {
+    must_be_what_they_state<cyclotron_flow, kick_of_part<0>, velocity_drift, boris_turn>(trap, of_trap, time);
   }
-  return trap.at(y.head<3>(), y.tail<3>());
-}
-
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(letters_of_the_field_are_what_they_state) {
-  const std::vector points{ion, trap.at({-0.1, 0.5, 0.2}, {0.2, -0.6, 0.1})};
-  for (const double step : {0.05, 3.0}) {
-    must_be_what_they_state<cyclotron_flow, kick_of_part<0>, velocity_drift, boris_turn>(trap, points, step);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(the_trap_has_the_force_of_its_potential) {
-  BOOST_TEST(check_force(trap.part<0>(), {ion.q, vector<double, 3>(2.0 * ion.q)}).passed());
-  BOOST_CHECK_THROW(penning_trap(penning_potential(1.0), 0.0), std::invalid_argument);
-  BOOST_CHECK_THROW(penning_potential(0.0), std::invalid_argument);
 }
 
 // J^T Omega J - Omega sums 6 products of entries of order ten, each off by some hundred roundings. Boris'

@@ -437,8 +437,7 @@ double band_defect(const model& system, const std::vector<frequency_band>& bands
   const Eigen::MatrixXd weighted = weighted_hessian(system, q);
   double worst = 0.0;
   for (const double square : symmetric_eigen(weighted).values) {
-    double outside =
-        std::numeric_limits<double>::infinity();  // in squares; a negative one does not oscillate
+    double outside = infinite;  // in squares; a negative one does not oscillate
     for (const auto& [low, high] : bands) {
       const double x = std::max(square, 0.0);
       outside = std::min(outside, std::max({low * low - x, x - high * high, 0.0}));

@@ -30,22 +30,18 @@ namespace nysalt::test {
 
 /// Three masses on two springs, held by nothing: one frequency is zero.
 inline linear_chain free_chain() {
-  Eigen::MatrixXd stiffness(3, 3);
-  stiffness << 2.0, -2.0, 0.0, -2.0, 5.0, -3.0, 0.0, -3.0, 3.0;
-  return linear_chain(stiffness, Eigen::Vector3d(1.0, 2.0, 5.0));
+  return linear_chain(Eigen::Matrix3d{{2.0, -2.0, 0.0}, {-2.0, 5.0, -3.0}, {0.0, -3.0, 3.0}},
+                      Eigen::Vector3d(1.0, 2.0, 5.0));
 }
 
 /// Two masses of different weight, the linear spring between them split off: one frequency is zero.
 inline auto split_masses() {
-  Eigen::Matrix2d spring;
-  spring << 1.0, -1.0, -1.0, 1.0;
-  return with_quadratic_part(two_masses(), spring);
+  return with_quadratic_part(two_masses(), Eigen::Matrix2d{{1.0, -1.0}, {-1.0, 1.0}});
 }
 
 /// A ring of wells, its springs split off: of a dynamic dimension, and one frequency is zero.
 inline auto split_ring() {
-  Eigen::Matrix3d springs;
-  springs << 2.0, -1.0, -1.0, -1.0, 2.0, -1.0, -1.0, -1.0, 2.0;
+  const Eigen::Matrix3d springs{{2.0, -1.0, -1.0}, {-1.0, 2.0, -1.0}, {-1.0, -1.0, 2.0}};
   return with_quadratic_part(dynamic_potential(), springs);
 }
 

@@ -25,8 +25,7 @@ specimen atoms(Eigen::Index space, Eigen::Index count) {
 
 /// Four rows of three predictors.
 logistic_regression a_posterior_of_rows() {
-  Eigen::MatrixXd rows(4, 3);
-  rows << 1.0, 0.5, -2.0, 1.0, -1.5, 0.3, 1.0, 2.0, 1.0, 1.0, 0.1, -0.7;
+  const Eigen::MatrixXd rows{{1.0, 0.5, -2.0}, {1.0, -1.5, 0.3}, {1.0, 2.0, 1.0}, {1.0, 0.1, -0.7}};
   return {rows, Eigen::Vector4d(1.0, 0.0, 1.0, 0.0), 4.0};
 }
 

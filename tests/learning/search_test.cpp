@@ -5,7 +5,6 @@
 #include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/learned.hpp"
-#include "../support/losses.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/detail/oscillator_loss.hpp"
 
@@ -96,6 +95,13 @@ data_sets sets_at(double step) {
           {.step = step, .horizon = 8.0, .trajectories = 8}};
 }
 
+fit_summary fitted(const data_sets& sets, const run_time_family& family, const char* loss,
+                   fit_options options = {}) {
+  options.loss = loss_named(loss);
+  options.planned_steps = 2000;
+  return sets.learned(family, chain, options).summary;
+}
+
 /// A slow oscillator, and a fast one of small amplitude.
 struct two_speeds {
   static constexpr int dimension = 2;
@@ -177,7 +183,6 @@ BOOST_AUTO_TEST_CASE(a_flat_direction_is_reported_and_the_rest_is_learned) {
   const auto data = make_flow_map_data(oscillator, around_rest<1>(0.4, 0.4), exact_linear(oscillator),
                                        {.step = 0.5, .horizon = 2.0, .trajectories = 20});
   const metric measure(oscillator, data, coordinates::qp);
-  const run_time_family family{aba<4>()};
   const after_steps<> loss(four_kicks, oscillator, data, state_error(measure));
   const auto fit = learn(four_kicks, oscillator, data, data, {.loss = loss_named("state:1")});
   BOOST_TEST_CONTEXT(fit.summary.full()) {
@@ -196,15 +201,9 @@ BOOST_AUTO_TEST_CASE(a_flat_direction_is_reported_and_the_rest_is_learned) {
 // An error of the phase after 88 steps, of which one step shows as much as of errors that do not add up.
 BOOST_AUTO_TEST_CASE(whole_trajectories_tell_which_errors_add_up) {
   const auto sets = sets_at(0.09);
-  const auto fitted = [&](const char* loss) {
-    const fit_options options{.coordinates = coordinates::energy,
-                              .loss = loss_named(loss),
-                              .random_starts = 4,
-                              .planned_steps = 2000};
-    return sets.learned(run_time_family(fg4{}), chain, options).summary;
-  };
-  const auto by_trajectory = fitted("trajectory");
-  const auto by_step = fitted("state:1");
+  const fit_options options{.coordinates = coordinates::energy, .random_starts = 4};
+  const auto by_trajectory = fitted(sets, run_time_family(fg4{}), "trajectory", options);
+  const auto by_step = fitted(sets, run_time_family(fg4{}), "state:1", options);
   BOOST_TEST_CONTEXT(by_trajectory.full() << by_step.full()) {
     BOOST_TEST(by_trajectory.usable);
     BOOST_TEST(by_trajectory.trajectory_error < 0.25 * by_step.trajectory_error);
@@ -218,16 +217,12 @@ BOOST_AUTO_TEST_CASE(whole_trajectories_tell_which_errors_add_up) {
 // Two stages have no parameter for the phase of a stiff spring.
 BOOST_AUTO_TEST_CASE(where_no_member_follows_the_data_the_loss_looks_at_fewer_steps) {
   const auto sets = sets_at(0.04);
-  const auto fitted = [&](const char* loss) {
-    const fit_options options{.loss = loss_named(loss), .random_starts = 8, .planned_steps = 2000};
-    return sets.learned(run_time_family(nystrom{}), chain, options).summary;
-  };
-  const auto two = fitted("trajectory");
+  const auto two = fitted(sets, two_stages, "trajectory", {.random_starts = 8});
   BOOST_TEST(two.loss_steps <= 13);
   BOOST_TEST(!two.follows_to_the_end());
   BOOST_TEST(two.brief().ends_with("; but " + two.following()));
   BOOST_TEST(says(two.following(), two.follows ? "not for 200" : "a twentieth"));
-  const auto of_five = fitted("state:5");
+  const auto of_five = fitted(sets, two_stages, "state:5", {.random_starts = 8});
   BOOST_TEST(of_five.loss_steps == 5);
   BOOST_TEST(of_five.follows_to_the_end());  // a loss of few steps says nothing of more
 }
@@ -262,9 +257,8 @@ BOOST_AUTO_TEST_CASE(a_larger_family_begins_at_the_optimum_of_the_one_that_it_co
 
 BOOST_AUTO_TEST_CASE(the_loss_takes_the_energy_coordinates_of_systems_with_modes_unless_told) {
   const auto sets = sets_at(0.05);
-  const run_time_family family{nystrom{}};
   const auto coordinates_of = [&](const fit_options& options) {
-    return make_learning_problem(family, chain, sets.data, sets.held_out, options).facts.coordinates;
+    return make_learning_problem(two_stages, chain, sets.data, sets.held_out, options).facts.coordinates;
   };
   BOOST_TEST(coordinates_of({}) == "energy");
   BOOST_TEST(coordinates_of({.coordinates = coordinates::qp}) == "qp");
@@ -276,8 +270,7 @@ BOOST_AUTO_TEST_CASE(the_loss_takes_the_energy_coordinates_of_systems_with_modes
 BOOST_AUTO_TEST_CASE(more_effort_is_more_starts) {
   const auto sets = sets_at(0.05);
   const auto tried = [&](effort how, const char* loss) {
-    const fit_options options{.loss = loss_named(loss), .effort = how, .planned_steps = 2000};
-    return sets.learned(run_time_family(nystrom{}), chain, options).summary.starts_tried;
+    return fitted(sets, two_stages, loss, {.effort = how}).starts_tried;
   };
   const int quick = tried(effort::quick, "trajectory");
   BOOST_TEST(tried(effort::normal, "trajectory") == quick + 16);  // a fifth of 120 in place of 40

@@ -14,8 +14,6 @@ using namespace nysalt::test;
 
 namespace {
 
-using wrong = std::invalid_argument;
-
 const after_steps_options five_steps{.steps = {5}};
 
 const henon_heiles galaxy;
@@ -231,19 +229,19 @@ BOOST_AUTO_TEST_CASE(packs_are_for_systems_that_serve_them) {
   BOOST_TEST(loss.evaluations() == 2 * 15 * (1 + 2 * 2));
   squares_at(loss, theta);  // and count one each
   BOOST_TEST(loss.evaluations() == 2 * (2 * 15 * (1 + 2 * 2)));
-  BOOST_TEST(refuses<wrong>([&] { after_steps<packs>(two_stages, box, data, state_error<packs>(measure)); },
-                            {"black_box", "after_steps<double>"}));
-  BOOST_TEST(refuses<wrong>([&] { energy_error(box, data); }, {"energy loss", "potential", "black_box"}));
+  BOOST_TEST(refuses([&] { after_steps<packs>(two_stages, box, data, state_error<packs>(measure)); },
+                     {"black_box", "after_steps<double>"}));
+  BOOST_TEST(refuses([&] { energy_error(box, data); }, {"energy loss", "potential", "black_box"}));
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const auto data = uneven_data();
   const metric measure(galaxy, data, coordinates::qp);
-  const auto refused = [&](const std::vector<int>& steps, std::initializer_list<std::string_view> words) {
+  const auto refused = [&](const std::vector<int>& steps, said words) {
     const auto made = [&] {
       after_steps<>(two_stages, galaxy, data, state_error(measure), {.steps = steps});
     };
-    return refuses<wrong>(made, words);
+    return refuses(made, words);
   };
   BOOST_TEST(refused({41}, {"41 steps", "longer horizon"}));
   BOOST_TEST(refused({0}, {"from 1 on", "got 0"}));
@@ -282,8 +280,8 @@ BOOST_AUTO_TEST_CASE(more_parts_than_the_letters_need_are_put_together) {
 }
 
 BOOST_AUTO_TEST_CASE(data_without_the_noise_that_is_needed_are_refused) {
-  const auto refused = [](const flow_map_data& data, auto of, std::initializer_list<std::string_view> w) {
-    return refuses<wrong>([&] { loss_of<decltype(of)>(data, maker); }, w);
+  const auto refused = [](const flow_map_data& data, auto of, said w) {
+    return refuses([&] { loss_of<decltype(of)>(data, maker); }, w);
   };
   auto without = made<symmetric>(2);
   without.noise.clear();

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O1: 85 s at -O0, 0.4 s at -O1.
-// Every formula and table of docs/theory-langevin-optimum.md: where the best two-stage step of a damped
-// oscillator is, and how it moves with friction. Along one Brownian path methods converge to the solution
-// with strong order 1.
+// Methods and families that are thermostatted: what they say. One step of each Langevin method on the damped
+// oscillator, as a matrix and a covariance: against the word spelled out, against the solution without noise,
+// and the law that it keeps. The oracle of these tests is checked by formulas that it does not use. Every
+// formula and table of docs/theory-langevin-optimum.md: where the best two-stage step of a damped oscillator
+// is, and how it moves with friction. Along one Brownian path methods converge to the solution with strong
+// order 1.
+#include "../support/draws.hpp"
 #include "../support/langevin.hpp"
+#include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
 #include "nysalt/analysis/statistics.hpp"
+#include "nysalt/families/aba.hpp"
 #include "nysalt/noises/along_path.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/run_time_family.hpp"
@@ -18,6 +24,66 @@ using namespace nysalt::test;
 namespace {
 
 using enum placement;
+
+template <placement P, class M>
+using in = thermostatted_method<P, M>;
+using at_end = thermostatted_family<nystrom, end>;
+using both_ends = thermostatted_family<nystrom, symmetric>;
+using inside = thermostatted_family<nystrom, middle>;
+using aba2_inside = thermostatted_family<aba<2>, middle>;
+
+bool same(const tabulated& one, const tabulated& other) {
+  return one.letters().letters() == other.letters().letters() && one.coefficients() == other.coefficients() &&
+         one.order == other.order && one.symmetric == other.symmetric &&
+         one.requires_quadratic_kinetic == other.requires_quadratic_kinetic;
+}
+
+// Under-damped, nearly undamped, critical, over-damped.
+const std::vector<damped_oscillator> oscillators{
+    {3.0, 1.0, .7}, {3.0, .01, .7}, {50.0, .01, .05}, {3.0, 6.0, .7}, {3.0, 10.0, .7}};
+
+/// e^{-gamma t/2} (cos w t + (A + gamma/2) sin(w t)/w) with w^2 = omega^2 - gamma^2/4.
+square<2> closed_map(const damped_oscillator& x, double t) {
+  const std::complex<double> w =
+      std::sqrt(std::complex<double>(x.omega * x.omega - 0.25 * x.gamma * x.gamma));
+  const double c = std::cos(w * t).real();
+  const double s = w == 0.0 ? t : (std::sin(w * t) / w).real();
+  return std::exp(-0.5 * x.gamma * t) *
+         square<2>{{c + 0.5 * x.gamma * s, s}, {-x.omega * x.omega * s, c - 0.5 * x.gamma * s}};
+}
+
+double difference(const auto& a, const auto& b) { return (a - b).cwiseAbs().maxCoeff(); }
+
+/// Error of the map over a time 2 in that many steps of the merged loop, without noise.
+double error_in(std::int64_t steps, const tabulated& method) {
+  const damped_oscillator x{2.0, 0.7, 0.0};
+  const auto system = bathed_system(x);
+  const auto stepper = make_stepper(system, method, 2.0 / static_cast<double>(steps));
+  const auto finish = [&](double q, double p) {
+    auto run = stepper.open(point(q, p));
+    stepper.advance(run, steps);
+    return coordinates_of(stepper.synchronous(run));
+  };
+  square<2> map;
+  map << finish(1.0, 0.0), finish(0.0, 1.0);
+  return (map - x.exact(2.0).map).norm();
+}
+double measured_order(const tabulated& method) {
+  return std::log2(error_in(512, method) / error_in(1024, method));
+}
+
+/// Variances of omega q and p, and their covariance, over kT.
+struct law_kept {
+  double q, p, both;
+};
+/// At z = h omega and gamma = g omega.
+law_kept kept_by(const tabulated& method, double z, double g) {
+  const double omega = 3.0;
+  const damped_oscillator x{omega, g * omega, 0.7};
+  const double kT = x.invariant()(1, 1);
+  const square<2> law = stationary(library_step(x, method, z / omega));
+  return {law(0, 0) * omega * omega / kT, law(1, 1) / kT, law(0, 1) * omega / kT};
+}
 
 std::vector<spelled> two_stages_in(placement where, double b1, double beta1) {
   static const std::vector<run_time_family> families = [] {
@@ -83,8 +149,7 @@ Eigen::Vector2d best(const loss& of, double g) {
     const auto in_b1 = [&](double b1) { return of.at(b1, x[1], g); };
     const auto in_u = [&](double u) { return of.at(x[0], u, g); };
     const double mixed = derivative(along_b1, x[1]);
-    square<2> hessian;
-    hessian << second_derivative(in_b1, x[0]), mixed, mixed, second_derivative(in_u, x[1]);
+    const square<2> hessian{{second_derivative(in_b1, x[0]), mixed}, {mixed, second_derivative(in_u, x[1])}};
     const Eigen::Vector2d change =
         hessian.inverse() * Eigen::Vector2d(derivative(in_b1, x[0]), derivative(in_u, x[1]));
     x -= change;
@@ -120,7 +185,237 @@ const std::vector<row> table{{0.1, .403381, -.429030, -.118050, .010181},
 // g = 3e-6, 7e-8.
 constexpr double digits = 0.5e-6 + 2e-7;
 
+using T = pack<double>;
+constexpr damped_oscillator oscillator{2.0, 1.0, 1.0};
+constexpr double horizon = 2.0;
+constexpr std::int64_t fine_intervals = 512;
+constexpr double fine = horizon / fine_intervals;
+constexpr std::uint64_t paths = 2000;
+const std::vector<std::int64_t> levels{16, 32, 64, 128, 256};
+
+static_assert(paths % lanes_in<T> == 0);
+const auto start = point(1.0, 0.5);
+
+/// As many paths as there are lanes: the bath's noise over the fine intervals, and where the solution ends.
+struct driven {
+  recorded_path<T, 1> path;
+  phase_point<T, 1> finish;
+};
+driven solution(std::uint64_t first) {
+  driven result{recorded_path<T, 1>(fine, oscillator.gamma, first), start.cast<T>()};
+  std::vector<vector<T, 1>> noise(fine_intervals);
+  exact_paths(oscillator)
+      .advance(bathed_system(oscillator), result.finish, horizon, {seed(1), first, 0}, std::span(noise));
+  for (const auto& xi : noise) result.path.add(xi);
+  return result;
+}
+const std::vector<driven>& solutions() {
+  static const auto all = [] {
+    std::vector<driven> result;
+    for (std::uint64_t first = 0; first < paths; first += lanes_in<T>) result.push_back(solution(first));
+    return result;
+  }();
+  return all;
+}
+
+/// Mean square error of q and of p, and the standard errors.
+struct measured {
+  Eigen::Array2d mean, standard_error;
+};
+/// With noise_of(path), the noise that a method takes for that of the path.
+measured errors(const tabulated& method, std::int64_t steps, const auto& noise_of) {
+  const auto system = bathed_system(oscillator);
+  Eigen::Array2d sum(0.0, 0.0);
+  Eigen::Array2d squares(0.0, 0.0);
+  for (const auto& [path, finish] : solutions()) {
+    const auto stepper = make_stepper(system, method, horizon / static_cast<double>(steps), noise_of(path));
+    auto run = stepper.open(start.cast<T>(), path.trajectory());
+    stepper.advance(run, steps);
+    const auto x = stepper.synchronous(run);
+    for (int k = 0; k < lanes_in<T>; ++k) {
+      const Eigen::Array2d error(x.q[0][k] - finish.q[0][k], x.p[0][k] - finish.p[0][k]);
+      sum += error.square();
+      squares += error.square().square();
+    }
+  }
+  const double n = paths;
+  const Eigen::Array2d mean = sum / n;
+  return {mean, ((squares / n - mean * mean) / n).sqrt()};
+}
+
+measured errors_on_the_path(const tabulated& method, std::int64_t steps) {
+  return errors(method, steps, [&](const auto& path) {
+    return along_path<T, 1>(path, intervals_of_noise(method.letters(), method.coefficients()),
+                            horizon / static_cast<double>(steps));
+  });
+}
+
+Eigen::Array2d expected_errors(const tabulated& method, std::int64_t steps) {
+  const auto step = step_with_error(oscillator, spell(method), horizon / static_cast<double>(steps));
+  const Eigen::Vector2d x = coordinates_of(start);
+  return error_after(step, x * x.transpose(), static_cast<int>(steps)).diagonal();
+}
+
+/// Slope of log2 root mean square error against log2 step, given the mean squares at all levels.
+Eigen::Array2d order(const std::vector<Eigen::Array2d>& mean_squares) {
+  Eigen::Array2d result;
+  for (const int i : {0, 1}) {
+    std::vector<double> x;
+    std::vector<double> y;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      x.push_back(-std::log2(static_cast<double>(levels[k])));
+      y.push_back(0.5 * std::log2(mean_squares[k][i]));
+    }
+    result[i] = slope(x, y);
+  }
+  return result;
+}
+
+double off(const measured& is, const Eigen::Array2d& expected) {
+  return ((is.mean - expected) / is.standard_error).abs().maxCoeff();
+}
+
 }  // namespace
+
+static_assert(Method<baoab> && Method<in<end, verlet>> && Method<in<symmetric, pefrl>>);
+static_assert(baoab::order == 2 && baoab::symmetric);
+static_assert(in<end, pefrl>::order == 1 && !in<end, pefrl>::symmetric);
+static_assert(in<symmetric, pefrl>::order == 2 && in<symmetric, pefrl>::symmetric);
+static_assert(in<middle, pefrl>::order == 2 && in<middle, pefrl>::symmetric);
+static_assert(Family<at_end> && Family<both_ends> && Family<inside> && Family<aba2_inside>);
+static_assert(at_end::name == "nystrom_end" && both_ends::name == "nystrom_symmetric" &&
+              inside::name == "nystrom_middle");
+static_assert(at_end::order == 1 && both_ends::order == 2);
+// The middle of what is not symmetric is no middle.
+static_assert(inside::order == 1 && aba2_inside::order == 2);
+static_assert(!at_end::symmetric && !both_ends::symmetric && !inside::symmetric);  // nor is every nystrom
+static_assert(aba2_inside::symmetric && !thermostatted_family<aba<2>, end>::symmetric);
+static_assert(at_end::parameters == 2 && at_end::parameter_names == nystrom::parameter_names);
+
+BOOST_AUTO_TEST_CASE(a_method_is_thermostatted_by_its_type_as_by_its_table) {
+  const auto check = [](placement where, const auto& by_type, const char* name) {
+    BOOST_TEST(same(thermostat(tabulated(pefrl()), where), tabulated(by_type)), name);
+    BOOST_TEST(by_type.name() == name);
+  };
+  check(end, thermostat<end>(pefrl()), "pefrl_end");
+  check(symmetric, thermostat<symmetric>(pefrl()), "pefrl_symmetric");
+  check(middle, thermostat<middle>(pefrl()), "pefrl_middle");
+  BOOST_TEST(same(tabulated(thermostat<middle>(verlet())), tabulated(baoab())));
+  BOOST_TEST(same(tabulated(thermostat<symmetric>(verlet())), tabulated(obabo())));
+  BOOST_TEST(same(tabulated(thermostat<middle>(verlet_aba())), tabulated(aboba())));
+  BOOST_TEST(!same(tabulated(thermostat<end>(verlet())), tabulated(baoab())));
+  const tabulated euler("euler", run_time_word("BA"), {1.0, 1.0}, {1, false, false});
+  BOOST_TEST(thermostat(euler, symmetric).order == 1);
+  BOOST_TEST(!thermostat(euler, symmetric).symmetric);
+  BOOST_TEST(refuses([&] { thermostat(euler, middle); }, {"central letter"}));
+  BOOST_TEST(refuses([&] { thermostat(tabulated(baoab{}), end); }, {"must have no letters O"}));
+}
+
+BOOST_AUTO_TEST_CASE(a_thermostatted_family_is_the_family_with_the_bath_between) {
+  BOOST_TEST((at_end::start() == nystrom::start()));
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto ours = both_ends::ranges()[k];
+    const auto theirs = nystrom::ranges()[k];
+    BOOST_TEST((ours.low == theirs.low && ours.high == theirs.high && ours.open == theirs.open));
+  }
+  BOOST_TEST(member<both_ends>::word::letters() == "OABABAO");
+  BOOST_TEST(refuses([] { member<inside>({1.5, 0.4}); }, {"nystrom_middle", "b1"}));
+}
+
+BOOST_AUTO_TEST_CASE(the_solution_has_closed_form) {
+  for (const auto& x : oscillators) {
+    for (const double t : {1e-3, .3, 7.0}) {
+      // The doublings multiply the rounding errors of the first piece, some 20 eps, by 4 |A| t at most.
+      const double size = 1.0 + x.omega * x.omega + x.gamma;
+      const double rounding = 20.0 * eps * size * (1.0 + 4.0 * size * t);
+      const auto step = x.exact(t);
+      const square<2> map = closed_map(x, t);
+      const square<2> law = x.invariant();
+      BOOST_TEST_CONTEXT("omega " << x.omega << ", gamma " << x.gamma << ", t " << t) {
+        BOOST_TEST(difference(step.map, map) <= rounding);
+        // The invariant law stays: C = Sigma - map Sigma map^T.
+        const square<2> noise = law - map * law * map.transpose();
+        BOOST_TEST(difference(step.covariance, noise) <= 2.0 * rounding * law.maxCoeff());
+        // The Lyapunov equation divides by what a step forgets, 1 - det(map).
+        const double forgotten = -std::expm1(-x.gamma * t);
+        BOOST_TEST(difference(stationary(step), law) <= 4.0 * rounding / forgotten * law.maxCoeff());
+        const double eta = x.exact_with_bath(t).covariance(2, 2);
+        const double variance = -x.sigma * x.sigma * std::expm1(-2.0 * x.gamma * t) / (2.0 * x.gamma);
+        BOOST_TEST(std::abs(eta - variance) <= rounding * variance);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_step_is_the_word_spelled_out) {
+  draws random;
+  for (const tabulated& method : langevin_methods()) {
+    for (int n = 0; n < 10; ++n) {
+      const damped_oscillator x{random.uniform(0.5, 3.0), random.uniform(0.0, 5.0), random.uniform(0.1, 2.0)};
+      const double h = random.uniform(0.05, 1.0);
+      const auto step = library_step(x, method, h);
+      const auto word = word_step(x, spell(method), h);
+      // Each of 9 letters multiplies by 1 + omega^2 h < 10 at most, and the word never by more than 100.
+      const double rounding = 9.0 * 100.0 * eps;
+      BOOST_TEST_CONTEXT("seed " << draws::seed << ", draw " << n << ", " << method.name()) {
+        BOOST_TEST(difference(step.map, word.map) <= rounding);
+        BOOST_TEST(difference(step.covariance, word.covariance) <= 100.0 * rounding);
+        const auto other = word_step({x.omega, x.gamma, 1.01 * x.sigma}, spell(method), h);
+        BOOST_TEST(difference(step.covariance, other.covariance) > 1e-6);
+      }
+    }
+  }
+}
+
+// The slope over the last halving is off by a term of the next order, some h = 2/1024 of it. A family
+// declares what all its members have; that at b1 = 1/2 is symmetric, and has order 2 in the middle too.
+BOOST_AUTO_TEST_CASE(without_noise_a_method_has_its_order) {
+  for (const tabulated& method : langevin_methods()) {
+    const int order = method.name() == "nystrom_middle" ? 2 : method.order;
+    BOOST_TEST(std::abs(measured_order(method) - order) <= 0.02, method.name());
+  }
+}
+
+// O in the middle is in the middle of the time only if the word is symmetric.
+BOOST_AUTO_TEST_CASE(the_middle_of_a_word_that_is_not_symmetric) {
+  BOOST_TEST(std::abs(measured_order(tabulated(member<inside>({0.5, 0.41}))) - 2.0) <= 0.02);
+  BOOST_TEST(std::abs(measured_order(tabulated(member<inside>({0.45, 0.385}))) - 1.0) <= 0.05);
+  BOOST_TEST(std::abs(measured_order(tabulated(member<both_ends>({0.45, 0.385}))) - 2.0) <= 0.02);
+}
+
+// kT/omega^2 and kT times these, whatever the friction; q and p are independent. Without O a step keeps
+// (omega q)^2 n + p^2 x, which makes S, and so every word of S and O, keep a normal law. BAOAB and ABOBA are
+// such words seen from elsewhere; for them q has the exact law, for OBABO p has.
+BOOST_AUTO_TEST_CASE(the_law_that_is_kept) {
+  const auto check = [](const tabulated& method, double z, double g, double of_q, double of_p) {
+    const law_kept is = kept_by(method, z, g);
+    // Rounding of a step, some 10 eps, over what it forgets: g z, or z/g of a strongly damped position; it
+    // grows towards the edge of stability.
+    const double forgotten = std::min(g * z, z / g);
+    const double rounding = 20.0 * eps * (1.0 + 1.0 / forgotten) * (1.0 + 1.0 / std::abs(1.0 - z * z / 4.0));
+    BOOST_TEST_CONTEXT(method.name() << ", z " << z << ", g " << g) {
+      BOOST_TEST(std::abs(is.q / of_q - 1.0) <= rounding);
+      BOOST_TEST(std::abs(is.p / of_p - 1.0) <= rounding);
+      BOOST_TEST(std::abs(is.both) <= rounding * std::sqrt(of_q * of_p));
+    }
+  };
+  for (const double z : {0.1, 0.5, 1.0, 1.5, 1.9, 1.99}) {
+    for (const double g : {0.01, 0.3, 1.0, 5.0}) {
+      const double v = 1.0 - z * z / 4.0;
+      check(tabulated(baoab()), z, g, 1.0, v);
+      check(tabulated(aboba()), z, g, 1.0, 1.0 / v);
+      check(tabulated(obabo()), z, g, 1.0 / v, 1.0);
+      check(tabulated(bathed_verlet<end>()), z, g, 1.0 / v, 1.0);
+      check(tabulated(baoab_2x()), z, g, 1.0, 1.0 - z * z / 16.0);
+      const double beta1 = 0.41;  // docs/theory-langevin-optimum.md
+      const double n = 1.0 - z * z * (beta1 - 0.25);
+      const double x = 1.0 - 2.0 * z * z * beta1 * (1.0 - 2.0 * beta1) +
+                       z * z * z * z * (1.0 - 2.0 * beta1) * (1.0 - 2.0 * beta1) * (beta1 - 0.25);
+      check(tabulated(two_stages<end>()), z, g, x / n, 1.0);
+      check(tabulated(two_stages<symmetric>()), z, g, x / n, 1.0);
+    }
+  }
+}
 
 BOOST_AUTO_TEST_CASE(the_table_of_slopes) {
   for (const auto& r : table) {
@@ -282,101 +577,6 @@ BOOST_AUTO_TEST_CASE(the_noise_of_the_placements) {
 // sigma^2 h^3/12; T/h steps add it up to sigma h sqrt(T/12). The noise of p is right but for h^(5/2), and the
 // map is of second order. With O at the end q is not moved at all: sigma^2 h^3/3 are missing, and the map is
 // of first order.
-
-namespace {
-
-using T = pack<double>;
-constexpr damped_oscillator oscillator{2.0, 1.0, 1.0};
-constexpr double horizon = 2.0;
-constexpr std::int64_t fine_intervals = 512;
-constexpr double fine = horizon / fine_intervals;
-constexpr std::uint64_t paths = 2000;
-const std::vector<std::int64_t> levels{16, 32, 64, 128, 256};
-
-static_assert(paths % lanes_in<T> == 0);
-const auto start = point(1.0, 0.5);
-
-/// As many paths as there are lanes: the bath's noise over the fine intervals, and where the solution ends.
-struct driven {
-  recorded_path<T, 1> path;
-  phase_point<T, 1> finish;
-};
-driven solution(std::uint64_t first) {
-  driven result{recorded_path<T, 1>(fine, oscillator.gamma, first), start.cast<T>()};
-  std::vector<vector<T, 1>> noise(fine_intervals);
-  exact_paths(oscillator)
-      .advance(bathed_system(oscillator), result.finish, horizon, {seed(1), first, 0}, std::span(noise));
-  for (const auto& xi : noise) result.path.add(xi);
-  return result;
-}
-const std::vector<driven>& solutions() {
-  static const auto all = [] {
-    std::vector<driven> result;
-    for (std::uint64_t first = 0; first < paths; first += lanes_in<T>) result.push_back(solution(first));
-    return result;
-  }();
-  return all;
-}
-
-/// Mean square error of q and of p, and the standard errors.
-struct measured {
-  Eigen::Array2d mean, standard_error;
-};
-/// With noise_of(path), the noise that a method takes for that of the path.
-measured errors(const tabulated& method, std::int64_t steps, const auto& noise_of) {
-  const auto system = bathed_system(oscillator);
-  Eigen::Array2d sum(0.0, 0.0);
-  Eigen::Array2d squares(0.0, 0.0);
-  for (const auto& [path, finish] : solutions()) {
-    const auto stepper = make_stepper(system, method, horizon / static_cast<double>(steps), noise_of(path));
-    auto run = stepper.open(start.cast<T>(), path.trajectory());
-    stepper.advance(run, steps);
-    const auto x = stepper.synchronous(run);
-    for (int k = 0; k < lanes_in<T>; ++k) {
-      const Eigen::Array2d error(x.q[0][k] - finish.q[0][k], x.p[0][k] - finish.p[0][k]);
-      sum += error.square();
-      squares += error.square().square();
-    }
-  }
-  const double n = paths;
-  const Eigen::Array2d mean = sum / n;
-  return {mean, ((squares / n - mean * mean) / n).sqrt()};
-}
-
-measured errors_on_the_path(const tabulated& method, std::int64_t steps) {
-  return errors(method, steps, [&](const auto& path) {
-    return along_path<T, 1>(path, intervals_of_noise(method.letters(), method.coefficients()),
-                            horizon / static_cast<double>(steps));
-  });
-}
-
-Eigen::Array2d expected_errors(const tabulated& method, std::int64_t steps) {
-  const auto step = step_with_error(oscillator, spell(method), horizon / static_cast<double>(steps));
-  const Eigen::Vector2d x = coordinates_of(start);
-  return error_after(step, x * x.transpose(), static_cast<int>(steps)).diagonal();
-}
-
-/// Slope of log2 root mean square error against log2 step, given the mean squares at all levels.
-Eigen::Array2d order(const std::vector<Eigen::Array2d>& mean_squares) {
-  Eigen::Array2d result;
-  for (const int i : {0, 1}) {
-    std::vector<double> x;
-    std::vector<double> y;
-    for (std::size_t k = 0; k < levels.size(); ++k) {
-      x.push_back(-std::log2(static_cast<double>(levels[k])));
-      y.push_back(0.5 * std::log2(mean_squares[k][i]));
-    }
-    result[i] = slope(x, y);
-  }
-  return result;
-}
-
-double off(const measured& is, const Eigen::Array2d& expected) {
-  return ((is.mean - expected) / is.standard_error).abs().maxCoeff();
-}
-
-}  // namespace
-
 BOOST_AUTO_TEST_CASE(the_strong_order_is_one) {
   constexpr double each = false_alarms / (8 * 12);  // eight methods, q and p at five levels and over them
   for (const tabulated& method : langevin_methods()) {

@@ -22,8 +22,6 @@ using namespace nysalt::test;
 
 namespace {
 
-using wrong = std::invalid_argument;
-
 vector<double, 1> number(double x) { return vector<double, 1>(x); }
 
 normal_around<1> around_zero(double deviation) { return {{number(0.0), number(0.0)}, deviation, 1.0}; }
@@ -31,6 +29,11 @@ const normal_around<1> at_zero = around_zero(1.0);
 
 const tabulated by_verlet{verlet{}};
 const auto ignored = [](const hmc_draw&) {};
+
+hmc_options changed(hmc_options options, auto member, auto value) {
+  options.*member = value;
+  return options;
+}
 
 /// What is told of a run, and the mean square of coordinate 1 over its chains.
 struct squared_draws {
@@ -150,6 +153,99 @@ const hmc_options tuned{.step = 0.3,
                         .acceptance = 0.9,
                         .keep_every = 20};
 
+constexpr std::uint64_t seeds = 5;
+constexpr std::int64_t chains = 48;
+
+/// Functions of the position whose means are known.
+using moments_of = Eigen::VectorXd (*)(const Eigen::VectorXd& q);
+
+/// The largest distance of a mean over chains from what is exact, in standard errors.
+double worst_distance(const std::vector<Eigen::VectorXd>& means_of_chains, const Eigen::VectorXd& exact) {
+  double worst = 0.0;
+  for (Eigen::Index k = 0; k < exact.size(); ++k) {
+    std::vector<double> means;
+    for (const auto& mean : means_of_chains) means.push_back(mean[k]);
+    const estimate found = mean_and_error(means);
+    const double distance = std::abs(found.mean - exact[k]) / found.standard_error;
+    if (!std::isfinite(distance)) return std::numeric_limits<double>::infinity();  // a chain diverged
+    worst = std::max(worst, distance);
+  }
+  return worst;
+}
+
+double distance_of_hmc(const model& system, double step, double length, const moments_of& f,
+                       const Eigen::VectorXd& exact, std::uint64_t number) {
+  std::vector<Eigen::VectorXd> means(chains, Eigen::VectorXd::Zero(exact.size()));
+  constexpr std::int64_t draws = 2000;
+  hmc(system, by_verlet, around_rest(size(system), 0.5),
+      {.step = step,
+       .length = length,
+       .chains = chains,
+       .burn_in = 100,
+       .draws = draws,
+       .seed = seed(number)},
+      [&](const hmc_draw& draw) { means[static_cast<std::size_t>(draw.chain)] += f(draw.q) / draws; });
+  return worst_distance(means, exact);
+}
+
+Eigen::VectorXd lattice_moments(const Eigen::VectorXd& q) {
+  Eigen::VectorXd f(4);
+  f << q[0], q[0] * q[0], q[0] * q[3], q[1] * q[1] * q[2] * q[2];
+  return f;
+}
+
+/// By the trapezoidal rule, which converges faster than any power where the integrand decays.
+Eigen::VectorXd by_quadrature(const phi4_lattice& lattice) {
+  constexpr int nodes = 33;
+  constexpr double reach = 2.4;  // exp(-V) is below 1e-15 beyond
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(4);
+  double weights = 0.0;
+  Eigen::VectorXd q(4);
+  for (int i = 0; i < nodes * nodes * nodes * nodes; ++i) {
+    for (int k = 0, left = i; k < 4; ++k, left /= nodes)
+      q[k] = reach * (2.0 * (left % nodes) / (nodes - 1) - 1.0);
+    const double weight = std::exp(-lattice.potential<double>(q));
+    weights += weight;
+    sums += weight * lattice_moments(q);
+  }
+  return sums / weights;
+}
+
+/// The force of the lattice with the potential of another: proposals are accepted by a wrong energy.
+struct wrong_energy {
+  static constexpr int dimension = Eigen::Dynamic;
+  phi4_lattice forces{2, -2.0, 3.0};
+  phi4_lattice energies{2, -2.0, 2.7};
+  Eigen::Index size() const { return 4; }
+  template <class T>
+  void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    forces.force(q, f);
+  }
+  template <class T>
+  T potential(const vector<T, dimension>& q) const {
+    return energies.potential(q);
+  }
+};
+
+using draws_of_chains = std::vector<std::vector<double>>;
+
+/// The effective draws of four chains, whose tau is (1 + phi)/(1 - phi).
+double independent(double phi, int length) { return 4.0 * length * (1.0 - phi) / (1.0 + phi); }
+
+constexpr double memories[] = {-0.9, -0.5, 0.0, 0.5, 0.9};
+constexpr int lengths[] = {20, 50, 100, 200, 500};
+constexpr int repetitions = 50;
+
+/// Four chains of a memory, tau = (1 + phi)/(1 - phi), the n-th of a seed.
+draws_of_chains autoregressions(double phi, std::uint64_t of_seed, std::uint64_t n, int length) {
+  draws_of_chains all(4);
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    autoregression<double> next(phi, of_seed, 4 * n + k);
+    for (int i = 0; i < length; ++i) all[k].push_back(next.next());
+  }
+  return all;
+}
+
 }  // namespace
 
 // Of momenta of kT = 1 and mass 1 the mean square of a move is T^2 to 3 % (one standard error, sqrt(2/2000)).
@@ -266,28 +362,22 @@ BOOST_AUTO_TEST_CASE(diagonal_masses_are_found_and_the_law_stays) {
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_sampled_is_refused) {
-  const hmc_options sound{.step = 0.1, .length = 1.0, .chains = 2, .burn_in = 0, .draws = 2};
+  const hmc_options sound{.step = 0.1, .length = 1.0, .chains = 2, .burn_in = 100, .draws = 2};
   const auto refused = [](const char* words, const hmc_options& options, const tabulated& method = by_verlet,
                           const initial_states& starts = at_zero) {
-    return refuses<wrong>([&] { hmc(harmonic_oscillator(1.0), method, starts, options, ignored); }, {words});
+    return refuses([&] { hmc(harmonic_oscillator(1.0), method, starts, options, ignored); }, {words});
   };
-  const auto with = [&](const std::function<void(hmc_options&)>& change) {
-    hmc_options options = sound;
-    options.burn_in = 100;
-    change(options);
-    return options;
-  };
-  BOOST_TEST(refused("step must be positive", with([](auto& o) { o.step = 0.0; })));
-  BOOST_TEST(refused("kT must be positive", with([](auto& o) { o.temperature = -1.0; })));
-  BOOST_TEST(refused("draws must be at least 1", with([](auto& o) { o.draws = 0; })));
-  BOOST_TEST(refused("acceptance must be between", with([](auto& o) { o.acceptance = 1.5; })));
-  BOOST_TEST(refused("ask for an acceptance", with([](auto& o) { o.diagonal_masses = true; })));
+  BOOST_TEST(refused("step must be positive", changed(sound, &hmc_options::step, 0.0)));
+  BOOST_TEST(refused("kT must be positive", changed(sound, &hmc_options::temperature, -1.0)));
+  BOOST_TEST(refused("draws must be at least 1", changed(sound, &hmc_options::draws, 0)));
+  BOOST_TEST(refused("acceptance must be between", changed(sound, &hmc_options::acceptance, 1.5)));
+  BOOST_TEST(refused("ask for an acceptance", changed(sound, &hmc_options::diagonal_masses, true)));
   const tabulated one_way("one way", run_time_word("AB"), {1.0, 1.0}, {1, false, false});
   BOOST_TEST(refused("must be reversible", sound, one_way));
   // Beyond the first block of lanes, whose width depends on the machine.
   std::vector<phase_point<double, 1>> starts(40, {number(1.0), number(0.0)});
   starts[37].q[0] = 1e200;
-  const auto many = with([](auto& o) { o.chains = 40; });
+  const auto many = changed(sound, &hmc_options::chains, 40);
   BOOST_TEST(refused("must be finite at a start", many, by_verlet, listed(starts)));
   BOOST_TEST(refused("at start 37", many, by_verlet, listed(starts)));
 }
@@ -323,138 +413,31 @@ BOOST_AUTO_TEST_CASE(masses_know_the_variance_between_chains) {
 }
 
 BOOST_AUTO_TEST_CASE(cut_and_resumed_they_draw_the_same_bits) {
-  hmc_options with_masses = tuned;
-  with_masses.diagonal_masses = true;
-  for (const hmc_options& options : {tuned, with_masses}) {
+  for (const bool with_masses : {false, true}) {
+    const hmc_options options = changed(tuned, &hmc_options::diagonal_masses, with_masses);
     const course whole = run_from(options);
     BOOST_TEST_REQUIRE(whole.kept.size() == 8U);  // 160 trajectories
     for (const auto& state : whole.kept) {
       BOOST_TEST(goes_on_as(whole, run_from(options, &state), options, state), state.trajectories);
     }
     // What is looked at can tell: another seed goes on otherwise.
-    hmc_options another = options;
-    another.seed = 2;
+    const hmc_options another = changed(options, &hmc_options::seed, 2U);
     BOOST_TEST(!goes_on_as(whole, run_from(another, &whole.kept[4]), options, whole.kept[4]));
     // How often states are kept changes nothing.
-    hmc_options never = options;
-    never.keep_every = 0;
-    BOOST_TEST((run_from(never).draws == whole.draws));
+    BOOST_TEST((run_from(changed(options, &hmc_options::keep_every, 0)).draws == whole.draws));
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_state_of_other_options_is_refused) {
   const course whole = run_from(tuned);
   const auto refused = [&](const hmc_options& options, const hmc_state& state) {
-    return refuses<wrong>([&] { run_from(options, &state); }, {"the state to go on from"});
+    return refuses([&] { run_from(options, &state); }, {"the state to go on from"});
   };
-  hmc_options other = tuned;
-  other.chains = 36;
-  BOOST_TEST(refused(other, whole.kept[2]));
-  other = tuned;
-  other.diagonal_masses = true;
-  BOOST_TEST(refused(other, whole.kept[2]));
-  other = tuned;
-  other.draws = 10;
-  BOOST_TEST(refused(other, whole.kept.back()));
+  BOOST_TEST(refused(changed(tuned, &hmc_options::chains, 36), whole.kept[2]));
+  BOOST_TEST(refused(changed(tuned, &hmc_options::diagonal_masses, true), whole.kept[2]));
+  BOOST_TEST(refused(changed(tuned, &hmc_options::draws, 10), whole.kept.back()));
   BOOST_CHECK_NO_THROW(run_from(tuned, &whole.kept.back()));
 }
-
-namespace {
-
-constexpr std::uint64_t seeds = 5;
-constexpr std::int64_t chains = 48;
-
-/// Functions of the position whose means are known.
-using moments_of = Eigen::VectorXd (*)(const Eigen::VectorXd& q);
-
-/// The largest distance of a mean over chains from what is exact, in standard errors.
-double worst_distance(const std::vector<Eigen::VectorXd>& means_of_chains, const Eigen::VectorXd& exact) {
-  double worst = 0.0;
-  for (Eigen::Index k = 0; k < exact.size(); ++k) {
-    std::vector<double> means;
-    for (const auto& mean : means_of_chains) means.push_back(mean[k]);
-    const estimate found = mean_and_error(means);
-    const double distance = std::abs(found.mean - exact[k]) / found.standard_error;
-    if (!std::isfinite(distance)) return std::numeric_limits<double>::infinity();  // a chain diverged
-    worst = std::max(worst, distance);
-  }
-  return worst;
-}
-
-double distance_of_hmc(const model& system, double step, double length, const moments_of& f,
-                       const Eigen::VectorXd& exact, std::uint64_t number) {
-  std::vector<Eigen::VectorXd> means(chains, Eigen::VectorXd::Zero(exact.size()));
-  constexpr std::int64_t draws = 2000;
-  hmc(system, by_verlet, around_rest(size(system), 0.5),
-      {.step = step,
-       .length = length,
-       .chains = chains,
-       .burn_in = 100,
-       .draws = draws,
-       .seed = seed(number)},
-      [&](const hmc_draw& draw) { means[static_cast<std::size_t>(draw.chain)] += f(draw.q) / draws; });
-  return worst_distance(means, exact);
-}
-
-Eigen::VectorXd lattice_moments(const Eigen::VectorXd& q) {
-  Eigen::VectorXd f(4);
-  f << q[0], q[0] * q[0], q[0] * q[3], q[1] * q[1] * q[2] * q[2];
-  return f;
-}
-
-/// By the trapezoidal rule, which converges faster than any power where the integrand decays.
-Eigen::VectorXd by_quadrature(const phi4_lattice& lattice) {
-  constexpr int nodes = 33;
-  constexpr double reach = 2.4;  // exp(-V) is below 1e-15 beyond
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(4);
-  double weights = 0.0;
-  Eigen::VectorXd q(4);
-  for (int i = 0; i < nodes * nodes * nodes * nodes; ++i) {
-    for (int k = 0, left = i; k < 4; ++k, left /= nodes)
-      q[k] = reach * (2.0 * (left % nodes) / (nodes - 1) - 1.0);
-    const double weight = std::exp(-lattice.potential<double>(q));
-    weights += weight;
-    sums += weight * lattice_moments(q);
-  }
-  return sums / weights;
-}
-
-/// The force of the lattice with the potential of another: proposals are accepted by a wrong energy.
-struct wrong_energy {
-  static constexpr int dimension = Eigen::Dynamic;
-  phi4_lattice forces{2, -2.0, 3.0};
-  phi4_lattice energies{2, -2.0, 2.7};
-  Eigen::Index size() const { return 4; }
-  template <class T>
-  void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
-    forces.force(q, f);
-  }
-  template <class T>
-  T potential(const vector<T, dimension>& q) const {
-    return energies.potential(q);
-  }
-};
-
-using draws_of_chains = std::vector<std::vector<double>>;
-
-/// The effective draws of four chains, whose tau is (1 + phi)/(1 - phi).
-double independent(double phi, int length) { return 4.0 * length * (1.0 - phi) / (1.0 + phi); }
-
-constexpr double memories[] = {-0.9, -0.5, 0.0, 0.5, 0.9};
-constexpr int lengths[] = {20, 50, 100, 200, 500};
-constexpr int repetitions = 50;
-
-/// Four chains of a memory, tau = (1 + phi)/(1 - phi), the n-th of a seed.
-draws_of_chains autoregressions(double phi, std::uint64_t of_seed, std::uint64_t n, int length) {
-  draws_of_chains all(4);
-  for (std::uint64_t k = 0; k < 4; ++k) {
-    autoregression<double> next(phi, of_seed, 4 * n + k);
-    for (int i = 0; i < length; ++i) all[k].push_back(next.next());
-  }
-  return all;
-}
-
-}  // namespace
 
 BOOST_AUTO_TEST_CASE(moments_of_a_small_lattice) {
   const wrong_energy wrong;

@@ -28,7 +28,6 @@ bool same_number(double a, double b) {
 /// Numbers of all kinds, the odd ones among them.
 template <int W>
 pack<double, W> drawn(draws& random, bool with_odd_ones = true) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
   constexpr double odd[] = {0.0, -0.0, infinite, -infinite, 1e-310, 1e300};
   pack<double, W> result;
   for (int k = 0; k < W; ++k) {
@@ -129,26 +128,6 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(masks_say_which, Lanes, all_widths) {
       BOOST_TEST((one & !one)[j] == false);
       BOOST_TEST((one | !one)[j] == true);
     }
-  }
-}
-
-// A pair of derivatives in each lane.
-BOOST_AUTO_TEST_CASE(duals_over_packs_have_the_bits_of_duals) {
-  constexpr int W = 5;
-  draws random;
-  using P = pack<double, W>;
-  const auto f = [](const auto& x, const auto& y) {
-    using std::abs, std::sqrt;
-    return abs(x - 2.0 * y) * sqrt(x * x + 1.0) / (y * y + 0.5);
-  };
-  const P a = drawn<W>(random, false);
-  const P b = drawn<W>(random, false);
-  const auto of_packs = f(dual<P, 2>::variable(a, 0), dual<P, 2>::variable(b, 1));
-  for (int k = 0; k < W; ++k) {
-    const auto of_doubles = f(dual<double, 2>::variable(a[k], 0), dual<double, 2>::variable(b[k], 1));
-    BOOST_TEST(same_number(of_packs.value[k], of_doubles.value));
-    BOOST_TEST(same_number(of_packs.derivative[0][k], of_doubles.derivative[0]));
-    BOOST_TEST(same_number(of_packs.derivative[1][k], of_doubles.derivative[1]));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,7 @@ class central_difference {
  public:
   central_difference(const F& f, const X& x, K k) : f_(f), x_(x), k_(k) {}
 
-  double operator()(double s) const {
+  std::invoke_result_t<F, X> operator()(double s) const {
     X ahead = x_;
     X behind = x_;
     ahead[k_] += s;

@@ -11,14 +11,17 @@
 
 namespace nysalt::test {
 
-template <class Exception>
-bool refuses(auto&& action, std::initializer_list<std::string_view> words) {
+/// Words of a refusal.
+using said = std::initializer_list<std::string_view>;
+
+template <class Exception = std::invalid_argument>
+bool refuses(auto&& action, said words) {
   try {
     action();
   } catch (const Exception& e) {
-    const std::string said = e.what();
-    BOOST_TEST_CONTEXT("said: " << said) {
-      for (const auto word : words) BOOST_TEST(said.find(word) != std::string::npos, "missing: " << word);
+    const std::string sentence = e.what();
+    BOOST_TEST_CONTEXT("said: " << sentence) {
+      for (const auto word : words) BOOST_TEST(sentence.find(word) != std::string::npos, "missing: " << word);
     }
     return true;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <boost/test/unit_test.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,11 @@
 
 namespace nysalt::test {
 
+using boost::test_tools::per_element, boost::test_tools::tolerance;
+
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
+inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Largest absolute row sum: how much a matrix can magnify the largest coordinate.
 inline double norm(const Eigen::MatrixXd& a) { return a.cwiseAbs().rowwise().sum().maxCoeff(); }

@@ -91,64 +91,6 @@ double off_springs(const springs<N>& system) {
   return off;
 }
 
-}  // namespace
-
-// Eigen's own vectors on the stack end at 128 KB, which 13 dual numbers of 13 derivatives in lanes exceed.
-BOOST_AUTO_TEST_CASE(a_fixed_dimension_may_be_large) {
-  constexpr double rounding = 1e-14;  // of some sums of numbers up to 4
-  BOOST_TEST(off_springs(springs<12>()) < rounding);
-  BOOST_TEST(off_springs(springs<13>()) < rounding);
-  BOOST_TEST(off_springs(springs<14>()) < rounding);
-  BOOST_TEST(off_springs(springs<16>()) < rounding);
-  BOOST_TEST(off_springs(springs<64>()) < rounding);
-  BOOST_TEST(off_springs(springs<64>{1.0 + 1e-6}) > 1e-7);
-}
-
-BOOST_AUTO_TEST_CASE(by_dual_numbers_the_derivative_is_the_hessians) {
-  draws random;
-  const auto check = [&](const auto& system) {
-    const auto [q, v] = random.state(system, 1.0);
-    const Eigen::VectorXd expected = -test::hessian(system, q) * v;
-    // Some ten products of numbers below 4 a coordinate.
-    const Eigen::VectorXd found = along<field::whole, double>(system, q, v);
-    BOOST_TEST((found - expected).norm() <= 40.0 * static_cast<double>(q.size()) * eps);
-    BOOST_TEST(expected.norm() > 1e-3);
-  };
-  check(potential_only());
-  check(dynamic_potential());
-  check(two_masses());
-  check_pendulum(pendulum(), 4.0 * eps, 8.0 * eps);
-}
-
-BOOST_AUTO_TEST_CASE(a_derivative_of_ones_own_goes_first) {
-  const vector<double, 2> q(0.3, 0.2);
-  const vector<double, 2> v(1.0, -2.0);
-  BOOST_TEST((along<field::whole, double>(by_itself(), q, v) == 7.0 * v));
-  BOOST_TEST((along<field::whole, double>(potential_only(), q, v) != 7.0 * v));
-  using D = dual<double, 1>;
-  const vector<D, 2> lifted(D::variable(1.0, 0), D(-2.0));
-  const auto found = along<field::whole, D>(by_itself(), q.cast<D>(), lifted);
-  BOOST_TEST(found[0].derivative[0] == 7.0);
-  // Where it is known over double alone, its derivatives are differences of it: s^2/6, twice, and eps/s.
-  constexpr double s = detail::part_of_displacement;
-  check_pendulum(black_box_with_derivative(), 4.0 * eps, 2.0 * s * s / 6.0 + 8.0 * eps / s);
-}
-
-BOOST_AUTO_TEST_CASE(the_derivative_of_a_black_box_is_a_difference) {
-  // s^2/6 and eps/s; and of differences of differences, 10 s along v and along dq, of length 1 and .3, whose
-  // cosine terms are (10 s)^2/6 and eps/(100 s^2).
-  constexpr double s = detail::part_of_displacement;
-  check_pendulum(black_box(), s * s / 6.0 + 4.0 * eps / s,
-                 100.0 * s * s / 6.0 * 2.0 + 8.0 * eps / (100.0 * s * s));
-  const vector<double, 1> none(0.0);
-  BOOST_TEST((along<field::whole, double>(black_box(), vector<double, 1>(0.4), none)[0] == 0.0));
-  BOOST_TEST(derivative_source<pendulum>() == "automatic differentiation");
-  BOOST_TEST(derivative_source<black_box>() == "central differences of the force");
-  BOOST_TEST(derivative_source<black_box_with_derivative>() == "the system's directional derivative");
-}
-
-namespace {
-
 /// Without the derivative by hand.
 template <class S>
 struct automatic {
@@ -180,51 +122,6 @@ void check_by_hand(const S& system, const Eigen::VectorXd& q) {
   }
   BOOST_TEST(size > 0.1);
 }
-
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(derivatives_by_hand_are_those_of_the_force) {
-  const auto all = [](const auto& system, const Eigen::VectorXd& q) {
-    check_by_hand<double>(system, q);
-    check_by_hand<pack<double, 4>>(system, q);
-  };
-  const Eigen::VectorXd waves = Eigen::VectorXd::LinSpaced(256, 0.0, 40.0).array().sin();
-  all(lennard_jones<2, 7>(), cluster_at_rest(lennard_jones<2, 7>()));
-  all(lennard_jones<>(3, 13), cluster_at_rest(lennard_jones<>(3, 13)));
-  all(fpu_chain<3>(50.0), waves.head(6));
-  all(fpu_chain<>(100, 2.0), waves.head(200));
-}
-
-BOOST_AUTO_TEST_CASE(the_derivative_of_the_soft_part_is_that_of_the_soft_force) {
-  const auto split = split_masses();
-  draws random;
-  const auto [q, v] = random.state(split, 1.0);
-  const vector<double, 2> soft = along<field::soft, double>(split, q, v);
-  for (Eigen::Index i = 0; i < 2; ++i) {
-    BOOST_TEST(std::abs(soft[i] + 3.0 * q[i] * q[i] * v[i]) <= 16.0 * eps);  // of terms that cancel
-  }
-  BOOST_TEST((along<field::whole, double>(split, q, v) - soft).norm() > 1e-3);
-}
-
-BOOST_AUTO_TEST_CASE(a_derivative_counts_what_is_called) {
-  const auto evaluations = [](const auto& system) {
-    using S = std::decay_t<decltype(system)>;
-    const counted<S> watched(system);
-    auto q = make_vector<double>(system);
-    q.setConstant(0.3);
-    along<field::whole, double>(watched, q, q);
-    return watched.evaluations;
-  };
-  BOOST_TEST(evaluations(potential_only()) == 1);
-  BOOST_TEST(evaluations(dynamic_potential()) == 1);
-  BOOST_TEST(evaluations(by_itself()) == 1);
-  BOOST_TEST(evaluations(black_box()) == 2);  // a difference
-  BOOST_TEST(evaluations(black_box_with_derivative()) == 1);
-}
-
-// Kicks.
-
-namespace {
 
 /// A chain with another force, whose inherited kick and derivative are not of that force.
 struct softer : fpu_chain<3> {
@@ -355,6 +252,99 @@ bool runs_alike(const model& system, const model& other, const tabulated& method
 }
 
 }  // namespace
+
+// Eigen's own vectors on the stack end at 128 KB, which 13 dual numbers of 13 derivatives in lanes exceed.
+BOOST_AUTO_TEST_CASE(a_fixed_dimension_may_be_large) {
+  constexpr double rounding = 1e-14;  // of some sums of numbers up to 4
+  BOOST_TEST(off_springs(springs<12>()) < rounding);
+  BOOST_TEST(off_springs(springs<13>()) < rounding);
+  BOOST_TEST(off_springs(springs<14>()) < rounding);
+  BOOST_TEST(off_springs(springs<16>()) < rounding);
+  BOOST_TEST(off_springs(springs<64>()) < rounding);
+  BOOST_TEST(off_springs(springs<64>{1.0 + 1e-6}) > 1e-7);
+}
+
+BOOST_AUTO_TEST_CASE(by_dual_numbers_the_derivative_is_the_hessians) {
+  draws random;
+  const auto check = [&](const auto& system) {
+    const auto [q, v] = random.state(system, 1.0);
+    const Eigen::VectorXd expected = -test::hessian(system, q) * v;
+    // Some ten products of numbers below 4 a coordinate.
+    const Eigen::VectorXd found = along<field::whole, double>(system, q, v);
+    BOOST_TEST((found - expected).norm() <= 40.0 * static_cast<double>(q.size()) * eps);
+    BOOST_TEST(expected.norm() > 1e-3);
+  };
+  check(potential_only());
+  check(dynamic_potential());
+  check(two_masses());
+  check_pendulum(pendulum(), 4.0 * eps, 8.0 * eps);
+}
+
+BOOST_AUTO_TEST_CASE(a_derivative_of_ones_own_goes_first) {
+  const vector<double, 2> q(0.3, 0.2);
+  const vector<double, 2> v(1.0, -2.0);
+  BOOST_TEST((along<field::whole, double>(by_itself(), q, v) == 7.0 * v));
+  BOOST_TEST((along<field::whole, double>(potential_only(), q, v) != 7.0 * v));
+  using D = dual<double, 1>;
+  const vector<D, 2> lifted(D::variable(1.0, 0), D(-2.0));
+  const auto found = along<field::whole, D>(by_itself(), q.cast<D>(), lifted);
+  BOOST_TEST(found[0].derivative[0] == 7.0);
+  // Where it is known over double alone, its derivatives are differences of it: s^2/6, twice, and eps/s.
+  constexpr double s = detail::part_of_displacement;
+  check_pendulum(black_box_with_derivative(), 4.0 * eps, 2.0 * s * s / 6.0 + 8.0 * eps / s);
+}
+
+BOOST_AUTO_TEST_CASE(the_derivative_of_a_black_box_is_a_difference) {
+  // s^2/6 and eps/s; and of differences of differences, 10 s along v and along dq, of length 1 and .3, whose
+  // cosine terms are (10 s)^2/6 and eps/(100 s^2).
+  constexpr double s = detail::part_of_displacement;
+  check_pendulum(black_box(), s * s / 6.0 + 4.0 * eps / s,
+                 100.0 * s * s / 6.0 * 2.0 + 8.0 * eps / (100.0 * s * s));
+  const vector<double, 1> none(0.0);
+  BOOST_TEST((along<field::whole, double>(black_box(), vector<double, 1>(0.4), none)[0] == 0.0));
+  BOOST_TEST(derivative_source<pendulum>() == "automatic differentiation");
+  BOOST_TEST(derivative_source<black_box>() == "central differences of the force");
+  BOOST_TEST(derivative_source<black_box_with_derivative>() == "the system's directional derivative");
+}
+
+BOOST_AUTO_TEST_CASE(derivatives_by_hand_are_those_of_the_force) {
+  const auto all = [](const auto& system, const Eigen::VectorXd& q) {
+    check_by_hand<double>(system, q);
+    check_by_hand<pack<double, 4>>(system, q);
+  };
+  const Eigen::VectorXd waves = Eigen::VectorXd::LinSpaced(256, 0.0, 40.0).array().sin();
+  all(lennard_jones<2, 7>(), cluster_at_rest(lennard_jones<2, 7>()));
+  all(lennard_jones<>(3, 13), cluster_at_rest(lennard_jones<>(3, 13)));
+  all(fpu_chain<3>(50.0), waves.head(6));
+  all(fpu_chain<>(100, 2.0), waves.head(200));
+}
+
+BOOST_AUTO_TEST_CASE(the_derivative_of_the_soft_part_is_that_of_the_soft_force) {
+  const auto split = split_masses();
+  draws random;
+  const auto [q, v] = random.state(split, 1.0);
+  const vector<double, 2> soft = along<field::soft, double>(split, q, v);
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    BOOST_TEST(std::abs(soft[i] + 3.0 * q[i] * q[i] * v[i]) <= 16.0 * eps);  // of terms that cancel
+  }
+  BOOST_TEST((along<field::whole, double>(split, q, v) - soft).norm() > 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE(a_derivative_counts_what_is_called) {
+  const auto evaluations = [](const auto& system) {
+    using S = std::decay_t<decltype(system)>;
+    const counted<S> watched(system);
+    auto q = make_vector<double>(system);
+    q.setConstant(0.3);
+    along<field::whole, double>(watched, q, q);
+    return watched.evaluations;
+  };
+  BOOST_TEST(evaluations(potential_only()) == 1);
+  BOOST_TEST(evaluations(dynamic_potential()) == 1);
+  BOOST_TEST(evaluations(by_itself()) == 1);
+  BOOST_TEST(evaluations(black_box()) == 2);  // a difference
+  BOOST_TEST(evaluations(black_box_with_derivative()) == 1);
+}
 
 // All systems of the library that have a kick.
 BOOST_AUTO_TEST_CASE(a_kick_is_that_of_the_force) {

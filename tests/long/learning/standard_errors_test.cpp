@@ -2,7 +2,7 @@
 // Compiled with -O1: 57 s at -O0, 11 s at -O1.
 // The errors that a fit reports are the scatter of fits to other data [li_lu_tao_ye_2023, theorem 3.1], and
 // those that take the weights for given are too small. How they fall with the number of trajectories:
-// verification/enough_data_test. In tier 1: the formula, in learning/curvature_test.
+// verification/enough_data_test. In tier 1: the formula, in learning/minima_test.
 #include <boost/test/unit_test.hpp>
 
 #include <boost/math/distributions/chi_squared.hpp>
