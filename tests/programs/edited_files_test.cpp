@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -131,6 +132,27 @@ void edit_journal_of(const std::string& name, const std::string& arguments) {
   BOOST_TEST(refused > 10U);
 }
 
+/// Edits the checkpoint c, signs it again and resumes by it, each time from the output that was there.
+void edit_checkpoint_in(const scratch& folder, const std::string& resume) {
+  const std::string sound = contents(folder / "c");
+  std::map<std::string, std::string> outputs;
+  for (const char* file : {"out.csv", "out.csv.part"}) {
+    if (fs::exists(folder / file)) outputs[file] = contents(folder / file);
+  }
+  const auto end = sound.find('\n');
+  std::size_t turn = 0;
+  std::size_t refused = 0;
+  for (const auto& [what, head] : edits_of(sound.substr(0, end), turn)) {
+    for (const char* file : {"out.csv", "out.csv.part"}) fs::remove(folder / file);
+    for (const auto& [file, text] : outputs) write(folder / file, text);
+    write(folder / "c", signed_again(head + sound.substr(end)));
+    const auto done = run(folder, resume);
+    if (done.code != 0) require_refused(done, "", what);
+    refused += done.code != 0 ? 1U : 0U;
+  }
+  BOOST_TEST(refused > 5U, resume);
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(an_edited_journal_is_refused_or_taken_whole) {
@@ -219,20 +241,7 @@ BOOST_AUTO_TEST_CASE(an_edited_checkpoint_is_refused_or_gone_on_with) {
     const scratch folder("edited_checkpoint");
     const std::string line = arguments + " --output out.csv --checkpoint c";
     BOOST_TEST_REQUIRE(is_killed_at(folder, "rename:4", line));
-    const std::string sound = contents(folder / "c");
-    const std::string part = contents(folder / "out.csv.part");
-    const auto end = sound.find('\n');
-    std::size_t turn = 0;
-    std::size_t refused = 0;
-    for (const auto& [what, head] : edits_of(sound.substr(0, end), turn)) {
-      fs::remove(folder / "out.csv");
-      if (!part.empty()) write(folder / "out.csv.part", part);
-      write(folder / "c", signed_again(head + sound.substr(end)));
-      const auto done = run(folder, line + " --resume");
-      if (done.code != 0) require_refused(done, "", what);
-      refused += done.code != 0 ? 1U : 0U;
-    }
-    BOOST_TEST(refused > 5U, line);
+    edit_checkpoint_in(folder, line + " --resume");
   }
 }
 
@@ -242,20 +251,7 @@ BOOST_AUTO_TEST_CASE(an_edited_checkpoint_of_a_finished_run_is_refused_or_the_ru
       "run --system henon_heiles --spread 2.5 --method verlet --step 0.3 --trajectories 5 --sample-every 7 "
       "--every 640 --output out.csv --checkpoint c --horizon ";
   BOOST_TEST_REQUIRE(run(folder, line + "30").code == 0);
-  const std::string sound = contents(folder / "c");
-  const std::string output = contents(folder / "out.csv");
-  const auto end = sound.find('\n');
-  std::size_t turn = 0;
-  std::size_t refused = 0;
-  for (const auto& [what, head] : edits_of(sound.substr(0, end), turn)) {
-    write(folder / "out.csv", output);
-    fs::remove(folder / "out.csv.part");
-    write(folder / "c", signed_again(head + sound.substr(end)));
-    const auto done = run(folder, line + "60 --resume");
-    if (done.code != 0) require_refused(done, "", what);
-    refused += done.code != 0 ? 1U : 0U;
-  }
-  BOOST_TEST(refused > 5U);
+  edit_checkpoint_in(folder, line + "60 --resume");
 }
 
 // Format 1 has the numbers of the batch under way alone.

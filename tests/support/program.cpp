@@ -22,6 +22,14 @@
 #if !defined NYSALT_FAULTS  // where nothing can be preloaded, and for nysalt_paper
 #define NYSALT_FAULTS ""
 #endif
+#if defined NYSALT_MPIEXEC  // for any user and any number of cores; Open MPI never frees some of its memory
+#define NYSALT_MPIRUN                                                                \
+  "env ASAN_OPTIONS=detect_leaks=0 OMPI_ALLOW_RUN_AS_ROOT=1 "                        \
+  "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none "  \
+  NYSALT_MPIEXEC " --oversubscribe --bind-to none -n"
+#else
+#define NYSALT_MPIRUN ""
+#endif
 #if defined NYSALT_HAS_HDF5
 #define NYSALT_HDF5 "1"
 #else
@@ -33,18 +41,13 @@ namespace nysalt::test {
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
-std::string& program() {
-  static std::string path = NYSALT_PROGRAM;
-  return path;
-}
-
 finished shell(const scratch& folder, const std::string& line, int limit) {
   const scratch streams(folder.path().filename().string() + "_streams");
   const std::string out = streams / "out";
   const std::string err = streams / "err";
   std::string whole = "cd '" + folder.path().string();
-  whole += "' && export nysalt='" + program() + "' source='" NYSALT_SOURCE_DIR "/tests/programs";
-  whole += "' faults='" NYSALT_FAULTS "' hdf5=" NYSALT_HDF5 " && { ";
+  whole += "' && export nysalt='" NYSALT_PROGRAM "' source='" NYSALT_SOURCE_DIR "/tests/programs";
+  whole += "' faults='" NYSALT_FAULTS "' hdf5=" NYSALT_HDF5 " mpirun='" NYSALT_MPIRUN "' && { ";
   whole += line + "\n} </dev/null >'";
   whole += out + "' 2>'";
   whole += err + "'";
@@ -61,11 +64,6 @@ finished run(const scratch& folder, const std::string& arguments) {
 finished run(const std::string& arguments) { return run(scratch("program"), arguments); }
 
 json json_of(const finished& done) { return json::parse(done.out, nullptr, false); }
-
-json recorded(const fs::path& file) {
-  const auto all = json::parse(contents(file.parent_path() / "manifest.json"), nullptr, false);
-  return all.is_object() ? all.value("files", json()).value(file.filename().string(), json()) : json();
-}
 
 namespace {
 

@@ -24,10 +24,7 @@ struct finished {
   std::string err;
 };
 
-/// What "$nysalt" is: NYSALT_PROGRAM, unless a test takes a copy of it.
-std::string& program();
-
-/// One line of the shell in the folder, where "$nysalt" is program(), with no input and a time limit in
+/// One line of the shell in the folder, where "$nysalt" is NYSALT_PROGRAM, with no input and a time limit in
 /// seconds that only a program which hangs can reach.
 finished shell(const scratch& folder, const std::string& line, int limit = 600);
 
@@ -39,9 +36,6 @@ finished run(const std::string& arguments);
 
 /// The one document that a run printed; discarded (is_discarded()) if it is none.
 nlohmann::ordered_json json_of(const finished& done);
-
-/// What the manifest of a folder records of a file; null if nothing.
-nlohmann::ordered_json recorded(const std::filesystem::path& file);
 
 /// What `nysalt arguments --json` printed; it must have ended well, and have said nothing else.
 inline nlohmann::ordered_json document(const std::string& arguments,
@@ -96,54 +90,9 @@ inline std::string without_times_in_csv(const std::string& text) {
   return rest;
 }
 
-/// A command line that must be refused: exit code 2, one line that says why, nothing printed or written.
-struct bad {
-  std::string arguments;
-  std::vector<std::string_view> words;  // that must be said
-};
-
 inline bool is_one_line(const std::string& text) {
   return std::count(text.begin(), text.end(), '\n') == 1 && text.ends_with('\n') &&
          std::none_of(text.begin(), text.end() - 1, [](unsigned char c) { return c < ' '; });
 }
-
-/// All must be refused, in one folder that stays as it is.
-inline void all_refused(const scratch& folder, const std::vector<bad>& cases) {
-  const auto before = folder.files();
-  for (const auto& [arguments, words] : cases) {
-    const finished done = run(folder, arguments);
-    BOOST_TEST_CONTEXT("nysalt " << arguments << "\nsaid: " << done.err) {
-      BOOST_TEST(done.code == 2);
-      BOOST_TEST(done.out == "");
-      BOOST_TEST(is_one_line(done.err));
-      BOOST_TEST(done.err.starts_with("nysalt: "));
-      for (const auto word : words) {
-        BOOST_TEST(done.err.find(word) != std::string::npos, "missing: " << word);
-      }
-      BOOST_TEST((folder.files() == before));
-    }
-  }
-}
-
-/// While it lives, "$nysalt" is a copy of the program that compiles plug-ins without optimisation: beside it
-/// lie other flags.
-class unoptimised_plugins {
- public:
-  unoptimised_plugins() : folder_("unoptimised") {
-    const std::filesystem::path whole = NYSALT_PROGRAM;
-    std::filesystem::copy_file(whole, folder_ / "nysalt", std::filesystem::copy_options::overwrite_existing);
-    std::ifstream flags(whole.parent_path() / "plugin.flags");
-    std::ofstream ours(folder_ / "plugin.flags");
-    for (std::string flag; std::getline(flags, flag);)
-      ours << (flag.starts_with("-O") ? "-O0" : flag) << '\n';
-    program() = folder_ / "nysalt";
-  }
-  unoptimised_plugins(const unoptimised_plugins&) = delete;
-  unoptimised_plugins& operator=(const unoptimised_plugins&) = delete;
-  ~unoptimised_plugins() { program() = NYSALT_PROGRAM; }
-
- private:
-  scratch folder_;
-};
 
 }  // namespace nysalt::test

@@ -8,7 +8,9 @@
 //   file t.json = {"format": "x"}\n     a file in the folder; `copy scheme.json` takes one of inputs/
 //   sh cp t.json u.json                 a line of the shell, which must end with 0; $nysalt is the program,
 //                                       $source tests/programs, $faults what is preloaded to kill or to stop
-//                                       it (faults/fail.cpp), $hdf5 whether it is built with HDF5, 1 or 0
+//                                       it (faults/fail.cpp), $hdf5 whether it is built with HDF5, 1 or 0,
+//                                       `$mpirun 3` starts three ranks: in tables named on_ranks.txt, which
+//                                       are left out where there is no MPI
 //   target m.json of scheme.json        the file that `text:` and `with:` write
 //   @ {learn}                           what each command below begins with, until the next @ or ==
 //   2 -0.02 | --step | positive         exit code, arguments, and what must be so
