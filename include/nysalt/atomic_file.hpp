@@ -26,6 +26,15 @@ int make_part(const std::filesystem::path& part, const std::filesystem::path& ta
 /// Whether the name is still that of the open file.
 bool has_name(int file, const std::filesystem::path& name);
 
+/// Outcome of asking for a lock.
+enum class lock_outcome {
+  taken,            ///< no other process holds the lock
+  held_by_another,  ///< another process holds it
+  unavailable       ///< the file system has no locks, as Lustre mounted without flock, or NFS without lockd
+};
+/// Asks for the exclusive lock of an open file, without waiting.
+lock_outcome ask_for_lock(int file);
+
 /// Whether a process holds the lock of a file, as one does that writes it.
 bool is_locked(const std::filesystem::path& file);
 

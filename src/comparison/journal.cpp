@@ -2,13 +2,13 @@
 #include "journal.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <string_view>
 
 #include "all_ranks.hpp"
+#include "nysalt/atomic_file.hpp"
 #include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/write_failure.hpp"
 #include "refusal.hpp"
@@ -65,7 +65,7 @@ std::string journal::open_file() {
         "--output");
   }
   file_.reset(fdopen(descriptor, "r+"));
-  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+  if (nysalt::detail::ask_for_lock(descriptor) == nysalt::detail::lock_outcome::held_by_another) {
     refuse("cannot write {}: another run is writing it; wait for that run, or name another --output",
            path_.string());
   }

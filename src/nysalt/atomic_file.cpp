@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <ctime>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -55,13 +56,20 @@ namespace {
       fmt::format("cannot write {}: the folder is not there, not writable, or full", file.string()));
 }
 
+/// Whether nothing was written for so long that no process is at it. For file systems without locks alone.
+bool is_old(const struct stat& file) {
+  constexpr std::time_t seconds = 10;  // far longer than from one piece of a table to the next
+  return std::time(nullptr) - file.st_mtim.tv_sec > seconds;
+}
+
 /// Removes what a process that was stopped left at the name; that of a living one is locked.
 void remove_left(const std::filesystem::path& part, const std::filesystem::path& target) {
   const int left = open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (left < 0 && errno == ENOENT) return;  // gone meanwhile
   struct stat found {};
   const bool is_file = left >= 0 && fstat(left, &found) == 0 && S_ISREG(found.st_mode);
-  const bool is_free = is_file && flock(left, LOCK_EX | LOCK_NB) == 0;
+  const lock_outcome lock = is_file ? ask_for_lock(left) : lock_outcome::held_by_another;
+  const bool is_free = lock == lock_outcome::taken || (lock == lock_outcome::unavailable && is_old(found));
   if (is_free && has_name(left, part)) unlink(part.c_str());
   if (left >= 0) close(left);
   if (!is_file)
@@ -110,6 +118,14 @@ std::string objection_to_replacing(const std::filesystem::path& file) {
   return "it is not a regular file; name another";
 }
 
+lock_outcome ask_for_lock(int file) {
+  while (flock(file, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EWOULDBLOCK) return lock_outcome::held_by_another;
+    if (errno != EINTR) return lock_outcome::unavailable;
+  }
+  return lock_outcome::taken;
+}
+
 bool is_locked(const std::filesystem::path& file) {
   const int opened = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (opened < 0) return false;
@@ -130,7 +146,7 @@ int make_part(const std::filesystem::path& part, const std::filesystem::path& ta
     const held_signals held;
     const int file = open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file >= 0) {
-      if (flock(file, LOCK_EX | LOCK_NB) == 0 && has_name(file, part)) {
+      if (ask_for_lock(file) != lock_outcome::held_by_another && has_name(file, part)) {
         name.emplace(part);
         return file;
       }

@@ -95,6 +95,16 @@ std::filesystem::path whole_path(const std::filesystem::path& path) {
   return whole;
 }
 
+/// Says once that nothing keeps two processes from writing one file, where the file system has no locks.
+void warn_of_missing_locks(int file, const std::filesystem::path& folder) {
+  static bool is_said = false;
+  if (is_said || nysalt::detail::ask_for_lock(file) != nysalt::detail::lock_outcome::unavailable) return;
+  is_said = true;
+  warn(fmt::format(
+      "the file system of {} has no locks: two commands that write one file there are not told apart",
+      folder.string()));
+}
+
 /// Why no file can be made in a folder; empty if one was made, and is gone. Permissions do not decide
 /// this: a file system may take no file even of the superuser.
 std::string objection_to_files_in(const std::filesystem::path& folder) {
@@ -110,6 +120,7 @@ std::string objection_to_files_in(const std::filesystem::path& folder) {
   }
   struct stat made {};
   const bool is_own = fstat(file, &made) != 0 || (made.st_mode & 0600U) == 0600U;
+  warn_of_missing_locks(file, folder);
   close(file);
   if (!is_own) {
     return fmt::format(

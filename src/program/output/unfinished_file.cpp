@@ -2,7 +2,6 @@
 #include "unfinished_file.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -99,7 +98,7 @@ unfinished_file::unfinished_file(const std::filesystem::path& file, origin from)
     refuse("cannot write {}: it is a link; remove it, or name another --output", part_.string());
   }
   if (file_.number < 0) fail();
-  if (flock(file_.number, LOCK_EX | LOCK_NB) != 0) {
+  if (nysalt::detail::ask_for_lock(file_.number) == nysalt::detail::lock_outcome::held_by_another) {
     refuse("cannot write {}: another run is writing it; wait for that run, or name another --output",
            part_.string());
   }
