@@ -243,10 +243,10 @@ struct heavy : nysalt::sum_of_parts<well, well> {
   explicit heavy(const well& part) : sum_of_parts(part, part) {}
   double mass(Eigen::Index) const { return 2.0; }
 };
-inline void use() {
+inline void use(const either<nysalt::sum_of_parts<well>, heavy>& sum) {
   nysalt::sum_of_parts(well(), either<well, sloped>());
   nysalt::sum_of_parts(well(), either<well, kicked>());
-  nysalt::make_stepper(either<nysalt::sum_of_parts<well>, heavy>(well()), nysalt::verlet(), 0.1);
+  nysalt::make_stepper(sum, nysalt::verlet(), 0.1);
 }
 }  // namespace members_of_a_sum
 

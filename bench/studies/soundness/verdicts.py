@@ -12,7 +12,7 @@ less than 1 % of the kinetic energy, must not be refused. The twin is the rule t
 and not whether it is large. Beside that each method is judged again by its coefficients in a table, by `run` and by
 `compare`, and a fit by its file: all must show the same judgement, and a fit that is usable must hold.
 With --seeds N a family is learned with each, and the verdicts of the seeds are compared; other commands are asked of
-the first.
+the first, and run from fresh starts.
 --most N: of the rows that are not there yet only N are made. --again: the judgements that are there are made again, and
 what was learned and run stays. Writes verdicts.csv, schemes/, to which a further call adds, and verdicts.md. Exit code 1 if a
 promise is broken.
@@ -168,7 +168,7 @@ def row_of(program, schemes, system, kind, name, part, step, seed, known=None):
         row["contradictions"] = " ".join(differ) or ("none" if int(seed) == 1 else "")
         if known and known["fresh_lost"] and int(known["steps"]) == judged["steps"]:
             row |= {"fresh_lost": known["fresh_lost"], "fresh_error": known["fresh_error"]}
-        elif judged["verdict"] != "unstable":
+        elif judged["verdict"] != "unstable" and int(seed) == 1:
             lost, largest, said = fresh_losses(program, system, method, step, LONGER * judged["steps"])
             row |= {"fresh_lost": lost if lost is not None else "", "fresh_error": largest if lost is not None else "",
                     "reason": row["reason"] or said}
