@@ -10,6 +10,7 @@
 #include "../src/comparison/refusal.hpp"
 #include "../src/comparison/seeds.hpp"
 #include "../src/plugin/build.hpp"
+#include "../src/program/systems.hpp"
 #include "arguments.hpp"
 #include "arrays.hpp"
 #include "computing.hpp"
@@ -31,6 +32,8 @@ namespace {
 std::unique_ptr<held_system> bundled(const py::dict& arguments) {
   auto made = std::make_unique<held_system>();
   made->settings = system_of(argument_reader(arguments));
+  // Every command takes the system as it is now, also where its file is edited or the current folder changes.
+  without_lock([&] { made->settings.declared = &declaration_in(made->settings); });
   made->model = make_system(made->settings);
   return made;
 }

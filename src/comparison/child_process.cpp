@@ -12,6 +12,10 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <sstream>
+#include <string_view>
+#include <system_error>
 
 #include "nysalt/detail/held_signals.hpp"
 
@@ -49,6 +53,38 @@ class anonymous_file {
   int descriptor_;
 };
 
+/// The program of a name, where the PATH has it now: the child may begin in another folder. The name if there
+/// is none.
+std::string on_the_path(const std::string& name) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (name.find('/') != std::string::npos) return fs::absolute(name, ignored).string();
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "/usr/bin:/bin");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path file = fs::absolute(folder.empty() ? "." : folder, ignored) / name;
+    if (fs::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0) return file.string();
+  }
+  return name;
+}
+
+/// The environment of this process, in which programs say in English what is searched here.
+std::vector<std::string> environment_in_english() {
+  std::vector<std::string> all{"LC_ALL=C.UTF-8"};
+  for (char** one = environ; *one != nullptr; ++one) {
+    if (!std::string_view(*one).starts_with("LC_ALL=")) all.emplace_back(*one);
+  }
+  return all;
+}
+
+/// As the C library takes texts.
+std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
+  std::vector<char*> all;
+  for (const auto& text : texts) all.push_back(const_cast<char*>(text.c_str()));
+  all.push_back(nullptr);
+  return all;
+}
+
 /// What the child does before the program begins; it has a process group of its own, which can be ended
 /// whole.
 class spawn_settings {
@@ -77,10 +113,10 @@ class spawn_settings {
   spawn_settings& operator=(const spawn_settings&) = delete;
 
   bool of(const std::vector<std::string>& command, pid_t& child) const {
-    std::vector<char*> arguments;
-    for (const auto& one : command) arguments.push_back(const_cast<char*>(one.c_str()));
-    arguments.push_back(nullptr);
-    return posix_spawnp(&child, arguments.front(), &actions_, &attributes_, arguments.data(), environ) == 0;
+    const std::string program = on_the_path(command.front());
+    const auto environment = environment_in_english();
+    return posix_spawn(&child, program.c_str(), &actions_, &attributes_, pointers_to(command).data(),
+                       pointers_to(environment).data()) == 0;
   }
 
  private:

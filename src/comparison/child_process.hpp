@@ -20,8 +20,9 @@ struct child_result {
 
 enum class error_output { kept, dropped };
 
-/// Runs a program, found on the PATH, in a folder, and waits for the end. The output is collected, with the
-/// standard error or without; the input is empty. A signal that ends this process ends the child first.
+/// Runs a program, found on the PATH from the folder of this process, in a folder, and waits for the end. Its
+/// messages are in English. The output is collected, with the standard error or without; the input is empty.
+/// A signal that ends this process ends the child first.
 child_result run_child(const std::vector<std::string>& command, const std::filesystem::path& folder,
                        error_output errors);
 

@@ -11,8 +11,8 @@ namespace nysalt::program {
 /// A path that is compiled before it is loaded.
 bool is_source(std::string_view path);
 
-/// The shared library of a source, in the user's cache: compiled unless the source, what it includes in
-/// quotes, the library and its flags are as they were. Throws refusal with the first error of the compiler,
+/// The shared library of a source, in the user's cache: compiled unless the source, what the compiler read
+/// for it, the library and its flags are as they were. Throws refusal with the first error of the compiler,
 /// and if there is no compiler, or no development files of nysalt. Cost: some five seconds.
 std::filesystem::path compiled(const std::filesystem::path& source);
 

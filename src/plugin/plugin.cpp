@@ -3,17 +3,23 @@
 
 #include <dlfcn.h>
 #include <link.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <mutex>
+#include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "build.hpp"
+#include "cache.hpp"
 #include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
 #include "force_library.hpp"
@@ -27,13 +33,68 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Which file lay at a path when it was loaded.
+struct identity_of_file {
+  std::string path;
+  dev_t device = 0;
+  ino_t number = 0;
+  off_t length = 0;
+  std::int64_t seconds = 0;  // of the last change
+  std::int64_t nanoseconds = 0;
+
+  bool operator==(const identity_of_file&) const = default;
+};
+
+identity_of_file identity_of(const fs::path& file) {
+  std::error_code ignored;
+  identity_of_file found{.path = fs::weakly_canonical(file, ignored).string()};
+  struct stat now {};
+  if (stat(file.c_str(), &now) != 0) return found;  // the loader says more
+  found.device = now.st_dev;
+  found.number = now.st_ino;
+  found.length = now.st_size;
+  found.seconds = now.st_mtim.tv_sec;
+  found.nanoseconds = now.st_mtim.tv_nsec;
+  return found;
+}
+
 struct loaded {
-  std::string path;  // as it was named
+  identity_of_file from;
   system_declaration declared;
 };
 
-std::vector<std::unique_ptr<loaded>>& all_loaded() {
-  static std::vector<std::unique_ptr<loaded>> all;
+/// What is loaded, for any number of threads. No thread waits here for what another one compiles or loads.
+class all_loaded {
+ public:
+  const system_declaration* known(const identity_of_file& file) const {
+    const std::lock_guard lock(guard_);
+    const auto found = std::ranges::find_if(all_, [&](const auto& one) { return one->from == file; });
+    return found == all_.end() ? nullptr : &(*found)->declared;
+  }
+  /// Whether another file was loaded from the path of this one.
+  bool was_replaced(const identity_of_file& file) const {
+    const std::lock_guard lock(guard_);
+    return std::ranges::any_of(all_, [&](const auto& one) { return one->from.path == file.path; });
+  }
+  const system_declaration& keep(loaded one) {
+    if (const auto* found = known(one.from)) return *found;  // another thread was first
+    const std::lock_guard lock(guard_);
+    return all_.emplace_back(std::make_unique<loaded>(std::move(one)))->declared;
+  }
+  std::vector<const system_declaration*> declarations() const {
+    const std::lock_guard lock(guard_);
+    std::vector<const system_declaration*> result;
+    for (const auto& one : all_) result.push_back(&one->declared);
+    return result;
+  }
+
+ private:
+  mutable std::mutex guard_;
+  std::vector<std::unique_ptr<loaded>> all_;
+};
+
+all_loaded& everything() {
+  static all_loaded all;
   return all;
 }
 
@@ -152,36 +213,41 @@ system_declaration declared_in(const fs::path& library_file, const std::string& 
   return declared;
 }
 
-/// A damaged library in the cache is compiled again, once.
-system_declaration load(const std::string& path, const std::string& shown) {
-  if (!is_source(path)) return declared_in(path, shown);
-  const fs::path kept = compiled(path);
-  try {
-    return declared_in(kept, shown);
-  } catch (const unloadable&) {
-    std::error_code ignored;
-    fs::remove(kept, ignored);
-  }
-  return declared_in(compiled(path), shown);
+/// Of the library at a path another one was loaded: the loader of the system would give that one again, so
+/// this one is loaded from a copy, by the name of its contents.
+fs::path copy_of(const fs::path& library) {
+  std::ifstream stream(library, std::ios::binary);
+  std::ostringstream contents;
+  contents << stream.rdbuf();
+  const fs::path copy = cache_folder() / (name_of(contents.view()) + ".so");
+  std::error_code ignored;
+  if (stream && !fs::exists(copy, ignored)) write_to_cache(copy, contents.view());
+  return copy;
+}
+
+const system_declaration& load(const fs::path& library, const std::string& shown) {
+  const identity_of_file file = identity_of(library);
+  if (const auto* known = everything().known(file)) return *known;
+  const bool is_another = everything().was_replaced(file);
+  return everything().keep({file, declared_in(is_another ? copy_of(library) : library, shown)});
 }
 
 }  // namespace
 
-void require_plugin(const std::string& path) { load(path, path); }
-
-const system_declaration& plugin_at(const std::string& path, const std::string& shown) {
-  auto& all = all_loaded();
+const system_declaration& plugin_at(const std::string& path, const std::string& name_shown) {
+  const std::string& shown = name_shown.empty() ? path : name_shown;
   note_input(path);
-  const auto known = std::ranges::find_if(all, [&](const auto& one) { return one->path == path; });
-  if (known != all.end()) return (*known)->declared;
-  return all.emplace_back(std::make_unique<loaded>(loaded{path, load(path, shown.empty() ? path : shown)}))
-      ->declared;
+  if (!is_source(path)) return load(path, shown);
+  const fs::path kept = compiled(path);
+  try {
+    return load(kept, shown);
+  } catch (const unloadable&) {  // a damaged library in the cache is compiled again, once
+    std::error_code ignored;
+    fs::remove(kept, ignored);
+  }
+  return load(compiled(path), shown);
 }
 
-std::vector<const system_declaration*> loaded_plugins() {
-  std::vector<const system_declaration*> result;
-  for (const auto& one : all_loaded()) result.push_back(&one->declared);
-  return result;
-}
+std::vector<const system_declaration*> loaded_plugins() { return everything().declarations(); }
 
 }  // namespace nysalt::program

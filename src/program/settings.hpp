@@ -17,6 +17,10 @@
 #include "given_starts.hpp"
 #include "plugin/potential.hpp"
 
+namespace nysalt {
+struct system_declaration;
+}
+
 namespace nysalt::program {
 
 class prepared_problem;
@@ -31,6 +35,7 @@ struct bath_settings {
 
 struct system_settings {
   std::string name = "fpu";
+  const system_declaration* declared = nullptr;  // of the name or the potential, where it is known already
   /// A system of the caller's own, under that name; empty: one of ours.
   std::function<std::unique_ptr<prepared_problem>(const surroundings&)> own = {};
   std::map<std::string, std::string> parameters{};  // by name, as typed

@@ -151,15 +151,6 @@ parameter_value value_of(const declared_parameter& parameter, const std::string&
   return value;
 }
 
-const system_declaration& declared_by(const system_settings& settings) {
-  const auto& potential = settings.potential;
-  if (!potential.text.empty()) return plugin_at(kept_source(source_of(potential)).string(), "--potential");
-  const bool has_more = !potential.variables.empty() || !potential.parameters.empty() ||
-                        !potential.masses.empty() || !potential.around.empty();
-  if (has_more) refuse("--variables, --parameter, --mass and --around must come with --potential");
-  return declaration_of(settings.name);
-}
-
 /// Of parameters, by name.
 std::map<std::string, std::string> typed_values(const system_settings& settings) {
   auto all = settings.parameters;
@@ -218,6 +209,16 @@ std::string source_of_kind(const system_declaration& declared, const parameter_v
 
 }  // namespace
 
+const system_declaration& declaration_in(const system_settings& settings) {
+  if (settings.declared != nullptr) return *settings.declared;
+  const auto& potential = settings.potential;
+  if (!potential.text.empty()) return plugin_at(kept_source(source_of(potential)).string(), "--potential");
+  const bool has_more = !potential.variables.empty() || !potential.parameters.empty() ||
+                        !potential.masses.empty() || !potential.around.empty();
+  if (has_more) refuse("--variables, --parameter, --mass and --around must come with --potential");
+  return declaration_of(settings.name);
+}
+
 const system_declaration& declaration_of(const std::string& name) {
   if (is_path_of_system(name)) return plugin_at(name);
   std::vector<std::string> names;
@@ -250,7 +251,7 @@ std::string options_of(const system_declaration& system) {
 std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
   surroundings conditions = surroundings_of(settings);
   if (settings.own) return settings.own(conditions);
-  const system_declaration& declared = declared_by(settings);
+  const system_declaration& declared = declaration_in(settings);
   conditions.is_bundled = declared.is_checked;
   const auto typed = typed_values(settings);
   require_options(settings, typed, declared);

@@ -15,6 +15,9 @@ namespace nysalt::program {
 /// The system that the settings name. Throws refusal for what it does not have.
 std::unique_ptr<prepared_problem> make_system(const system_settings& settings);
 
+/// What declares the system that the settings name; a source is compiled and a library loaded. Throws refusal
+/// if there is none.
+const system_declaration& declaration_in(const system_settings& settings);
 /// A bundled system, or one that a file declares, which is loaded. Throws refusal if there is none of that
 /// name, or what the file holds cannot be used.
 const system_declaration& declaration_of(const std::string& name);
