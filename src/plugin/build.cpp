@@ -47,9 +47,8 @@ void require_source(const fs::path& source) {
 }
 
 /// Compiles the contents that the files have had, unless they have changed in the end.
-bool compile(const dependencies& files, const std::string& contents, const fs::path& library,
-             const recipe& how) {
-  const fs::path& source = files.front();
+bool compile(const fs::path& source, const dependencies& files, const std::string& contents,
+             const fs::path& library, const recipe& how) {
   const cache_part made(library);
   std::vector<std::string> command = how.before;
   for (const char* flag :
@@ -57,7 +56,7 @@ bool compile(const dependencies& files, const std::string& contents, const fs::p
     command.emplace_back(flag);
   }
   command.push_back(fmt::format("-DNYSALT_PLUGIN_SOURCE=\"{}\"", name_of(contents)));
-  command.push_back(source.string());
+  command.push_back(files.front().string());
   for (const char* flag : {"-x", "none", "-Wl,--as-needed", "-Wl,-z,defs", "-Wl,--exclude-libs,ALL", "-o"}) {
     command.emplace_back(flag);
   }
@@ -112,7 +111,7 @@ fs::path compiled(const fs::path& source) {
     for (const auto& file : files) note_input(file);
     const std::string contents = contents_of(files);
     const fs::path library = folder / library_name(contents);
-    if (!fs::is_regular_file(library, ignored) && !compile(files, contents, library, how)) continue;
+    if (!fs::is_regular_file(library, ignored) && !compile(source, files, contents, library, how)) continue;
     keep_dependencies(list, {.files = files, .library = library.filename().string()});
     return library;
   }

@@ -22,6 +22,9 @@ namespace detail {
 
 /// Throws std::invalid_argument if an option is out of range.
 void require_burn_in(const burn_in_options& options);
+/// Throws std::runtime_error where the potential of chains that have gone far is another than that of the
+/// others, or no chain met a force.
+void refuse_escape(const watched_interval& later, const model& system);
 /// Throws std::runtime_error where a discrepancy of number i shows; `what` says what it is.
 void refuse_discrepancy(const discrepancy& found, std::size_t i, const char* what,
                         const burn_in_report& report);
@@ -154,6 +157,7 @@ class burn_in_search {
       detail::refuse_discrepancy(report.excess[i], i, "be that of equipartition", report);
       detail::refuse_discrepancy(report.to_forget[i], i, "not change afterwards", report);
     }
+    if (!report.confined) detail::refuse_escape(later, *base_);
   }
 
   const model* base_;

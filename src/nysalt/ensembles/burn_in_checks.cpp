@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -22,6 +23,22 @@ void detail::require_burn_in(const burn_in_options& options) {
   throw std::invalid_argument(
       fmt::format("gibbs: pilots must be 16 to 100000 and most_steps >= 1, got {} and {}", options.pilots,
                   options.most_steps));
+}
+
+void detail::refuse_escape(const watched_interval& later, const model& system) {
+  const auto& virials = later.square[static_cast<std::size_t>(watched::virial)];
+  if (std::ranges::all_of(virials, [](double one) { return one == 0.0; })) {
+    throw std::runtime_error(fmt::format(
+        "gibbs: the motion of {} must be confined, got chains that have all left and meet no force",
+        describe(system)));
+  }
+  const discrepancy potential = later.potential_of_the_far();
+  if (!potential.shows()) return;
+  throw std::runtime_error(fmt::format(
+      "gibbs: the motion of {} must be confined, or its potential the same wherever it goes, got chains that "
+      "leave: the "
+      "potential energy of the half that went farther is larger by {:.3g} +- {:.3g} kT for each coordinate",
+      describe(system), potential.mean, potential.standard_error));
 }
 
 void detail::refuse_discrepancy(const discrepancy& found, std::size_t i, const char* what,

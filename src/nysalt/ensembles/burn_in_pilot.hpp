@@ -75,7 +75,7 @@ class burn_in_pilot {
       read_way(here, first, finish);
     });
     require_all_alive();
-    result.way_to_begin = mean_over_chains(begin).mean;
+    result.way_to_begin = std::move(begin);
     result.way_to_end = mean_over_chains(finish).mean;
     return result;
   }

@@ -17,6 +17,21 @@ discrepancy mean_over_chains(const std::vector<double>& x) {
   return {mean, std::sqrt(squares / (n - 1.0) / n)};
 }
 
+discrepancy watched_interval::potential_of_the_far() const {
+  std::vector<double> sorted = way_to_begin;
+  const auto middle = sorted.begin() + std::ssize(sorted) / 2;
+  std::ranges::nth_element(sorted, middle);
+  std::vector<double> near;
+  std::vector<double> far;
+  const auto& potential = mean[static_cast<std::size_t>(watched::potential)];
+  for (std::size_t k = 0; k < potential.size(); ++k)
+    (way_to_begin[k] < *middle ? near : far).push_back(potential[k]);
+  if (near.size() < 2) return {};  // all have gone as far
+  const discrepancy a = mean_over_chains(far);
+  const discrepancy b = mean_over_chains(near);
+  return {a.mean - b.mean, std::hypot(a.standard_error, b.standard_error)};
+}
+
 double watched_interval::tau() const {
   double longest = 0.0;
   for (std::size_t i = 0; i < watched_numbers; ++i) {

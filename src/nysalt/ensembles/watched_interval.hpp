@@ -17,11 +17,15 @@ struct watched_interval {
   of_watched<std::vector<double>> begin;   ///< at its beginning, one number a chain
   of_watched<std::vector<double>> mean;    ///< over time, one a chain
   of_watched<std::vector<double>> square;  ///< mean square over time, one a chain
-  double way_to_begin = 0.0;               ///< mean of |q - q_0|^2 over chains, at the beginning
-  double way_to_end = 0.0;                 ///< the same at the end
+  std::vector<double> way_to_begin;        ///< |q - q_0|^2 at the beginning, one a chain
+  double way_to_end = 0.0;                 ///< its mean at the end
 
   /// A random walk doubles its variance over an interval that begins where half the time is over.
-  bool confined() const { return way_to_end < 1.5 * way_to_begin; }
+  bool confined() const { return way_to_end < 1.5 * mean_over_chains(way_to_begin).mean; }
+  /// Mean potential energy of the half of the chains that have gone farther, less that of the other half.
+  /// Where the motion is not confined it is 0 if the potential is the same wherever chains go, as that of
+  /// angles and of a centre of mass. Where chains leave the potential behind there is no Gibbs distribution.
+  discrepancy potential_of_the_far() const;
   /// Whether number i is meaningful: the virial is where the motion is confined.
   bool counts(std::size_t i) const { return i != static_cast<std::size_t>(watched::virial) || confined(); }
 

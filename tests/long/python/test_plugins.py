@@ -54,6 +54,45 @@ def test_a_source_is_built_and_loaded(tmp_path):
             nysalt.system(path, **more)
 
 
+WELL = """#include <nysalt/plugin.hpp>
+struct well {{
+  static constexpr int dimension = 1;
+  template <class T> T potential(const nysalt::vector<T, 1>& q) const {{ return q[0] * q[0] * {stiffness}; }}
+}};
+NYSALT_SYSTEM(well, "a well", starts([](const well&) {{
+  const nysalt::vector<double, 1> zero(0.0);
+  return normal_around<1>({{zero, zero}}, 0.1, 0.1);
+}}));
+"""
+
+
+def test_what_has_changed_is_another_system_and_what_is_held_stays(tmp_path, monkeypatch):
+    def force(system):
+        return -system.force([1.0])[0]
+
+    def first_kick(system):
+        run = nysalt.run(system, "verlet", step=1e-3, horizon=1e-3, q=[1.0], p=[0.0], observables=["p1"], checks=False)
+        return -run["p1"][0, -1] / 1e-3
+
+    for folder, stiffness in (("soft", 0.5), ("stiff", 50.0)):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "well.hpp").write_text(WELL.format(stiffness=stiffness))
+    monkeypatch.chdir(tmp_path / "soft")
+    soft = nysalt.system("well.hpp")
+    monkeypatch.chdir(tmp_path / "stiff")
+    stiff = nysalt.system("well.hpp")
+    assert (force(soft), force(stiff)) == (1.0, 100.0)
+    # Commands take the system that is held, whatever has become of its file and of the current folder.
+    (tmp_path / "stiff" / "well.hpp").write_text(WELL.format(stiffness=5.0))
+    assert np.isclose(first_kick(soft), 1.0, rtol=1e-5) and np.isclose(first_kick(stiff), 100.0, rtol=1e-3)
+    assert force(nysalt.system("well.hpp")) == 10.0
+    built = nysalt.build("well.hpp")
+    assert force(nysalt.system(built)) == 10.0
+    (tmp_path / "stiff" / "well.hpp").write_text(WELL.format(stiffness=25.0))
+    nysalt.build("well.hpp")  # replaces the library, which is loaded
+    assert force(nysalt.system(built)) == 50.0
+
+
 def test_a_potential_as_text():
     swing = nysalt.potential("0.5*k*(sqrt(x^2 + y^2) - 1)^2 + y", ["x", "y"], around={"y": -1}, k=400,
                              deviation_q=0.02, deviation_p=0.5)
