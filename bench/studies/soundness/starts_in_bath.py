@@ -82,7 +82,7 @@ bench/studies/soundness/starts_in_bath.py build/release/nysalt build/starts_in_b
 def right_at(exists, temperature):
     """The answers that are right."""
     if isinstance(exists, Well):
-        return ["g"] * (temperature < exists.depth / 3) + ["u"] * (temperature > exists.depth / 10)
+        return ["g"] * (temperature < exists.depth / 3) + ["u"] * (temperature >= exists.depth / 10)
     if isinstance(exists, float):
         return ["g" if temperature < exists else "u"]
     return ["g" if exists else "u"]
@@ -121,7 +121,9 @@ def main():
             cells = [one if one in right_at(exists, float(kT)) else f"{one} !" for one, kT in zip(found, temperatures)]
             wrong = sum(cell.endswith("!") for cell in cells)
             faults += wrong
-            says = {True: "yes", False: "no"}.get(exists, f"below {exists}" if isinstance(exists, float) else str(exists))
+            says = ("yes" if exists else "no") if isinstance(exists, bool) else str(exists)
+            if isinstance(exists, float):
+                says = f"below {exists:g}"
             print(f"| `{text}` | {says} | " + " | ".join(cells) + " |", file=page)
             print(f"{text:28} {says:26}", *cells, flush=True)
         print(f"\n{faults} of {len(POTENTIALS) * len(temperatures)} are faults.", file=page)
