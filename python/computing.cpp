@@ -8,6 +8,7 @@
 
 #include "../src/comparison/progress.hpp"
 #include "exit_while_computing.hpp"
+#include "nysalt/detail/rounding.hpp"
 
 namespace nysalt::python {
 
@@ -30,6 +31,7 @@ void compute_apart(const std::function<void()>& work) {
   bool ends = false;
   auto done = std::async(std::launch::async, [&] {
     const program::work_for work_scope(caller);
+    const nysalt::detail::usual_rounding rounding;
     work();
   });
   PyThreadState* const state = PyEval_SaveThread();
@@ -57,6 +59,7 @@ void compute(bool calls_python, const std::function<void()>& work) {
   if (!calls_python) return compute_apart(work);
   program::quiet_caller caller;
   const program::work_for work_scope(caller);
+  const nysalt::detail::usual_rounding rounding;
   work();
 }
 
@@ -65,6 +68,7 @@ void without_lock(const std::function<void()>& work) {
   std::exception_ptr thrown;
   PyThreadState* const state = PyEval_SaveThread();
   try {
+    const nysalt::detail::usual_rounding rounding;
     work();
   } catch (...) {
     thrown = std::current_exception();

@@ -2,6 +2,7 @@
 // Long computations, which Ctrl-C ends, and the interpreter's lock. A thread that wants the lock while Python
 // ends gets no answer: Python would end it by unwinding its stack, on which there are objects of Python and
 // functions that let nothing through. It stays here instead, until the process is gone.
+// All work rounds to nearest and keeps subnormal numbers, whatever other modules have set.
 #pragma once
 
 #include <pybind11/pybind11.h>

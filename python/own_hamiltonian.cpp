@@ -38,6 +38,19 @@ class own_hamiltonian {
 };
 static_assert(BlackBoxForce<own_hamiltonian> && NystromSystem<own_hamiltonian> && HasEnergy<own_hamiltonian>);
 
+}  // namespace
+
+}  // namespace nysalt::python
+
+/// Whoever calls holds the interpreter's lock, which another thread may get while a function of Python runs:
+/// that thread must not wait here, nor a function that asks its own system.
+template <>
+inline constexpr bool nysalt::detail::needs_lock<nysalt::python::own_hamiltonian> = false;
+
+namespace nysalt::python {
+
+namespace {
+
 class own_starts {
  public:
   explicit own_starts(std::shared_ptr<const own_functions> functions) : functions_(std::move(functions)) {}

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "../src/comparison/prepared_problem.hpp"
@@ -19,6 +20,15 @@ struct held_system {
   std::unique_ptr<program::prepared_problem> model;
   std::shared_ptr<functions_of_python> functions;  // null of a bundled one
   std::shared_ptr<const own_functions> own;        // that call them; null of a bundled one
+  std::unique_ptr<std::mutex> sees_frequencies = std::make_unique<std::mutex>();
+
+  /// The result of work(), which may find the frequencies that the model keeps: of one thread at a time. A
+  /// system of Python has the interpreter's lock, and must not wait for another.
+  auto seeing_frequencies(const auto& work) const {
+    if (calls_python()) return work();
+    const std::lock_guard lock(*sees_frequencies);
+    return work();
+  }
 
   bool calls_python() const { return functions != nullptr; }
 };

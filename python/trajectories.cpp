@@ -174,9 +174,11 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
   }
   std::vector<std::string> warnings;
   compute(system.calls_python(), [&] {
-    const auto source = program::find_method(command.method, command.held, system.model->letters());
-    const auto method = coefficients_at(source, *system.model, command.step, common.force,
-                                        program::placement_asked(command.placement), warnings);
+    const tabulated method = system.seeing_frequencies([&] {
+      const auto source = program::find_method(command.method, command.held, system.model->letters());
+      return coefficients_at(source, *system.model, command.step, common.force,
+                             program::placement_asked(command.placement), warnings);
+    });
     // From here on nothing is refused.
     if (q.data() != all_q.data()) std::ranges::copy(numbers_in(q), all_q.begin());
     if (p.data() != all_p.data()) std::ranges::copy(numbers_in(p), all_p.begin());
@@ -203,11 +205,12 @@ py::tuple judge(const held_system& system, const py::dict& arguments) {
   std::vector<std::string> warnings;
   compute(system.calls_python(), [&] {
     program::progress shown;
-    prepare_starts(*system.model, common, shown, warnings);
-    const auto source = program::find_method(command.method, command.held, system.model->letters());
-    const auto method = coefficients_at(source, *system.model, command.step, common.force,
+    const auto made = make_system(system.settings);
+    prepare_starts(*made, common, shown, warnings);
+    const auto source = program::find_method(command.method, command.held, made->letters());
+    const auto method = coefficients_at(source, *made, command.step, common.force,
                                         program::placement_asked(command.placement), warnings);
-    document = program::to_json(system.model->judged(method, command.step, common.threads)).dump();
+    document = program::to_json(made->judged(method, command.step, common.threads)).dump();
   });
   return py::make_tuple(document, list_of(warnings));
 }

@@ -63,6 +63,15 @@ judgement in_part(judgement found) {
   return found;
 }
 
+/// What find() gives, found once. While it runs, a function of the user may ask for the same.
+const auto& kept_in(auto& place, const auto& find) {
+  if (!place) {
+    auto found = find();
+    if (!place) place = std::move(found);
+  }
+  return *place;
+}
+
 }  // namespace
 
 std::string to_string(start where) {
@@ -208,6 +217,7 @@ void prepared_problem::prepare_starts(std::uint64_t seed) {
     why = problem.what();
   }
   if (why.empty()) return;
+  why.resize(std::min(why.size(), why.rfind("; ")));  // the remedy of a C++ program is none here
   if (!is_start_usual_)
     refuse("cannot draw initial states: {}; take another temperature, or --start law", why);
   take_law(why + "; take --start law to begin there without a search");
@@ -386,35 +396,36 @@ states_in_double prepared_problem::states_along_motion() const {
 }
 
 const prepared_problem::seen_frequencies& prepared_problem::highest_seen() const {
-  if (highest_seen_) return *highest_seen_;
-  auto& seen = highest_seen_.emplace();
-  std::vector<double> highest;
-  try {
-    const model system = made_.system.base();
-    for (const auto& of_state : frequencies_of_states(system, states_along_motion()).of_state) {
-      if (!of_state.empty()) highest.push_back(of_state.back());
+  return kept_in(highest_seen_, [&]() -> seen_frequencies {
+    std::vector<double> highest;
+    try {
+      const model system = made_.system.base();
+      for (const auto& of_state : frequencies_of_states(system, states_along_motion()).of_state) {
+        if (!of_state.empty()) highest.push_back(of_state.back());
+      }
+    } catch (const std::invalid_argument&) {  // the force has no derivative there
     }
-  } catch (const std::invalid_argument&) {  // the force has no derivative there
-  }
-  if (highest.empty()) return seen;
-  std::ranges::sort(highest);
-  seen = {highest[highest.size() / 2], highest.back(), is_followed() ? "along the motion" : "of the starts"};
-  return seen;
+    if (highest.empty()) return {};
+    std::ranges::sort(highest);
+    return {highest[highest.size() / 2], highest.back(),
+            is_followed() ? "along the motion" : "of the starts"};
+  });
 }
 
 const std::vector<frequency_band>& prepared_problem::bands_along_motion() const {
-  if (bands_along_motion_) return *bands_along_motion_;
-  const model system = made_.system.base();
-  auto& bands = bands_along_motion_.emplace();
-  if (has_frequency_bands(system) || size(system) > most_for_all_frequencies || is_black_box(system))
+  return kept_in(bands_along_motion_, [&]() -> std::vector<frequency_band> {
+    const model system = made_.system.base();
+    if (has_frequency_bands(system) || size(system) > most_for_all_frequencies || is_black_box(system))
+      return {};
+    std::vector<frequency_band> bands;
+    const states_in_double states = states_along_motion();
+    try {
+      if (!states.empty()) bands = stability_guard(system, states, false).frequencies();
+    } catch (const std::invalid_argument&) {  // the force has no derivative there: the run will show it
+    }
+    if (bands.size() == 1) bands.clear();
     return bands;
-  const states_in_double states = states_along_motion();
-  try {
-    if (!states.empty()) bands = stability_guard(system, states, false).frequencies();
-  } catch (const std::invalid_argument&) {  // the force has no derivative there: the run will show it
-  }
-  if (bands.size() == 1) bands.clear();
-  return bands;
+  });
 }
 
 stability_guard prepared_problem::guard(const run_time_word& word) const {

@@ -25,6 +25,7 @@
 #include "force_library.hpp"
 #include "named_signals.hpp"
 #include "names.hpp"
+#include "nysalt/detail/rounding.hpp"
 #include "nysalt/plugin.hpp"
 
 namespace nysalt::program {
@@ -189,6 +190,8 @@ system_declaration declared_in(const fs::path& library_file, const std::string& 
   if (!is_whole(file))
     throw unloadable(message("cannot load {} as a library: the file is cut off; build it again", shown));
   name_signals(shown);
+  // A library that was compiled with -ffast-math flushes subnormal numbers from its loading on.
+  const nysalt::detail::usual_rounding rounding;
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
     throw unloadable(message("cannot load {} as a library: {}; build it again", shown, why_not_loaded(file)));

@@ -232,6 +232,21 @@ BOOST_AUTO_TEST_CASE(a_burn_in_that_is_too_short_is_refused) {
   BOOST_TEST(enough.report().length < 10.2);
 }
 
+// Starts of energies about 5 in baths up to 10^300 times colder, in units of kT.
+BOOST_AUTO_TEST_CASE(a_bath_may_be_much_colder_than_the_starts) {
+  for (const double cold : {1e-3, 1e-6, 1e-12, 1e-30, 1e-100, 1e-300}) {
+    const gibbs ensemble(at(cold, oscillator), around_0, {.pilots = 64, .seed = seed(1)});
+    std::vector<double> potentials;
+    for (std::uint64_t n = 0; n < 1600; ++n)
+      potentials.push_back(oscillator.potential(ensemble(seed(3), n).q) / cold);
+    const double off = mean_off(potentials, 0.5, std::sqrt(covariance(potentials, potentials)));
+    BOOST_TEST(off <= standard_errors(false_alarms), "kT = " << cold << ": off by " << off);
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const discrepancy overflowed : {discrepancy{1.0, infinity}, discrepancy{std::nan(""), 1.0}})
+    BOOST_TEST(overflowed.shows());
+}
+
 // Most thermal frequency sqrt(3 q^2) is about 2: a step of 1 is too large, and 1/4 shows no bias.
 BOOST_AUTO_TEST_CASE(a_step_with_a_bias_is_halved) {
   const gibbs coarse(at(1.0, quartic{}), around_0, {.friction = 1.0, .step = 1.0});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Threads that share trajectories: each is followed once, the first exception is the one that is thrown, a
-// black box with memory is used by one thread at a time, and no handler of signals runs where it must wait.
+// black box with memory is used by one thread at a time, all round alike, and no handler of signals runs
+// where it must wait.
+#include <cfenv>
 #include <chrono>
 #include <future>
 #include "../support/refusal.hpp"
@@ -114,6 +116,43 @@ BOOST_AUTO_TEST_CASE(a_black_box_with_memory_is_used_by_one_thread_at_a_time) {
     for (int i = 0; i < 2000; ++i) one.potential(vector<double, 1>(2.0));
   });
   BOOST_TEST(black_box_with_memory::meetings > 0);
+}
+
+// Forces, energies and derivatives are asked for by four threads at once.
+BOOST_AUTO_TEST_CASE(all_functions_of_a_shared_black_box_have_one_lock) {
+  const model system{black_box_with_memory()};
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
+  const auto ask = [&](std::int64_t which) {
+    Eigen::VectorXd f(1);
+    Eigen::VectorXd g(1);
+    if (which == 0) force<double>(system, one, f);
+    if (which == 1) static_cast<void>(system.potential(one));
+    if (which == 2) static_cast<void>(system.kernels<double>().energy(one, one));
+    if (which == 3) system.directional_derivative(one, one, one, g);
+  };
+  black_box_with_memory::meetings = 0;
+  for_each_block(64, 1, 4, [&](std::int64_t m, int) {
+    for (int i = 0; i < 2000; ++i) ask(m % 4);
+  });
+  BOOST_TEST(black_box_with_memory::meetings == 0);
+}
+
+BOOST_AUTO_TEST_CASE(work_rounds_to_nearest_and_must_leave_it_so) {
+  for (const int threads : {1, 3}) {
+    std::fesetround(FE_UPWARD);
+    std::atomic<int> off = 0;
+    for_each_block(100, 8, threads, [&](std::int64_t, int) { off += std::fegetround() != FE_TONEAREST; });
+    const int after = std::fegetround();
+    std::fesetround(FE_TONEAREST);
+    BOOST_TEST(off == 0);
+    BOOST_TEST(after == FE_UPWARD);  // the caller's
+    const auto changes = [](std::int64_t first, int) {
+      std::fesetround(first < 48 ? FE_TONEAREST : FE_DOWNWARD);
+    };
+    BOOST_TEST(refuses([&] { for_each_block(100, 8, threads, changes); },
+                       {"floating-point environment", "got rounding downward"}));
+    BOOST_TEST(std::fegetround() == FE_TONEAREST);
+  }
 }
 
 namespace {

@@ -25,8 +25,8 @@ force_check check_force(const model& system, const std::vector<Eigen::VectorXd>&
 /// two points or more, of the motion, give the unit; of one it is how far it is from the origin. Cost: some N
 /// forces and potentials a point, at most 64 of them.
 ///
-/// Throws std::invalid_argument if there are no points, if there is not a momentum for each, or if one has
-/// not the system's dimension.
+/// Throws std::invalid_argument if there are no points, if there is not a momentum for each, if one has not
+/// the system's dimension, or if a function of the system changes how numbers are rounded.
 template <SeparableSystem S>
 force_check check_force(const S& system, const std::vector<vector<double, S::dimension>>& points,
                         const std::vector<vector<double, S::dimension>>& momenta,

@@ -16,7 +16,8 @@ namespace nysalt {
 ///
 /// If a body throws, its trajectories are run again, one after the other, so that what leaves the
 /// loop is the exception of the first trajectory that has one, for any width and threads; some beyond it are
-/// not visited. Throws std::invalid_argument if threads or width are below 1.
+/// not visited. Each body begins with rounding to nearest and with subnormal numbers kept, whatever the
+/// thread has. Throws std::invalid_argument if threads or width are below 1, or if a body changes that.
 void for_each_block(std::int64_t count, int width, int threads,
                     const std::function<void(std::int64_t, int)>& body,
                     const std::function<void(std::int64_t)>& progress = {});

@@ -87,8 +87,15 @@ struct no_mutex {
   void unlock() {}
 };
 
-/// The functions of S over T. A black box may have memory: threads that share a copy, as for energies, ask it
-/// for forces and energies one at a time. To be stepped, each has a copy of its own.
+/// A black box may have memory: threads that share a copy call its functions one at a time. Not so where all
+/// callers hold another lock already.
+template <class S>
+inline constexpr bool needs_lock = BlackBoxForce<S>;
+template <class S>
+using lock_of = std::conditional_t<needs_lock<S>, std::mutex, no_mutex>;
+
+/// The functions of S over T, under the lock that all kernels of the system share. To be stepped, each thread
+/// has a copy of its own, without a lock.
 template <class S, class T>
 class typed_kernels final : public kernels<T> {
   static constexpr int N = S::dimension;
@@ -106,8 +113,8 @@ class typed_kernels final : public kernels<T> {
   }();
 
  public:
-  /// Refers to the system.
-  explicit typed_kernels(const held_system<S>& system) : system_(&system) {}
+  /// Refers to both.
+  typed_kernels(const held_system<S>& system, lock_of<S>& guard) : system_(&system), guard_(&guard) {}
 
   void advance(column& q, column& p, column& f, flow_room<T, Eigen::Dynamic>& room,
                const step_program<C>& letters, std::int64_t steps, const callback& other,
@@ -147,6 +154,7 @@ class typed_kernels final : public kernels<T> {
   }
   void force_along(field of, const column& q, const column& v, column& g,
                    lifted_room<T, Eigen::Dynamic>& room, double reach) const final {
+    const auto one_at_a_time = lock();
     if constexpr (serves_force) {
       if constexpr (ForceDerivativeOver<S, T, field::soft>) {
         if (of == field::soft) return along<field::soft>(q, v, g, room, reach);
@@ -158,6 +166,7 @@ class typed_kernels final : public kernels<T> {
     refuse_kernel();
   }
   void drift(column& q, const column& p, const C& c) const final {
+    const auto one_at_a_time = lock();
     if constexpr (serves) {
       positions_in_place<T, N> x{as_fixed<N>(q), as_fixed<N>(p)};
       no_room room;
@@ -167,6 +176,7 @@ class typed_kernels final : public kernels<T> {
     }
   }
   void velocity(const column& p, column& v) const final {
+    const auto one_at_a_time = lock();
     if constexpr (serves) {
       nysalt::velocity<T>((*system_), as_fixed<N>(p), as_fixed<N>(v));
     } else {
@@ -231,11 +241,10 @@ class typed_kernels final : public kernels<T> {
     return result;
   }
 
-  using mutex = std::conditional_t<BlackBoxForce<S>, std::mutex, no_mutex>;
-  std::lock_guard<mutex> lock() const { return std::lock_guard<mutex>(mutex_); }
+  std::lock_guard<lock_of<S>> lock() const { return std::lock_guard(*guard_); }
 
   const held_system<S>* system_;
-  [[no_unique_address]] mutable mutex mutex_;
+  lock_of<S>* guard_;
 };
 
 /// S as an any_system.
@@ -246,12 +255,17 @@ class typed_system final : public any_system {
       : any_system(of_one_, of_lanes_, of_slopes_, of_lanes_with_slopes_), system_(system) {}
 
   std::int64_t calls() const override {
+    const auto one_at_a_time = lock();
     if constexpr (BlackBoxForce<S>) return system_.evaluations;
     return 0;
   }
-  std::unique_ptr<any_system> clone() const override { return std::make_unique<typed_system>(system_); }
+  std::unique_ptr<any_system> clone() const override {
+    const auto one_at_a_time = lock();
+    return std::make_unique<typed_system>(system_);
+  }
   void directional_derivative(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& f,
                               Eigen::VectorXd& g) const override {
+    const auto one_at_a_time = lock();
     if constexpr (BlackBoxForce<S>) {
       constexpr int N = S::dimension;
       nysalt::directional_derivative(system_, as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(f), as_fixed<N>(g));
@@ -260,6 +274,7 @@ class typed_system final : public any_system {
     }
   }
   normal_modes modes() const override {
+    const auto one_at_a_time = lock();
     if constexpr (HasModes<S>) {
       return system_.modes();
     } else {
@@ -267,6 +282,7 @@ class typed_system final : public any_system {
     }
   }
   std::vector<frequency_band> frequency_bands(const bath* in) const override {
+    const auto one_at_a_time = lock();
     if constexpr (HasBath<S>) {
       if constexpr (requires {
                       { system_.base() } -> HasFrequencyBands;
@@ -284,6 +300,7 @@ class typed_system final : public any_system {
     return nullptr;
   }
   void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const override {
+    const auto one_at_a_time = lock();
     if constexpr (HasKick<S, double>) {
       system_.kick(as_fixed<S::dimension>(q), as_fixed<S::dimension>(p), c);
     } else {
@@ -292,7 +309,10 @@ class typed_system final : public any_system {
   }
 
  private:
+  std::lock_guard<lock_of<S>> lock() const { return std::lock_guard(guard_); }
+
   held_system<S> system_;
+  [[no_unique_address]] mutable lock_of<S> guard_;
   struct not_local {
     explicit not_local(const held_system<S>&) {}
   };
@@ -304,10 +324,10 @@ class typed_system final : public any_system {
     }
   }
   [[no_unique_address]] typename decltype(sites_of())::type sites_{system_};
-  typed_kernels<S, double> of_one_{system_};
-  typed_kernels<S, lanes> of_lanes_{system_};
-  typed_kernels<S, slopes> of_slopes_{system_};
-  typed_kernels<S, lanes_with_slopes> of_lanes_with_slopes_{system_};
+  typed_kernels<S, double> of_one_{system_, guard_};
+  typed_kernels<S, lanes> of_lanes_{system_, guard_};
+  typed_kernels<S, slopes> of_slopes_{system_, guard_};
+  typed_kernels<S, lanes_with_slopes> of_lanes_with_slopes_{system_, guard_};
 };
 
 /// The system without its type: its kernels do not depend on the bath that it is in.

@@ -14,8 +14,8 @@ struct burn_in_options {
   double friction =
       0.0;            ///< friction of the chains; 0: the one of four with the shortest autocorrelation time
   double step = 0.0;  ///< initial step; 0: omega h = 1/2 at the highest frequency, declared or at the starts
-  double length = 0.0;                   ///< a time; 0: 20 times the longest autocorrelation time
-  int pilots = 256;                      ///< number of chains that are measured
+  double length = 0.0;  ///< a time; 0: 20 times the longest autocorrelation time, or more from hot starts
+  int pilots = 256;     ///< number of chains that are measured
   std::int64_t most_steps = 10'000'000;  ///< largest number of steps of a pilot until it is stationary
   std::uint64_t seed = 1;                ///< seed of the pilots
   int threads = 1;                       ///< threads for the pilots; changes no bit
@@ -38,8 +38,9 @@ using of_watched = std::array<T, watched_numbers>;
 struct discrepancy {
   double mean = 0.0;            ///< mean over chains
   double standard_error = 0.0;  ///< standard error of that mean
-  /// Whether the mean is significant: 4.5 standard errors, which chance exceeds once in 150'000 times.
-  bool shows() const { return !(std::abs(mean) <= 4.5 * standard_error); }
+  /// Whether the mean is significant: 4.5 standard errors, which chance exceeds once in 150'000 times. One
+  /// whose numbers have overflowed is.
+  bool shows() const { return !(std::abs(mean) <= 4.5 * standard_error && std::isfinite(standard_error)); }
 };
 
 /// Length and parameters of a burn-in, and what the pilots showed.

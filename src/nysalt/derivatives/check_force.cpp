@@ -11,6 +11,7 @@
 
 #include "force_source.hpp"
 #include "nysalt/detail/modal_coordinates.hpp"
+#include "nysalt/detail/rounding.hpp"
 #include "nysalt/detail/sentence.hpp"
 
 namespace nysalt::detail {
@@ -242,6 +243,7 @@ force_check check_force(const model& system, const std::vector<Eigen::VectorXd>&
         sentence("check_force: a state must have {} coordinates, as the system has, got {}", size(system),
                  seen.dimension()));
   }
+  const usual_rounding rounding;
   std::vector<Eigen::VectorXd> places = points;
   std::vector<Eigen::VectorXd> all_momenta = momenta;
   for (const auto& x : seen) {
@@ -267,6 +269,7 @@ force_check check_force(const model& system, const std::vector<Eigen::VectorXd>&
   force_check result = examined(0.0);
   constexpr double little = 1e-3;  // farther than differences reach
   if (!result.passed()) result.passes_beside = examined(little).passed();
+  rounding.require();
   return result;
 }
 

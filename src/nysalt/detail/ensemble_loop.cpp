@@ -13,6 +13,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "nysalt/detail/rounding.hpp"
 #include "with_threads.hpp"
 
 namespace nysalt {
@@ -29,10 +30,15 @@ void for_each_block(std::int64_t count, int width, int threads,
   };
   const auto go_through = [&](std::int64_t block) {
     const int size = size_of(block);
+    const auto rounded_as_usual = [&](std::int64_t first, int trajectories) {
+      const detail::usual_rounding rounding;
+      body(first, trajectories);
+      rounding.require();
+    };
     try {
-      body(block * width, size);
+      rounded_as_usual(block * width, size);
     } catch (...) {
-      for (int k = 0; size > 1 && k < size; ++k) body(block * width + k, 1);
+      for (int k = 0; size > 1 && k < size; ++k) rounded_as_usual(block * width + k, 1);
       throw;
     }
   };

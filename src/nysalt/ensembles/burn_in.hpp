@@ -54,7 +54,7 @@ class burn_in_search {
       report.step *= 0.5;
       ++report.halvings;
     }
-    const double length = options_.length > 0.0 ? options_.length : 20.0 * report.tau;
+    const double length = options_.length > 0.0 ? options_.length : times_of_tau() * report.tau;
     report.steps = std::max<std::int64_t>(1, std::llround(std::ceil(length / report.step)));
     report.length = static_cast<double>(report.steps) * report.step;
     check(report);
@@ -64,6 +64,13 @@ class burn_in_search {
 
  private:
   static constexpr int most_biased = 6;  // halvings because of a bias
+
+  /// Over tau energies fall to a part 1/e^2 of what the starts had above those of the bath: the starts of a
+  /// bath that is 10^4 times colder and more take longer.
+  double times_of_tau() const {
+    constexpr double most = std::numeric_limits<double>::max();
+    return std::max(20.0, 10.0 + std::log(std::clamp(hottest_, 1.0, most)));
+  }
 
   burn_in_pilot<T> pilot(double friction, double step, int count) {
     // Far from the numbers of chains that anybody uses, and from those of other pilots.
@@ -76,10 +83,10 @@ class burn_in_search {
   std::optional<watched_interval> stationary(double friction, double step, int count, double most) {
     constexpr std::int64_t observations = 256;
     auto chains = pilot(friction, step, count);
-    chains.watch(observations, observations);
+    hottest_ = std::max(hottest_, chains.watch(observations, observations).largest_at_begin());
     for (std::int64_t every = 1; 2 * every * observations <= options_.most_steps; every *= 2) {
       const auto interval = chains.watch(2 * every * observations, every);
-      if (interval.duration >= 32.0 * interval.tau()) return interval;
+      if (interval.duration >= 32.0 * interval.tau() && !interval.is_hot()) return interval;
       if (interval.duration > 32.0 * most) return std::nullopt;
     }
     throw std::runtime_error(
@@ -117,6 +124,9 @@ class burn_in_search {
         const discrepancy a = mean_over_chains(coarse.mean[i]);
         const discrepancy b = mean_over_chains(fine.mean[i]);
         report.bias[i] = {a.mean - b.mean, std::hypot(a.standard_error, b.standard_error)};
+        if (i == static_cast<std::size_t>(watched::potential))
+          report.bias[i].mean +=
+              (coarse.zero - fine.zero) / (temperature_ * static_cast<double>(size(*base_)));
         // The momenta of the chains are not used.
         if (i != static_cast<std::size_t>(watched::kinetic) && counts(report, i))
           sound = sound && !report.bias[i].shows();
@@ -166,7 +176,8 @@ class burn_in_search {
   burn_in_options options_;
   Eigen::VectorXd slowest_;
   std::int64_t pilots_ = 0;
-  int biased_ = 0;  // steps that showed a bias
+  int biased_ = 0;        // steps that showed a bias
+  double hottest_ = 0.0;  // kT for each coordinate: the highest energy at a start
 };
 
 }  // namespace nysalt

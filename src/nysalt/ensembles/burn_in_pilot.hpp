@@ -55,7 +55,6 @@ class burn_in_pilot {
                                                     base, temperature, friction, step, options.seed);
       blocks_.push_back({chains, start, here, chains->open(start, first_noise + first, here)});
     }
-    zero_ = lane(potential_of(*chains_, blocks_.front().start), 0);
   }
 
   /// Goes on to step `end`, watching from here on. Throws chain_diverged, naming the first that did.
@@ -68,6 +67,7 @@ class burn_in_pilot {
     std::vector<double> finish(chains);
     const std::int64_t before = blocks_.front().run.step();
     result.duration = static_cast<double>(end - before) * chains_->step();
+    result.zero = zero_ = lane(potential_of(*blocks_.front().chains, blocks_.front().run.synchronous()), 0);
     for_each_block(count_, width, threads_, [&](std::int64_t first, int) {
       block& here = blocks_[static_cast<std::size_t>(first / width)];
       read_way(here, first, begin);
@@ -166,7 +166,7 @@ class burn_in_pilot {
   int count_;
   const Eigen::VectorXd* slowest_;
   std::vector<block> blocks_;
-  double zero_ = 0.0;  // of the potential: a large constant in it would drown what varies
+  double zero_ = 0.0;  // of the potential: a large constant in it, or a hot start, would drown what varies
 };
 
 }  // namespace nysalt

@@ -32,6 +32,14 @@ discrepancy watched_interval::potential_of_the_far() const {
   return {a.mean - b.mean, std::hypot(a.standard_error, b.standard_error)};
 }
 
+double watched_interval::largest_at_begin() const {
+  double largest = 0.0;
+  for (const watched what : {watched::virial, watched::potential}) {
+    for (const double one : begin[static_cast<std::size_t>(what)]) largest = std::max(largest, std::abs(one));
+  }
+  return largest;
+}
+
 double watched_interval::tau() const {
   double longest = 0.0;
   for (std::size_t i = 0; i < watched_numbers; ++i) {

@@ -14,6 +14,7 @@ discrepancy mean_over_chains(const std::vector<double>& x);
 /// Chains over an interval of time.
 struct watched_interval {
   double duration = 0.0;                   ///< how long it is
+  double zero = 0.0;                       ///< the potential of which potentials are differences, an energy
   of_watched<std::vector<double>> begin;   ///< at its beginning, one number a chain
   of_watched<std::vector<double>> mean;    ///< over time, one a chain
   of_watched<std::vector<double>> square;  ///< mean square over time, one a chain
@@ -28,6 +29,15 @@ struct watched_interval {
   discrepancy potential_of_the_far() const;
   /// Whether number i is meaningful: the virial is where the motion is confined.
   bool counts(std::size_t i) const { return i != static_cast<std::size_t>(watched::virial) || confined(); }
+
+  /// The momenta are much hotter than the bath still, or their energies beyond all numbers: the bath cools
+  /// what began at other energies, and how long that is remembered cannot be seen before.
+  bool is_hot() const {
+    constexpr double much = 100.0;  // kT; what was still hotter is forgotten as fast as all else
+    return !(mean_over_chains(mean[static_cast<std::size_t>(watched::kinetic)]).mean <= much);
+  }
+  /// Largest potential energy or virial at the beginning, in kT for each coordinate.
+  double largest_at_begin() const;
 
   /// Longest of T Var(mean over T)/Var: the integrated autocorrelation time, if it is much shorter than T,
   /// and T if nothing is forgotten. Its relative error is sqrt(2/chains).
