@@ -25,6 +25,12 @@ if(NYSALT_BUILD_PROGRAMS AND UNIX AND NOT APPLE)
   set_tests_properties(long_inputs_unbounded_is_found PROPERTIES PASS_REGULAR_EXPRESSION "11 inputs tried, 5 wrong")
 endif()
 
+# Every output where the file system has no locks, and where a lock is held.
+if(TARGET nysalt_faults)
+  add_long_test(long_locks Python3::Interpreter -B ${folder}/locks/locks.py $<TARGET_FILE:nysalt_program>
+    ${CMAKE_CXX_COMPILER} $<TARGET_FILE:nysalt_faults> ${CMAKE_CURRENT_BINARY_DIR}/locks)
+endif()
+
 # Exported methods in other programs, where these are installed (./dev hosts).
 if(TARGET nysalt_python)
   foreach(host IN ITEMS ase lammps openmm)
