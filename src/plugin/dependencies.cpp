@@ -142,11 +142,12 @@ std::string environment_of_compiler() {
 // The file holds the name of the library, and a line for each dependency but the source; what lies below the
 // folder of the source is named from there, so that a copy of all of it elsewhere has the same library.
 std::optional<kept_dependencies> dependencies_kept_in(const fs::path& file, const fs::path& source) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return std::nullopt;
   std::ifstream lines(file);
   kept_dependencies found{.files = {whole(source)}, .library = {}};
   if (!std::getline(lines, found.library)) return std::nullopt;
   const fs::path folder = found.files.front().parent_path();
-  std::error_code ignored;
   for (std::string line; std::getline(lines, line);) {
     const fs::path one = folder / line;
     if (!fs::is_regular_file(one, ignored)) return std::nullopt;
