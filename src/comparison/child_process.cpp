@@ -53,26 +53,39 @@ class anonymous_file {
   int descriptor_;
 };
 
-/// The program of a name, where the PATH has it now: the child may begin in another folder. The name if there
-/// is none.
+/// The folders of PATH that are named from the root. In one that is named from the current folder, as an empty
+/// one is, a file may lie that the user does not mean to run. Without any, those of the system.
+std::string whole_folders_of_path() {
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  std::string whole;
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (folder.starts_with('/')) whole += (whole.empty() ? "" : ":") + folder;
+  }
+  return whole.empty() ? "/usr/bin:/bin" : whole;
+}
+
+/// The program of a name, where the PATH has it; empty if there is none.
 std::string on_the_path(const std::string& name) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   if (name.find('/') != std::string::npos) return fs::absolute(name, ignored).string();
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path != nullptr ? path : "/usr/bin:/bin");
+  std::istringstream folders(whole_folders_of_path());
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const fs::path file = fs::absolute(folder.empty() ? "." : folder, ignored) / name;
+    const fs::path file = fs::path(folder) / name;
     if (fs::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0) return file.string();
   }
-  return name;
+  return {};
 }
 
-/// The environment of this process, in which programs say in English what is searched here.
-std::vector<std::string> environment_in_english() {
-  std::vector<std::string> all{"LC_ALL=C.UTF-8"};
+/// The environment of this process, in which programs say in English what is searched here (LANGUAGE would win
+/// over LC_ALL), and find others, as a compiler its assembler, in whole folders alone.
+std::vector<std::string> environment_of_child() {
+  std::vector<std::string> all{"LC_ALL=C.UTF-8", "PATH=" + whole_folders_of_path()};
   for (char** one = environ; *one != nullptr; ++one) {
-    if (!std::string_view(*one).starts_with("LC_ALL=")) all.emplace_back(*one);
+    const std::string_view text(*one);
+    if (!text.starts_with("LC_ALL=") && !text.starts_with("LANGUAGE=") && !text.starts_with("PATH="))
+      all.emplace_back(text);
   }
   return all;
 }
@@ -114,7 +127,7 @@ class spawn_settings {
 
   bool of(const std::vector<std::string>& command, pid_t& child) const {
     const std::string program = on_the_path(command.front());
-    const auto environment = environment_in_english();
+    const auto environment = environment_of_child();
     return posix_spawn(&child, program.c_str(), &actions_, &attributes_, pointers_to(command).data(),
                        pointers_to(environment).data()) == 0;
   }

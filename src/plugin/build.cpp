@@ -28,7 +28,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Nothing for what is no regular file, as a FIFO, whose reader waits.
 std::optional<std::string> text_of_file(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return std::nullopt;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return std::nullopt;
   std::ostringstream text;

@@ -58,14 +58,28 @@ std::vector<std::string> folders_of_others(const recipe& how) {
   return folders;
 }
 
-/// Whether a file has one of the names by which another file may have been found, from the folder of a
-/// source.
-bool is_hidden_now(const fs::path& file, const fs::path& folder) {
+/// Where the compiler looks for what the source includes, but the folders of the flags.
+std::vector<fs::path> searched_folders(const fs::path& of_source) {
+  std::vector<fs::path> all{of_source};
+  for (const char* name : {"CPATH", "CPLUS_INCLUDE_PATH"}) {
+    const char* const value = std::getenv(name);
+    std::istringstream folders(value != nullptr ? value : "");
+    for (std::string folder; std::getline(folders, folder, ':');)
+      all.emplace_back(folder.empty() ? "." : folder);
+  }
+  return all;
+}
+
+/// Whether another file has one of the names by which a file may have been found, in any of the folders: which
+/// of the two the compiler takes now, it must be asked.
+bool may_be_hidden(const fs::path& file, const std::vector<fs::path>& folders) {
   fs::path name = file.filename();
   std::error_code ignored;
   for (fs::path above = file.parent_path(); above.has_relative_path(); above = above.parent_path()) {
-    const fs::path nearer = folder / name;
-    if (fs::exists(nearer, ignored) && !fs::equivalent(nearer, file, ignored)) return true;
+    const bool has_other = std::ranges::any_of(folders, [&](const fs::path& folder) {
+      return fs::exists(folder / name, ignored) && !fs::equivalent(folder / name, file, ignored);
+    });
+    if (has_other) return true;
     name = above.filename() / name;
   }
   return false;
@@ -142,21 +156,25 @@ std::string environment_of_compiler() {
 // The file holds the name of the library, and a line for each dependency but the source; what lies below the
 // folder of the source is named from there, so that a copy of all of it elsewhere has the same library.
 std::optional<kept_dependencies> dependencies_kept_in(const fs::path& file, const fs::path& source) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return std::nullopt;
   std::ifstream lines(file);
   kept_dependencies found{.files = {whole(source)}, .library = {}};
   if (!std::getline(lines, found.library)) return std::nullopt;
   const fs::path folder = found.files.front().parent_path();
-  std::error_code ignored;
+  const auto folders = searched_folders(folder);
   for (std::string line; std::getline(lines, line);) {
     const fs::path one = folder / line;
     if (!fs::is_regular_file(one, ignored)) return std::nullopt;
-    if (fs::path(line).is_absolute() && is_hidden_now(one, folder)) return std::nullopt;
+    if (may_be_hidden(one, folders)) return std::nullopt;
     found.files.push_back(one);
   }
   return found;
 }
 
 void keep_dependencies(const fs::path& file, const kept_dependencies& found) {
+  // What a source asks for by __has_include may come later: it is asked again each time.
+  if (contents_of(found.files).find("__has_include") != std::string::npos) return;
   const std::string folder = found.files.front().parent_path().string() + '/';
   std::string text = found.library + '\n';
   for (std::size_t i = 1; i < found.files.size(); ++i) {

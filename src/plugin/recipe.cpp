@@ -33,11 +33,12 @@ fs::path own_file() {
   return fs::weakly_canonical(file, ignored);
 }
 
-/// Whether the file is of the user, of root or of who owns this code, and no one else may write it.
+/// Whether it is a regular file of the user, of root or of who owns this code, and no one else may write it.
 bool is_trusted(const fs::path& file, const fs::path& code) {
   struct stat found {};
   struct stat own {};
   if (stat(file.c_str(), &found) != 0 || stat(code.c_str(), &own) != 0) return false;
+  if (!S_ISREG(found.st_mode)) return false;  // who reads a FIFO waits
   const bool is_known = found.st_uid == 0 || found.st_uid == geteuid() || found.st_uid == own.st_uid;
   return is_known && (found.st_mode & S_IWOTH) == 0U;
 }

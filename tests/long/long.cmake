@@ -25,6 +25,30 @@ if(NYSALT_BUILD_PROGRAMS AND UNIX AND NOT APPLE)
   set_tests_properties(long_inputs_unbounded_is_found PROPERTIES PASS_REGULAR_EXPRESSION "11 inputs tried, 5 wrong")
 endif()
 
+# Every output where the file system has no locks, and where a lock is held.
+if(TARGET nysalt_faults)
+  add_long_test(long_locks Python3::Interpreter -B ${folder}/locks/locks.py $<TARGET_FILE:nysalt_program>
+    ${CMAKE_CXX_COMPILER} $<TARGET_FILE:nysalt_faults> ${CMAKE_CURRENT_BINARY_DIR}/locks)
+endif()
+
+# Systems of users: every way to include a file, and a new formula by many processes at once, of which a program that refuses
+# all but one must be found.
+if(NYSALT_BUILD_PROGRAMS AND UNIX AND NOT APPLE)
+  add_long_test(long_plugins_includes
+    Python3::Interpreter -B ${folder}/plugins/includes.py $<TARGET_FILE:nysalt_program> ${CMAKE_CURRENT_BINARY_DIR}/includes)
+  set(new_formula Python3::Interpreter -B ${folder}/plugins/new_formula.py)
+  set(launcher "")
+  if(TARGET nysalt::mpi)
+    set(launcher ${MPIEXEC_EXECUTABLE})
+  endif()
+  add_long_test(long_plugins_new_formula
+    ${new_formula} $<TARGET_FILE:nysalt_program> "${launcher}" ${CMAKE_CURRENT_BINARY_DIR}/new_formula)
+  add_long_test(long_plugins_refusing_is_found
+    ${new_formula} ${folder}/plugins/refusing.py "${launcher}" ${CMAKE_CURRENT_BINARY_DIR}/refusing --repetitions 1)
+  set_tests_properties(long_plugins_new_formula long_plugins_refusing_is_found PROPERTIES ENVIRONMENT "${of_mpirun}")
+  set_tests_properties(long_plugins_refusing_is_found PROPERTIES PASS_REGULAR_EXPRESSION "repetition 1: 1 of 8 processes")
+endif()
+
 # Exported methods in other programs, where these are installed (./dev hosts).
 if(TARGET nysalt_python)
   foreach(host IN ITEMS ase lammps openmm)
