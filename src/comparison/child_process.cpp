@@ -53,8 +53,8 @@ class anonymous_file {
   int descriptor_;
 };
 
-/// The folders of PATH that are named from the root. In one that is named from the current folder, as an empty
-/// one is, a file may lie that the user does not mean to run. Without any, those of the system.
+/// The folders of PATH that are named from the root. In one that is named from the current folder, as an
+/// empty one is, a file may lie that the user does not mean to run. Without any, those of the system.
 std::string whole_folders_of_path() {
   const char* const path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "");
@@ -78,8 +78,8 @@ std::string on_the_path(const std::string& name) {
   return {};
 }
 
-/// The environment of this process, in which programs say in English what is searched here (LANGUAGE would win
-/// over LC_ALL), and find others, as a compiler its assembler, in whole folders alone.
+/// The environment of this process, in which programs say in English what is searched here (LANGUAGE would
+/// win over LC_ALL), and find others, as a compiler its assembler, in whole folders alone.
 std::vector<std::string> environment_of_child() {
   std::vector<std::string> all{"LC_ALL=C.UTF-8", "PATH=" + whole_folders_of_path()};
   for (char** one = environ; *one != nullptr; ++one) {

@@ -70,8 +70,8 @@ std::vector<fs::path> searched_folders(const fs::path& of_source) {
   return all;
 }
 
-/// Whether another file has one of the names by which a file may have been found, in any of the folders: which
-/// of the two the compiler takes now, it must be asked.
+/// Whether another file has one of the names by which a file may have been found, in any of the folders:
+/// which of the two the compiler takes now, it must be asked.
 bool may_be_hidden(const fs::path& file, const std::vector<fs::path>& folders) {
   fs::path name = file.filename();
   std::error_code ignored;

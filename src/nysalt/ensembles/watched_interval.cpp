@@ -32,6 +32,17 @@ discrepancy watched_interval::potential_of_the_far() const {
   return {a.mean - b.mean, std::hypot(a.standard_error, b.standard_error)};
 }
 
+bool watched_interval::is_hot() const {
+  constexpr double bias = 0.1;  // of steps that are halved for it later
+  for (const watched what : {watched::kinetic, watched::virial}) {
+    const auto i = static_cast<std::size_t>(what);
+    discrepancy above = mean_over_chains(mean[i]);
+    above.mean -= 1.0 + bias;
+    if (counts(i) && !(above.mean <= 0.0) && above.shows()) return true;
+  }
+  return false;
+}
+
 double watched_interval::largest_at_begin() const {
   double largest = 0.0;
   for (const watched what : {watched::virial, watched::potential}) {

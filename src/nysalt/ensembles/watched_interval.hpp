@@ -30,12 +30,9 @@ struct watched_interval {
   /// Whether number i is meaningful: the virial is where the motion is confined.
   bool counts(std::size_t i) const { return i != static_cast<std::size_t>(watched::virial) || confined(); }
 
-  /// The momenta are much hotter than the bath still, or their energies beyond all numbers: the bath cools
-  /// what began at other energies, and how long that is remembered cannot be seen before.
-  bool is_hot() const {
-    constexpr double much = 100.0;  // kT; what was still hotter is forgotten as fast as all else
-    return !(mean_over_chains(mean[static_cast<std::size_t>(watched::kinetic)]).mean <= much);
-  }
+  /// Whether the bath still cools what began at higher energies, all chains alike, which tau() does not see:
+  /// the kinetic temperature, or the virial, shows above that of the bath. Numbers that have overflowed do.
+  bool is_hot() const;
   /// Largest potential energy or virial at the beginning, in kT for each coordinate.
   double largest_at_begin() const;
 
