@@ -227,7 +227,7 @@ void run_output::commit() {
     part_->finish();
   } else {
     part_->require_own();
-    put_by_trajectory(part_->part(), output_);
+    put_by_trajectory(part_->part(), output_, shape_.trajectories);
   }
 }
 
