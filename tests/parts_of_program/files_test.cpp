@@ -17,6 +17,7 @@
 #include "../support/sanitizers.hpp"
 #include "../support/scratch.hpp"
 #include "comparison/journal.hpp"
+#include "comparison/origin.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
 #include "nysalt/detail/write_failure.hpp"
@@ -143,6 +144,35 @@ BOOST_AUTO_TEST_CASE(rows_are_sorted_in_any_room) {
   }
   BOOST_TEST(contents(folder / "o.csv") == table_of());
   BOOST_TEST(folder.files().size() == 2U);
+}
+
+// Of files that this program wrote, an older one, another one, and this one on another machine.
+BOOST_AUTO_TEST_CASE(another_origin_is_told) {
+  const scratch folder("origins");
+  write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 7}}, {});
+  json head = head_of_checkpoint(folder / "c", "run");
+  BOOST_TEST(warning_of_origin(head, "c").empty());
+  BOOST_TEST(warning_of_origin(json::object(), "c").empty());
+  const auto says = [](const json& of, const std::string& text) {
+    return warning_of_origin(of, "c").find(text) != std::string::npos;
+  };
+  head["functions"] = "00000000";
+  BOOST_TEST(says(head, "c was written on a machine whose C library rounds exp"));
+  head["nysalt"] = "0.0.1";
+  BOOST_TEST(says(head, "c was written by nysalt 0.0.1, this is "));
+}
+
+BOOST_AUTO_TEST_CASE(parts_of_a_journal_have_an_origin) {
+  const scratch folder("origin_of_journal");
+  const json question{{"seed", 1}};
+  journal(folder / "here", question, true);
+  BOOST_TEST(journal(folder / "here", question, true).warning().empty());
+  json line = parsed(contents(folder / "here"));
+  line["functions"] = "00000000";
+  line.erase("checksum");
+  line["checksum"] = checksum(line);
+  std::ofstream(folder / "there") << line.dump() << '\n';
+  BOOST_TEST(journal(folder / "there", question, true).warning().find("another way") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(every_option_that_differs_is_named) {

@@ -211,8 +211,8 @@ void run_output::reached(const run_progress& at, bool ends) {
   saved_at_ = {at.first, step};
   samples_->flush();
   part_->put_on_disk();
-  warn_of_version(state_.version, checkpoint_);  // only now: the run has taken what it was given
-  state_.version.clear();
+  if (!state_.warning.empty()) warn(state_.warning);  // only now: the run has taken what it was given
+  state_.warning.clear();
   part_->keep();
   is_fresh_ = false;
   fresh_name_.reset();
