@@ -239,7 +239,7 @@ void run_output::finish() {
   if (part_ && !state_.in_order) part_->remove();
 }
 
-void run_output::describe(json& document) const {
+void run_output::describe(json& document) {
   samples_->describe(document);
   if (!output_.empty()) document["output"] = output_;
 }

@@ -86,10 +86,10 @@ class sample_table final : public sample_writer {
     return result;
   }
 
-  void describe(json& document) const override {
+  void describe(json& document) override {
     document["columns"] = {"trajectory", "step", "t"};
     for (const auto& name : shape_.observables) document["columns"].push_back(name);
-    if (!write_) document["rows"] = rows_;
+    if (!write_) document["rows"] = std::move(rows_);
   }
 
  private:
