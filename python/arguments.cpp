@@ -12,6 +12,7 @@
 #include "../src/comparison/comparison.hpp"
 #include "../src/program/bundled_systems.hpp"
 #include "../src/program/mpi_session.hpp"
+#include "refused.hpp"
 
 namespace nysalt::python {
 
@@ -38,8 +39,12 @@ bool is_no_number(const py::handle& value) {
   return py::isinstance<py::str>(value) || is_truth(value) || type.starts_with("numpy.complex");
 }
 
+/// Throws what the value raised instead of being converted, unless that says that it cannot be.
 [[noreturn]] void refuse_kind(const char* name, const char* kind, const py::handle& value) {
-  PyErr_Clear();
+  if (PyErr_Occurred() != nullptr) {
+    const py::error_already_set raised;
+    if (!says_not_convertible(raised)) throw raised;
+  }
   refuse("{} must be {}, got {}", name, kind, shown(value));
 }
 

@@ -2,6 +2,7 @@
 #include "arrays.hpp"
 
 #include "../src/comparison/refusal.hpp"
+#include "refused.hpp"
 
 namespace nysalt::python {
 
@@ -59,11 +60,19 @@ std::string what_it_holds(const py::array& array) {
   }
 }
 
+py::array array_of(const py::handle& given, const std::string& name) {
+  try {
+    return py::array(py::reinterpret_borrow<py::object>(given));
+  } catch (const py::error_already_set& raised) {
+    if (!says_not_convertible(raised)) throw;
+    refuse("{} must hold real numbers, got {}", name, Py_TYPE(given.ptr())->tp_name);
+  }
+}
+
 }  // namespace
 
 numbers_array numbers_of(const py::handle& given, const std::string& name) {
-  const auto array = py::array::ensure(given);
-  if (!array) refuse("{} must hold real numbers, got {}", name, Py_TYPE(given.ptr())->tp_name);
+  const auto array = array_of(given, name);
   const bool is_real = std::string("biuf").find(array.dtype().kind()) != std::string::npos;
   if (!is_real) refuse("{} must hold real numbers, got {}", name, what_it_holds(array));
   return numbers_array(array);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "refused.hpp"
 
-#include <pybind11/pybind11.h>
-
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "../src/comparison/argument_names.hpp"
@@ -13,6 +13,11 @@ namespace nysalt::python {
 
 std::string in_words_of_python(const std::string& text) {
   return program::with_arguments(text, program::in_python);
+}
+
+bool says_not_convertible(const pybind11::error_already_set& raised) {
+  const std::array kinds{PyExc_TypeError, PyExc_ValueError, PyExc_OverflowError};
+  return std::ranges::any_of(kinds, [&](PyObject* kind) { return raised.matches(kind); });
 }
 
 void raise_refusals() {

@@ -9,11 +9,13 @@
     run["stiff_energy"]          # trajectories x samples
 
 The functions are those of the program `nysalt`, with its defaults and its numbers to the last bit; an argument
-that is None is left to its default. Bad input is a ValueError of one sentence. Long calls release the
+whose default is None is left to that of the program. Bad input is a ValueError of one sentence. Long calls release the
 interpreter's lock, except for a Hamiltonian of your own. Ctrl-C ends them when the block of trajectories, the
 interval of steps or the pass over the data is done; this may take as long as that does.
 """
 
+import functools as _functools
+import inspect as _inspect
 import itertools as _itertools
 import json as _json
 import os as _os
@@ -49,6 +51,20 @@ __all__ = ["Run", "Scheme", "System", "Table", "build", "compare", "export", "fa
 Texts = Union[str, Sequence[str]]
 _seeds = _itertools.count(2**40)  # of calls of integrate() without a seed: far from those that people give
 Numbers = Union[float, Sequence[float]]
+
+
+@_functools.lru_cache(maxsize=None)
+def _never_none(function: Callable[..., Any]) -> Tuple[str, ...]:
+    """The arguments of a function that must have a value: all whose default is not None."""
+    return tuple(name for name, one in _inspect.signature(function).parameters.items()
+                 if one.default is not None and one.kind is not one.VAR_KEYWORD)
+
+
+def _require_values(function: Callable[..., Any], given: Mapping[str, Any]) -> None:
+    """Refuses None where it stands for no default; `given` are the arguments of a call of the function, by name."""
+    for name in _never_none(function):
+        if given[name] is None:
+            raise ValueError(f"{name} must have a value, got None")
 
 
 # ---- What there is by name.
@@ -125,6 +141,7 @@ class System:
         With a seed `run` and `compare` begin at those of the role "test"; `learn` learns from "training" and
         judges on "held_out".
         """
+        _require_values(System.starts, locals())
         q, p, warnings = self._held.starts(dict(trajectories=trajectories, seed=seed, role=role))
         _warn(warnings)
         return q, p
@@ -150,6 +167,7 @@ def system(name: Union[str, _os.PathLike] = "fpu", *, spread: Optional[float] = 
     phase_fitted_... and s_aia... are fitted to; if it is not given, the one that the system declares, else an
     estimate along the motion.
     """
+    _require_values(system, locals())
     return System(_nysalt.bundled({**locals(), "name": _path(name)}))
 
 
@@ -164,6 +182,7 @@ def build(source: Union[str, _os.PathLike], output: Union[str, _os.PathLike, Non
     with. Returns the path of the library, output or else ./SOURCE.so, for `system`. Cost: some five seconds,
     nothing where nothing has changed.
     """
+    _require_values(build, locals())
     return _nysalt.build(dict(source=_path(source), output=_path(output)))
 
 
@@ -181,10 +200,13 @@ def potential(text: str, variables: Texts, *, mass: Optional[Numbers] = None,
     around a point, with the deviations deviation_q and deviation_p, parameters too [0.1]. `at` and
     `frequency` are those of `system`; `at` takes the names of the variables, "x=1,y=0; px=0".
     """
+    _require_values(potential, locals())
     if not isinstance(text, str):
         raise ValueError(f"text must be a text, got {text!r}")
     if around is not None and not isinstance(around, dict):
         raise ValueError(f"around must be a dict of numbers by name, got {around!r}")
+    if around is not None and any(value is None for value in around.values()):
+        raise ValueError(f"around must hold numbers, got {around!r}")
     return System(_nysalt.bundled(dict(formula=text, variables=variables, mass=mass, around=around,
                                        parameters=parameters, spread=spread, friction=friction, sigma=sigma,
                                        temperature=temperature, start=start, at=at, frequency=frequency)))
@@ -218,6 +240,7 @@ def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], 
     functions raise comes through. There are no modes and no bands of frequencies, hence no coordinates but qp, no
     rotations, and starts in a bath are those of the function.
     """
+    _require_values(hamiltonian, locals())
     return System(_nysalt.own(dict(locals())))
 
 
@@ -277,6 +300,7 @@ class Scheme(_FromFile):
 
     def save(self, path: Union[str, "_os.PathLike[str]"], *, force: bool = False) -> None:
         """Writes the scheme file, whole or not at all; one that is not usable only with force=True."""
+        _require_values(Scheme.save, locals())
         if not self.usable and not force:
             raise ValueError(f"cannot save the fit: it is not usable ({self.reason}); "
                              "take force=True to save it all the same")
@@ -286,13 +310,20 @@ class Scheme(_FromFile):
 Method = Union[str, Scheme, Table]
 
 
+def _number_in(argument: str, name: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{argument} must hold numbers, got {name}={value!r}") from None
+
+
 def _fixed(fix: Optional[Mapping[str, float]]) -> Optional[List[str]]:
     """As the program reads it, with values to the last bit."""
     if fix is None:
         return None
     if not isinstance(fix, Mapping):
         raise ValueError(f"fix must be a dict of values by name, got {fix!r}")
-    return [f"{name}={float(value)!r}" for name, value in fix.items()]
+    return [f"{name}={_number_in('fix', name, value)!r}" for name, value in fix.items()]
 
 
 def learn(system: System, family: str = "bab6", *, step: Optional[float] = None,
@@ -313,6 +344,7 @@ def learn(system: System, family: str = "bab6", *, step: Optional[float] = None,
     parameters that are not learned; fine_step of the reference; enough: as many trajectories as it takes.
     A fit that cannot be trusted is returned with usable = False and the reason.
     """
+    _require_values(learn, locals())
     asked = dict(locals())
     asked.pop("system")
     asked["fix"] = _fixed(fix)
@@ -324,6 +356,7 @@ def learn(system: System, family: str = "bab6", *, step: Optional[float] = None,
 
 def load(path: Union[str, "_os.PathLike[str]"]) -> Union[Scheme, Table]:
     """A scheme or a table from a file, of this package or of the program."""
+    _require_values(load, locals())
     name = _os.fspath(path)
     _nysalt.require_readable(_os.fsencode(name))
     with open(name, encoding="utf-8") as file:
@@ -408,6 +441,7 @@ def run(system: System, method: Method, step: float, horizon: float, *, q: Any =
     force=True runs a scheme where it was not learned. checks=False tries neither the step nor the force of a system
     of your own before the run, and the judgement says so.
     """
+    _require_values(run, locals())
     asked = dict(locals())
     for name in ("system", "out", "q", "p"):
         asked.pop(name)
@@ -425,6 +459,7 @@ def judge(system: System, method: Method, step: float, *, placement: Optional[st
     Its "verdict" is "good", "near an edge", "loses trajectories", "unstable" or "not tried", with a "reason"; beside it
     stand the trial, the energy error against the kinetic energy, and what linear theory says.
     """
+    _require_values(judge, locals())
     (name,), held = _held_by_name([method])
     asked = dict(method=name, held=held, step=step, placement=placement, force=force, threads=threads)
     text, warnings = _nysalt.judge(_held_by(system), asked)
@@ -445,6 +480,7 @@ def integrate(system: System, method: Method, step: float, q: Any, p: Any, steps
     same seed. In a bath a call with a seed has the noise of that seed from its beginning; calls without a seed take
     seeds of their own in turn, so that a loop of calls has new noise in each and a program the same in each run.
     """
+    _require_values(integrate, locals())
     if seed is None:
         seed = next(_seeds)
     (name,), held = _held_by_name([method])
@@ -465,6 +501,7 @@ def export(method: Method, to: str, *, name: Optional[str] = None, step: Optiona
     letters O in a method without them. displaced=True makes displaced kicks of gradient kicks, which
     are not symplectic. The text has a self-test.
     """
+    _require_values(export, locals())
     (label,), held = _held_by_name([method])
     return _nysalt.export(dict(method=label, to=to, held=held, name=name, step=step, placement=placement,
                                displaced=displaced))
@@ -491,6 +528,7 @@ def compare(system: System, methods: Union[Method, Iterable[Method]] = "all", st
     equal_cost=True: steps are per force evaluation. prices: of the forces of parts 0, 1, ..., in any unit; a kick
     with a part then counts as the share of the part in an evaluation.
     """
+    _require_values(compare, locals())
     asked = dict(locals())
     asked.pop("system")
     asked["fix"] = _fixed(fix)
@@ -523,6 +561,7 @@ def recommend(system: System, horizon: float, *, budget: Optional[float] = None,
     document says; None if no method is accepted. The file `output` has the best so far, also where the work is
     interrupted.
     """
+    _require_values(recommend, locals())
     asked = dict(locals())
     asked.pop("system")
     asked["fix"] = _fixed(fix)
@@ -545,6 +584,7 @@ def recommend_for_sampling(system: System, length: float, *, acceptance: Optiona
     Returns the document that `nysalt recommend --for sampling --json` prints, and the word to take, and keeps it
     in `output`, as `recommend` does.
     """
+    _require_values(recommend_for_sampling, locals())
     asked = dict(locals())
     asked.pop("system")
     asked["fix"] = _fixed(fix)

@@ -29,6 +29,7 @@ std::vector<row*> usable(const std::vector<row*>& all) {
 
 void comparison::learn_and_measure(journal& kept) {
   prepare_starts(*system_, common_, shown_, warnings_);
+  if (kept.found() > 0 && !kept.warning().empty()) warnings_.push_back(kept.warning());
   for (const auto& source : schemes_) {
     const auto of_energies = warning_of_energies(source, *system_, plan_at(rows_.front().step));
     if (of_energies) warnings_.push_back(*of_energies);

@@ -11,6 +11,7 @@
 #include "nysalt/atomic_file.hpp"
 #include "nysalt/detail/collectively.hpp"
 #include "nysalt/detail/write_failure.hpp"
+#include "origin.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -21,6 +22,12 @@ namespace {
 std::string line_of(json document) {
   document["checksum"] = checksum(document);
   return document.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+json first_line(const json& question) {
+  json line{{"format", format_of_journal}, {"question", question}};
+  line.update(origin());
+  return line;
 }
 
 /// Whether the checksum of a line is that of the line.
@@ -35,7 +42,7 @@ journal::journal(const std::filesystem::path& file, const json& question, bool r
   std::string text;
   on_first(all_ranks(), [&] { text = open_file(); });
   broadcast(all_ranks(), text);
-  const std::string head = line_of({{"format", format_of_journal}, {"question", question}});
+  const std::string head = line_of(first_line(question));
   const std::size_t whole = read(text, question, head);
   if (!resume && !found_.empty()) {
     refuse(
@@ -120,6 +127,7 @@ std::size_t journal::read(const std::string& text, const json& question, const s
         refuse_foreign(path_);
       }
       require_same_question(line["question"], question, path_);
+      warning_ = warning_of_origin(line, path_);
       continue;
     }
     if (!line.is_object() || !line.contains("result") || !line.value("part", json()).is_string() ||

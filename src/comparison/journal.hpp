@@ -38,6 +38,8 @@ class journal {
 
   /// Number of parts at the start.
   std::size_t found() const { return found_.size(); }
+  /// What is to be said of these parts: warning_of_origin().
+  const std::string& warning() const { return warning_; }
   bool has(const std::string& part) const { return found_.contains(part); }
   /// Nothing was finished, now or before.
   bool is_empty() const { return found_.empty() && !has_written_; }
@@ -75,6 +77,7 @@ class journal {
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, close> file_;
   std::map<std::string, std::string> found_;  // lines of the file, by their parts
+  std::string warning_;
   bool has_written_ = false;
 };
 

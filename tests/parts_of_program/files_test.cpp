@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: BSL-1.0
-// Checkpoints can be read again, files are held by one process at a time, and what is asked again is compared
-// option by option.
+// Checkpoints can be read again, files are held by one process at a time, rows are sorted in little memory,
+// and what is asked again is compared option by option.
+#include <fmt/format.h>
 #include <sys/mman.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "../support/refusal.hpp"
+#include "../support/sanitizers.hpp"
 #include "../support/scratch.hpp"
 #include "comparison/journal.hpp"
+#include "comparison/origin.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
+#include "nysalt/detail/write_failure.hpp"
 #include "program/output/checkpoint_file.hpp"
+#include "program/output/samples.hpp"
 #include "program/output/unfinished_file.hpp"
 
 using namespace nysalt;
@@ -93,6 +104,75 @@ BOOST_AUTO_TEST_CASE(the_output_of_an_unfinished_run_is_of_one_process) {
   first.reset();
   unfinished_file second(folder / "out.csv", left_by_another);
   BOOST_TEST(second.cut_after(written));
+}
+
+// Beside a stable sort in memory, for all sizes of what is held at a time: a row, some, all.
+BOOST_AUTO_TEST_CASE(rows_are_sorted_in_any_room) {
+  const scratch folder("sorted_rows");
+  std::vector<std::pair<std::int64_t, std::string>> rows;
+  for (const std::int64_t begin : {0, 0, 0, 4, 4, 0}) {  // in the end those of a run that was prolonged
+    for (std::int64_t m = begin; m < begin + 4; ++m) {
+      for (std::int64_t n = 0; n < 1 + m % 3; ++n)
+        rows.emplace_back(m, fmt::format("{},{}\n", m, rows.size()));
+    }
+  }
+  const auto table_of = [&] {
+    std::string text = "trajectory,row\n";
+    for (const auto& [trajectory, row] : rows) text += row;
+    return text;
+  };
+  std::ofstream(folder / "o.csv.part") << table_of();
+  std::ranges::stable_sort(rows, {}, [](const auto& row) { return row.first; });
+  const auto sort = [&](std::int64_t trajectories, const sorting_room& room) {
+    put_by_trajectory(folder / "o.csv.part", folder / "o.csv", trajectories, room);
+  };
+  for (const std::size_t text : {1, 20, 1000}) {
+    for (const std::int64_t trajectories : {1, 3, 8, 100}) {
+      std::ofstream(folder / "o.csv") << "an older one";
+      sort(8, {text, trajectories});
+      BOOST_TEST(contents(folder / "o.csv") == table_of());
+    }
+  }
+  const auto is_refused = [&](std::int64_t trajectories, const sorting_room& room, const std::string& why) {
+    return refuses<nysalt::detail::write_failure>([&] { sort(trajectories, room); },
+                                                  {"cannot write", "o.csv: ", why});
+  };
+  BOOST_TEST(is_refused(7, {}, "o.csv.part cannot be read again"));  // there is a row of another trajectory
+  if (!under_address_sanitizer) {
+    constexpr std::int64_t too_many = std::int64_t{1} << 44U;
+    BOOST_TEST(is_refused(too_many, {20, too_many}, "no memory is left to sort its rows"));
+  }
+  BOOST_TEST(contents(folder / "o.csv") == table_of());
+  BOOST_TEST(folder.files().size() == 2U);
+}
+
+// Of files that this program wrote, an older one, another one, and this one on another machine.
+BOOST_AUTO_TEST_CASE(another_origin_is_told) {
+  const scratch folder("origins");
+  write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 7}}, {});
+  json head = head_of_checkpoint(folder / "c", "run");
+  BOOST_TEST(warning_of_origin(head, "c").empty());
+  BOOST_TEST(warning_of_origin(json::object(), "c").empty());
+  const auto says = [](const json& of, const std::string& text) {
+    return warning_of_origin(of, "c").find(text) != std::string::npos;
+  };
+  head["functions"] = "00000000";
+  BOOST_TEST(says(head, "c was written on a machine whose C library rounds exp"));
+  head["nysalt"] = "0.0.1";
+  BOOST_TEST(says(head, "c was written by nysalt 0.0.1, this is "));
+}
+
+BOOST_AUTO_TEST_CASE(parts_of_a_journal_have_an_origin) {
+  const scratch folder("origin_of_journal");
+  const json question{{"seed", 1}};
+  journal(folder / "here", question, true);
+  BOOST_TEST(journal(folder / "here", question, true).warning().empty());
+  json line = parsed(contents(folder / "here"));
+  line["functions"] = "00000000";
+  line.erase("checksum");
+  line["checksum"] = checksum(line);
+  std::ofstream(folder / "there") << line.dump() << '\n';
+  BOOST_TEST(journal(folder / "there", question, true).warning().find("another way") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(every_option_that_differs_is_named) {

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSL-1.0
 """What cannot be is a ValueError of one sentence, in the words of Python."""
+import inspect
 import os
 
 import neighbour
@@ -90,8 +91,13 @@ CASES = [
     (lambda: run(threads=10**12), "threads must be a number of threads, got 1000000000000"),
     (lambda: run(force=1), "force must be True or False, got 1"),
     (lambda: run(method="\udc80"), "method must be a text of whole characters"),
-    (lambda: nysalt.run(None, "verlet", 0.1, 1), "system must be one that nysalt.system or .* made, got None"),
-    (lambda: nysalt.compare(PENDULUM, None, 0.1), "methods must be names, schemes or tables, got None"),
+    (lambda: nysalt.run(3, "verlet", 0.1, 1), "system must be one that nysalt.system or .* made, got 3"),
+    (lambda: nysalt.compare(PENDULUM, 3, 0.1), "methods must be names, schemes or tables, got 3"),
+    (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, fix={"b1": None}), "fix must hold numbers, got b1=None"),
+    (lambda: nysalt.potential("x^2", "x", around={"x": None}), "around must hold numbers, got {'x': None}"),
+    (lambda: nysalt.compare(PENDULUM, [None], 0.1), "methods must be a text, got None"),
+    (lambda: nysalt.compare(PENDULUM, "verlet", [0.1, None]), "steps must be a number, got None"),
+    (lambda: integrate(out=(None, None)), "q of out must be a NumPy array of float64 to be filled, got NoneType"),
     (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, fix=["b1=1"]), "fix must be a dict of values by name"),
     (lambda: PENDULUM.starts(0), "trajectories must be at least 1, got 0"),
     (lambda: PENDULUM.starts(1, role="mine"), "unknown role 'mine': it is one of training, held_out, test"),
@@ -104,6 +110,102 @@ def test_it_is_told_in_a_sentence(bad, sentence):
         bad()
     told = str(caught.value)
     assert "\n" not in told and ("--" not in told or "nysalt learn --" in told)
+
+
+SCHEME = nysalt.learn(PENDULUM, "nystrom", step=0.2, trajectories=5, horizon=2)
+STATES = dict(q=[0.1], p=[0.0])
+#: Every public function with arguments that it takes.
+CALLS = {
+    nysalt.system: dict(name="pendulum"),
+    nysalt.build: dict(source="none.hpp"),
+    nysalt.potential: dict(text="x^2", variables="x"),
+    nysalt.hamiltonian: dict(name="x^2", dimension=1, potential=lambda q: q[0]**2, force=lambda q: -2 * q,
+                             starts=lambda seed, n: ([1.0], [0.0])),
+    nysalt.learn: dict(system=PENDULUM, family="nystrom", step=0.2, trajectories=5, horizon=2),
+    nysalt.load: dict(path="none.json"),
+    nysalt.run: dict(system=PENDULUM, method="verlet", step=0.1, horizon=1),
+    nysalt.judge: dict(system=PENDULUM, method="verlet", step=0.1),
+    nysalt.integrate: dict(system=PENDULUM, method="verlet", step=0.1, steps=2, **STATES),
+    nysalt.export: dict(method="verlet", to="c"),
+    nysalt.compare: dict(system=PENDULUM, methods="verlet", steps=0.1),
+    nysalt.recommend: dict(system=PENDULUM, horizon=1, budget=10),
+    nysalt.recommend_for_sampling: dict(system=PENDULUM, length=1),
+    nysalt.System.energy: dict(self=PENDULUM, **STATES),
+    nysalt.System.force: dict(self=PENDULUM, q=[0.1]),
+    nysalt.System.starts: dict(self=PENDULUM),
+    nysalt.Scheme.save: dict(self=SCHEME, path="nowhere/scheme.json"),
+}
+LISTS = {nysalt.systems, nysalt.methods, nysalt.families, nysalt.metrics}
+
+
+def arguments_of(function):
+    return {name: one for name, one in inspect.signature(function).parameters.items()
+            if name != "self" and one.kind is not one.VAR_KEYWORD}
+
+
+def test_no_function_is_left_out():
+    functions = {one for name in nysalt.__all__ if inspect.isfunction(one := getattr(nysalt, name))}
+    functions |= {one for kind in (nysalt.System, nysalt.Scheme, nysalt.Table) for name, one in inspect.getmembers(kind, inspect.isfunction)
+                  if not name.startswith("_")}
+    assert functions == set(CALLS) | LISTS | {nysalt.Scheme.coefficients}
+    assert all(one.default is None for one in arguments_of(nysalt.Scheme.coefficients).values())
+
+
+@pytest.mark.parametrize("function, name", [(function, name) for function in CALLS for name, one in arguments_of(function).items()
+                                            if one.default is not None])
+def test_none_is_no_value(function, name):
+    """Where it is not the default; what is taken for a default of the program has None as its own."""
+    with pytest.raises(ValueError, match=rf"^{name} must (have a value, got None|hold real numbers, got objects)$"):
+        function(**{**CALLS[function], name: None})
+
+
+def test_none_is_a_default():
+    given = {name: None for name, one in arguments_of(nysalt.run).items() if one.default is None}
+    assert len(given) > 5 and np.array_equal(run(**{**given, "trajectories": 2}).values, run().values)
+
+
+class Broken(Exception):
+    pass
+
+
+def raising(kind, *places):
+    """An object that raises wherever it is read as one of these."""
+
+    def fail(self, *_, **__):
+        raise kind("of mine")
+
+    return type("Raising", (), {place: fail for place in places})()
+
+
+PLACES = {
+    "step": (lambda one: run(step=one), "__float__"),
+    "horizon": (lambda one: run(horizon=one), "__float__"),
+    "omega": (lambda one: nysalt.system("fpu", omega=one), "__float__"),
+    "steps": (lambda one: nysalt.learn(CHAIN, "nystrom", steps=[0.01, one]), "__float__"),
+    "fix": (lambda one: nysalt.learn(CHAIN, "nystrom", step=0.02, fix={"b1": one}), "__float__"),
+    "trajectories": (lambda one: run(trajectories=one), "__index__"),
+    "seed": (lambda one: PENDULUM.starts(seed=one), "__index__"),
+    "pairs": (lambda one: nysalt.system("fpu", pairs=one), "__index__"),
+    "q": (lambda one: PENDULUM.force(one), "__array__"),
+    "p": (lambda one: integrate(p=one), "__array__"),
+    "levels": (lambda one: nysalt.compare(PENDULUM, "verlet", 0.1, levels=one), "__len__", "__getitem__", "__iter__"),
+}
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("kind", [KeyboardInterrupt, MemoryError, SystemExit, RecursionError, ZeroDivisionError, Broken])
+def test_what_an_argument_raises_comes_through(place, kind):
+    call, *methods = PLACES[place]
+    with pytest.raises(kind, match="^of mine$"):
+        call(raising(kind, *methods))
+
+
+@pytest.mark.parametrize("place", [place for place in PLACES if place != "levels"])
+@pytest.mark.parametrize("kind", [TypeError, ValueError, OverflowError])
+def test_what_cannot_be_converted_is_refused(place, kind):
+    call, *methods = PLACES[place]
+    with pytest.raises(ValueError, match=f"^{place} must (be|hold) .*, got"):
+        call(raising(kind, *methods))
 
 
 def test_what_is_sound_is_not_refused():

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Documents, samples, scheme files and exported methods are those of the program."""
 import json
+import warnings
 
 import numpy as np
 import pytest
@@ -39,6 +40,17 @@ def test_a_document_is_that_of_the_program(program, call, line):
         one.pop("output", None)
     found = without_times(call())
     assert [without_times(one) == found for one in documents] == [True, False]
+
+
+@pytest.mark.parametrize("step, count", [(1e-17, 1), (0.1, 0)])
+def test_warnings_of_a_run_are_those_of_the_program(program, step, count):
+    """Of motion that is lost in rounding."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        found = nysalt.run(nysalt.system("henon_heiles"), "verlet", step, 8 * step).warnings
+    document = program(*f"run --system henon_heiles --method verlet --step {step} --horizon {8 * step}".split())
+    assert found == document["warnings"] == [str(one.message) for one in caught]
+    assert len(found) == count and all("is lost in rounding" in one for one in found)
 
 
 def test_a_curve_is_that_of_the_program(program):

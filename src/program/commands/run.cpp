@@ -29,14 +29,16 @@ namespace {
 /// Refuses what would fill the memory, before any work: `run` keeps the samples of a block of trajectories,
 /// and a JSON document all of them.
 void require_room(const run_command& command, const trajectories_plan& plan, bool whole_document) {
-  constexpr double most = 1e8;  // numbers: about a gigabyte, some more in a document
+  constexpr double most = 1e8;  // numbers: about a gigabyte
   const auto columns = static_cast<double>(command.observables.size());
+  // A row of a document takes some 210 bytes, and 70 for each observable, its text included.
+  const double numbers = whole_document ? 27.0 + 9.0 * columns : columns;
   const std::int64_t at_once = longest_segment(plan.steps, command.every);
   const std::int64_t apart = at_once / command.sample_every;
   const auto samples = static_cast<double>(apart + 1);
   const std::int64_t at_a_time = whole_document ? plan.count : std::int64_t{default_lanes} * plan.threads;
   const auto trajectories = static_cast<double>(std::min(plan.count, at_a_time));
-  if (columns * samples * trajectories <= most) return;
+  if (numbers * samples * trajectories <= most) return;
   refuse(
       "run: samples must fit into memory, got {:g} of each of {} trajectories; take a larger "
       "--sample-every{}",

@@ -18,6 +18,7 @@
 #include "comparison/checks.hpp"
 #include "comparison/learning.hpp"
 #include "comparison/method_source.hpp"
+#include "comparison/origin.hpp"
 #include "comparison/progress.hpp"
 #include "comparison/refusal.hpp"
 #include "comparison/seeds.hpp"
@@ -123,11 +124,11 @@ std::int64_t draws_before(const sample_command& command, std::int64_t trajectori
 hmc_state state_in(const sample_command& command, const json& question, kept_draws& draws) {
   hmc_state state;
   collectively(all_ranks(), [&] {
-    std::string version;
+    std::string warning;
     const json head = head_of_checkpoint(command.checkpoint, "sample");
     try {
       require_question(head.at("question"), question, command.checkpoint);
-      version = head.at("nysalt").get<std::string>();
+      warning = warning_of_origin(head, command.checkpoint);
       state.trajectories = count_in(head.at("trajectories"));
       const auto of_chains = static_cast<std::size_t>(count_in(head.at("numbers")));
       const std::int64_t drawn = draws_before(command, state.trajectories);
@@ -142,7 +143,7 @@ hmc_state state_in(const sample_command& command, const json& question, kept_dra
     } catch (const std::exception&) {
       refuse_edited_checkpoint(command.checkpoint);
     }
-    if (speaks_for_all()) warn_of_version(version, command.checkpoint);
+    if (speaks_for_all() && !warning.empty()) warn(warning);  // only now: nothing is refused any more
   });
   return state;
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "checkpoint_file.hpp"
+#include "comparison/origin.hpp"
 #include "comparison/refusal.hpp"
 
 namespace nysalt::program {
@@ -56,7 +57,6 @@ checkpoint state_of(const json& head) {
   state.in_order = head.at("in_order").get<bool>();
   state.laid_out = head.value("laid_out", true);  // older ones do not say
   state.finished = head.at("finished").get<bool>();
-  state.version = head.at("nysalt").get<std::string>();
   return state;
 }
 
@@ -132,6 +132,7 @@ checkpoint read_checkpoint(const std::filesystem::path& file, const json& questi
   const json head = head_of_checkpoint(file, "run");
   try {
     checkpoint state = state_of(head);
+    state.warning = warning_of_origin(head, file);
     json of_steps_then = as_kept(question);
     of_steps_then["steps"] = state.question.at("steps");
     if (state.question == of_steps_then && state.question != as_kept(question)) {

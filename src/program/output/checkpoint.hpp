@@ -30,7 +30,7 @@ struct checkpoint {
   bool laid_out = true;                   // the unfinished output has its beginning, or its arrays
   bool finished = false;                  // the output is there
   bool is_copied = false;                 // and perhaps a part of the output of a longer run
-  std::string version;                    // of the program that wrote it; empty: of this one
+  std::string warning;                    // of another origin(), until it is printed
 };
 
 /// As write_checkpoint_file().

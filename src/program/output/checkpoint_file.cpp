@@ -10,11 +10,10 @@
 #include <system_error>
 #include <utility>
 
-#include "build_info.hpp"
 #include "comparison/journal.hpp"
+#include "comparison/origin.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
-#include "program/output.hpp"
 
 namespace nysalt::program {
 
@@ -86,7 +85,8 @@ bool is_whole(std::istream& input, const std::string& line, std::uintmax_t bytes
 
 void write_checkpoint_file(const std::filesystem::path& file, const json& head,
                            std::span<const double> numbers, const std::function<void()>& check) {
-  json all{{"format", format_of_checkpoint}, {"version", version_of_checkpoint}, {"nysalt", version}};
+  json all{{"format", format_of_checkpoint}, {"version", version_of_checkpoint}};
+  all.update(origin());
   all.update(head);
   std::string text = all.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
   const auto bytes = std::as_bytes(numbers);
@@ -183,12 +183,6 @@ void require_question(const json& asked_then, const json& asked, const std::file
       "{} must be a checkpoint of this run, got that of another run ({}); ask for the same, or name another "
       "--checkpoint",
       file.string(), changed.empty() ? "it has more" : changed);
-}
-
-void warn_of_version(const std::string& version_then, const std::filesystem::path& file) {
-  if (version_then.empty() || version_then == version) return;
-  warn(fmt::format("{} was written by nysalt {}, this is {}: what follows may differ in its last digits",
-                   file.string(), version_then, version));
 }
 
 }  // namespace nysalt::program

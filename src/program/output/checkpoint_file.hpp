@@ -25,9 +25,9 @@ void write_checkpoint_file(const std::filesystem::path& file, const json& head,
 /// comparison, that have not finished.
 void require_no_checkpoint(const std::filesystem::path& output);
 
-/// The line of JSON of a checkpoint, beside what is its own: `command`, `question` (all that decides the
-/// bytes of the output). Throws refusal for what is no checkpoint of that command, not whole, edited, or of a
-/// newer format. Memory: that of the line.
+/// The line of JSON of a checkpoint, beside what is its own and its origin(): `command`, `question` (all that
+/// decides the bytes of the output). Throws refusal for what is no checkpoint of that command, not whole,
+/// edited, or of a newer format. Memory: that of the line.
 json head_of_checkpoint(const std::filesystem::path& file, const std::string& command);
 
 /// The doubles of a checkpoint, `count` of them; to be read when the question was compared. Throws refusal
@@ -42,9 +42,4 @@ std::int64_t count_in(const json& value);
 
 /// Throws refusal, naming what differs, if the checkpoint is of another question.
 void require_question(const json& asked_then, const json& question, const std::filesystem::path& file);
-
-/// Of going on with what another version of the program wrote; empty: this one. To be printed when nothing
-/// will be refused any more, as a refusal is one line.
-void warn_of_version(const std::string& version_then, const std::filesystem::path& file);
-
 }  // namespace nysalt::program

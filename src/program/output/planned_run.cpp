@@ -7,6 +7,7 @@
 #include "comparison/catalogue.hpp"
 #include "comparison/checks.hpp"
 #include "comparison/judging.hpp"
+#include "comparison/lost_motion.hpp"
 #include "comparison/refusal.hpp"
 #include "hdf5_layout.hpp"
 #include "nysalt/detail/collectively.hpp"
@@ -88,6 +89,8 @@ std::vector<std::string> planned_run::warnings_of_steps() const {
        {warning_of(command.method, judged()), warning_of_energies(source, *system, plan)}) {
     if (text) found.push_back(*text);
   }
+  if (!command.checks) return found;
+  if (const auto text = warning_of_lost_motion(*system, plan)) found.push_back(*text);
   return found;
 }
 

@@ -211,8 +211,8 @@ void run_output::reached(const run_progress& at, bool ends) {
   saved_at_ = {at.first, step};
   samples_->flush();
   part_->put_on_disk();
-  warn_of_version(state_.version, checkpoint_);  // only now: the run has taken what it was given
-  state_.version.clear();
+  if (!state_.warning.empty()) warn(state_.warning);  // only now: the run has taken what it was given
+  state_.warning.clear();
   part_->keep();
   is_fresh_ = false;
   fresh_name_.reset();
@@ -227,7 +227,7 @@ void run_output::commit() {
     part_->finish();
   } else {
     part_->require_own();
-    put_by_trajectory(part_->part(), output_);
+    put_by_trajectory(part_->part(), output_, shape_.trajectories);
   }
 }
 
@@ -239,7 +239,7 @@ void run_output::finish() {
   if (part_ && !state_.in_order) part_->remove();
 }
 
-void run_output::describe(json& document) const {
+void run_output::describe(json& document) {
   samples_->describe(document);
   if (!output_.empty()) document["output"] = output_;
 }

@@ -52,7 +52,7 @@ class run_output {
   /// Of what was written, of every n-th sample.
   first_trajectory read_first(std::int64_t every) const { return samples_->read_first(output_, every); }
   /// Adds to a document where the samples are, or themselves.
-  void describe(json& document) const;
+  void describe(json& document);
 
  private:
   void require_new_checkpoint() const;

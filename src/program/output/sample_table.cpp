@@ -2,19 +2,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/interprocess/file_mapping.hpp>
-#include <boost/interprocess/mapped_region.hpp>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <span>
-#include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "comparison/number.hpp"
 #include "comparison/refusal.hpp"
-#include "nysalt/atomic_file.hpp"
+#include "nysalt/detail/write_failure.hpp"
 #include "program/comma_list.hpp"
 #include "samples.hpp"
 
@@ -87,10 +86,10 @@ class sample_table final : public sample_writer {
     return result;
   }
 
-  void describe(json& document) const override {
+  void describe(json& document) override {
     document["columns"] = {"trajectory", "step", "t"};
     for (const auto& name : shape_.observables) document["columns"].push_back(name);
-    if (!write_) document["rows"] = rows_;
+    if (!write_) document["rows"] = std::move(rows_);
   }
 
  private:
@@ -104,12 +103,101 @@ class sample_table final : public sample_writer {
   json rows_ = json::array();
 };
 
-/// Neighbouring rows of one trajectory.
-struct piece {
-  std::int64_t trajectory;
-  std::size_t begin;
-  std::size_t end;
+/// Calls take(trajectory, at, row) for the rows that begin at bytes first .. end - 1 of a table.
+template <class Take>
+void each_row(std::ifstream& table, const byte_range& in, const Take& take) {
+  table.clear();
+  table.seekg(static_cast<std::streamoff>(in.first));
+  std::string row;
+  for (std::uint64_t at = in.first; at < in.end && std::getline(table, row); at += row.size()) {
+    row += '\n';
+    std::int64_t trajectory = 0;
+    std::from_chars(row.data(), row.data() + row.size(), trajectory);
+    take(trajectory, at, row);
+  }
+}
+
+/// Rows that are gathered, and then put where their trajectories have their places in a file.
+class gathered_rows {
+ public:
+  /// `places`: of the next row of each trajectory; they are put when there are `enough` of `all` bytes.
+  gathered_rows(unfinished_file& to, std::vector<std::uint64_t> places, std::size_t enough, std::uint64_t all)
+      : to_(to), places_(std::move(places)), enough_(enough) {
+    text_.reserve(static_cast<std::size_t>(std::min<std::uint64_t>(enough, all)));
+  }
+
+  void take(std::size_t trajectory, std::string_view row) {
+    if (text_.size() + row.size() > enough_) put();
+    if (pieces_.empty() || pieces_.back().trajectory != trajectory)
+      pieces_.push_back({trajectory, text_.size(), text_.size()});
+    text_ += row;
+    pieces_.back().end = text_.size();
+  }
+
+  void put() {
+    std::ranges::sort(pieces_);
+    std::string together;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const auto& [trajectory, begin, end] = pieces_[i];
+      together.append(text_, begin, end - begin);
+      if (i + 1 < pieces_.size() && pieces_[i + 1].trajectory == trajectory) continue;
+      to_.put(places_[trajectory], std::as_bytes(std::span(together)));
+      places_[trajectory] += together.size();
+      together.clear();
+    }
+    text_.clear();
+    pieces_.clear();
+  }
+
+ private:
+  /// Neighbouring rows of one trajectory.
+  struct piece {
+    std::size_t trajectory;
+    std::size_t begin;
+    std::size_t end;
+    auto operator<=>(const piece&) const = default;
+  };
+
+  unfinished_file& to_;
+  std::vector<std::uint64_t> places_;
+  std::size_t enough_;
+  std::string text_;
+  std::vector<piece> pieces_;
 };
+
+/// Puts the rows of trajectories first .. first + count - 1 from some range of a table into a file, from byte
+/// `at` on; returns the byte after them.
+std::uint64_t put_some(std::ifstream& table, const byte_range& in, std::int64_t first, std::int64_t count,
+                       unfinished_file& to, std::uint64_t at, std::size_t enough) {
+  const auto each_of_them = [&](const auto& take) {
+    each_row(table, in, [&](std::int64_t trajectory, std::uint64_t, std::string_view row) {
+      if (trajectory >= first && trajectory - first < count)
+        take(static_cast<std::size_t>(trajectory - first), row);
+    });
+  };
+  std::vector<std::uint64_t> places(static_cast<std::size_t>(count));
+  each_of_them([&](std::size_t trajectory, std::string_view row) { places[trajectory] += row.size(); });
+  const std::uint64_t begin = at;
+  for (auto& place : places) at += std::exchange(place, at);
+  gathered_rows rows(to, std::move(places), enough, at - begin);
+  each_of_them([&](std::size_t trajectory, std::string_view row) { rows.take(trajectory, row); });
+  rows.put();
+  return at;
+}
+
+/// Of each `count` trajectories the range of a table that has all their rows, and perhaps others.
+std::vector<byte_range> ranges_of(std::ifstream& table, const byte_range& all, std::int64_t trajectories,
+                                  std::int64_t count) {
+  if (trajectories <= count) return {all};
+  std::vector<byte_range> ranges(static_cast<std::size_t>((trajectories - 1) / count + 1), {all.end, 0});
+  each_row(table, all, [&](std::int64_t trajectory, std::uint64_t at, std::string_view) {
+    if (trajectory < 0 || trajectory >= trajectories) return;
+    byte_range& range = ranges[static_cast<std::size_t>(trajectory / count)];
+    range.first = std::min(range.first, at);
+    range.end = at + 1;
+  });
+  return ranges;
+}
 
 }  // namespace
 
@@ -118,30 +206,34 @@ std::unique_ptr<sample_writer> table_writer(sampled_shape shape,
   return std::make_unique<sample_table>(std::move(shape), std::move(write));
 }
 
-void put_by_trajectory(const std::filesystem::path& from, const std::filesystem::path& to) {
-  namespace ipc = boost::interprocess;
+void put_by_trajectory(const std::filesystem::path& from, const std::filesystem::path& to,
+                       std::int64_t trajectories, const sorting_room& room) {
   try {
-    const ipc::file_mapping file(from.c_str(), ipc::read_only);
-    const ipc::mapped_region region(file, ipc::read_only);
-    const std::string_view text(static_cast<const char*>(region.get_address()), region.get_size());
-    const std::size_t head = std::min(text.find('\n'), text.size() - 1) + 1;
-    std::vector<piece> pieces;
-    for (std::size_t begin = head; begin < text.size();) {
-      std::int64_t trajectory = 0;
-      std::from_chars(text.data() + begin, text.data() + text.size(), trajectory);
-      const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
-      if (pieces.empty() || pieces.back().trajectory != trajectory)
-        pieces.push_back({trajectory, begin, end});
-      pieces.back().end = end;
-      begin = end;
+    unfinished_file out(to, unfinished_file::origin::sorted);
+    std::ifstream table(from);
+    std::string head;
+    std::getline(table, head);
+    head += '\n';
+    out.put(0, std::as_bytes(std::span(head)));
+    std::error_code unknown;
+    const byte_range rows{head.size(), std::filesystem::file_size(from, unknown)};
+    std::uint64_t at = head.size();
+    std::int64_t first = 0;
+    for (const auto& range : ranges_of(table, rows, trajectories, room.trajectories)) {
+      const std::int64_t count = std::min(room.trajectories, trajectories - first);
+      at = put_some(table, range, first, count, out, at, room.text);
+      first += count;
     }
-    std::ranges::stable_sort(pieces, {}, &piece::trajectory);
-    atomic_file out(to, "sorted");  // a kill leaves one such file at most, which the next run writes again
-    out.write(text.substr(0, head));
-    for (const auto& one : pieces) out.write(text.substr(one.begin, one.end - one.begin));
-    out.commit(true);
-  } catch (const ipc::interprocess_exception& problem) {
-    throw std::runtime_error(fmt::format("cannot read {}: {}", from.string(), problem.what()));
+    if (unknown || at != rows.end) {
+      throw nysalt::detail::write_failure(
+          message("cannot write {}: {} cannot be read again; go on by --resume where that is mended",
+                  to.string(), from.string()));
+    }
+    out.finish();
+  } catch (const std::bad_alloc&) {
+    throw nysalt::detail::write_failure(
+        message("cannot write {}: no memory is left to sort its rows; make room, and go on by --resume",
+                to.string()));
   }
 }
 

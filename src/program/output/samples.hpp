@@ -2,6 +2,7 @@
 // Samples of a run on their way out: as rows of a table or of the JSON document, or as arrays.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -58,8 +59,8 @@ class sample_writer {
   virtual std::optional<file_sum> sum_in(const std::filesystem::path& file) const = 0;
   /// Of a finished file, of every n-th sample. Throws refusal if it cannot be read.
   virtual first_trajectory read_first(const std::filesystem::path& file, std::int64_t every) const = 0;
-  /// Adds to a document what it says of the samples.
-  virtual void describe(json&) const {}
+  /// Adds to a document what it says of the samples, and the rows that were kept for it.
+  virtual void describe(json&) {}
 
  protected:
   sampled_shape shape_;
@@ -67,10 +68,17 @@ class sample_writer {
 
 /// Lines of CSV go to `write`; if it is empty, rows are kept for the document.
 std::unique_ptr<sample_writer> table_writer(sampled_shape shape, std::function<void(std::string_view)> write);
+/// What put_by_trajectory() holds at a time.
+struct sorting_room {
+  std::size_t text = std::size_t{1} << 24U;            // bytes of rows
+  std::int64_t trajectories = std::int64_t{1} << 20U;  // places of their next rows, 8 bytes each
+};
 /// Writes the lines of one table of samples into another: its head, and the rows by the trajectory that each
-/// begins with; those of one trajectory keep their order. Memory: 24 bytes for each interval of a trajectory.
-/// Throws std::runtime_error if it cannot be read or written; then an older file is as it was.
-void put_by_trajectory(const std::filesystem::path& from, const std::filesystem::path& to);
+/// begins with; those of one trajectory keep their order. Memory: some 40 MB at most, whatever the length.
+/// Throws write_failure if a table cannot be read or written, or memory is short; then an older file is as it
+/// was.
+void put_by_trajectory(const std::filesystem::path& from, const std::filesystem::path& to,
+                       std::int64_t trajectories, const sorting_room& room = {});
 
 /// Every number of a file of arrays has its place from the first moment, where it is put when it is known;
 /// what is not taken stays NaN. `about` becomes the attributes of an HDF5 file. Throws refusal where there is

@@ -11,6 +11,7 @@
 #include <limits>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
@@ -59,6 +60,12 @@ unfinished_file::descriptor::~descriptor() {
 
 namespace {
 
+std::filesystem::path part_for(std::filesystem::path file, unfinished_file::origin from) {
+  if (from == unfinished_file::origin::disposable) return file += ".new.part";
+  if (from == unfinished_file::origin::sorted) return file += ".sorted.part";
+  return unfinished_file::part_of(std::move(file));
+}
+
 int made_part(const std::filesystem::path& part, const std::filesystem::path& file,
               std::optional<nysalt::detail::unfinished_name>& name) {
   try {
@@ -74,10 +81,10 @@ int made_part(const std::filesystem::path& part, const std::filesystem::path& fi
 
 unfinished_file::unfinished_file(const std::filesystem::path& file, origin from)
     : path_(nysalt::detail::behind_links(file)),
-      part_(from == origin::disposable ? path_.string() + ".new.part" : part_of(path_).string()),
+      part_(part_for(path_, from)),
       is_kept_(from == origin::left_by_another || from == origin::begun_anew) {
   std::error_code ignored;
-  if (from == origin::disposable ||
+  if (from == origin::disposable || from == origin::sorted ||
       (from == origin::begun_anew && !std::filesystem::exists(part_, ignored))) {
     file_.number = made_part(part_, path_, name_);
     if (is_kept_) name_.reset();

@@ -40,6 +40,7 @@ class unfinished_file {
   enum class origin {
     made,             ///< for a run with a checkpoint
     disposable,       ///< for a run without: what such a run left is removed
+    sorted,           ///< for the rows of a run with one in their final order, FILE.sorted.part: the same
     left_by_another,  ///< by the run to resume
     begun_anew        ///< the same, of which nothing is taken
   };
