@@ -234,10 +234,10 @@ BOOST_AUTO_TEST_CASE(a_burn_in_that_is_too_short_is_refused) {
 
 // Starts of energies about 5 in baths up to 10^300 times colder, in units of kT.
 BOOST_AUTO_TEST_CASE(a_bath_may_be_much_colder_than_the_starts) {
-  for (const double cold : {1e-3, 1e-6, 1e-12, 1e-30, 1e-100, 1e-300}) {
+  for (const double cold : {1e-4, 1e-30, 1e-300}) {
     const gibbs ensemble(at(cold, oscillator), around_0, {.pilots = 64, .seed = seed(1)});
     std::vector<double> potentials;
-    for (std::uint64_t n = 0; n < 1600; ++n)
+    for (std::uint64_t n = 0; n < 200; ++n)
       potentials.push_back(oscillator.potential(ensemble(seed(3), n).q) / cold);
     const double off = mean_off(potentials, 0.5, std::sqrt(covariance(potentials, potentials)));
     BOOST_TEST(off <= standard_errors(false_alarms), "kT = " << cold << ": off by " << off);

@@ -86,7 +86,7 @@ class burn_in_search {
     hottest_ = std::max(hottest_, chains.watch(observations, observations).largest_at_begin());
     for (std::int64_t every = 1; 2 * every * observations <= options_.most_steps; every *= 2) {
       const auto interval = chains.watch(2 * every * observations, every);
-      if (interval.duration >= 32.0 * interval.tau() && !interval.is_hot()) return interval;
+      if (interval.duration >= 32.0 * interval.tau() && !interval.is_cooling()) return interval;
       if (interval.duration > 32.0 * most) return std::nullopt;
     }
     throw std::runtime_error(

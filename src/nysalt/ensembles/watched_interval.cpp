@@ -32,13 +32,18 @@ discrepancy watched_interval::potential_of_the_far() const {
   return {a.mean - b.mean, std::hypot(a.standard_error, b.standard_error)};
 }
 
-bool watched_interval::is_hot() const {
-  constexpr double bias = 0.1;  // of steps that are halved for it later
+bool watched_interval::is_cooling() const {
+  const auto is_above = [](const discrepancy& one) { return !(one.mean <= 0.0) && one.shows(); };
   for (const watched what : {watched::kinetic, watched::virial}) {
     const auto i = static_cast<std::size_t>(what);
-    discrepancy above = mean_over_chains(mean[i]);
-    above.mean -= 1.0 + bias;
-    if (counts(i) && !(above.mean <= 0.0) && above.shows()) return true;
+    if (!counts(i)) continue;
+    std::vector<double> over_bath = mean[i];
+    std::vector<double> fall = begin[i];
+    for (std::size_t k = 0; k < fall.size(); ++k) {
+      over_bath[k] -= 1.0;
+      fall[k] -= mean[i][k];
+    }
+    if (is_above(mean_over_chains(over_bath)) && is_above(mean_over_chains(fall))) return true;
   }
   return false;
 }

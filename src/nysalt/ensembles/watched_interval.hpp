@@ -31,8 +31,9 @@ struct watched_interval {
   bool counts(std::size_t i) const { return i != static_cast<std::size_t>(watched::virial) || confined(); }
 
   /// Whether the bath still cools what began at higher energies, all chains alike, which tau() does not see:
-  /// the kinetic temperature, or the virial, shows above that of the bath. Numbers that have overflowed do.
-  bool is_hot() const;
+  /// the kinetic temperature, or the virial, is above that of the bath, and falls. Numbers that have
+  /// overflowed do.
+  bool is_cooling() const;
   /// Largest potential energy or virial at the beginning, in kT for each coordinate.
   double largest_at_begin() const;
 
