@@ -13,8 +13,8 @@ using texts = std::map<std::string, std::string>;  // by path below include/nysa
 /// layer to the highest.
 const std::vector<std::vector<std::string>> layers{
     {"detail/sentence", "detail/in_digits", "detail/fingerprint", "detail/tree_sum", "detail/name_of_type",
-     "detail/steps_in", "detail/names_of_members", "detail/independent_iterations", "scalar", "scalars/",
-     "phase_point", "phase_points"},
+     "detail/rounding", "detail/steps_in", "detail/names_of_members", "detail/independent_iterations",
+     "scalar", "scalars/", "phase_point", "phase_points"},
     {"system", "local_system", "detail/requirements", "force", "energy", "detail/energy_range", "lanes",
      "bath", "noise", "detail/noise_intervals", "detail/modal_coordinates", "detail/stiffness_modes",
      "systems/", "noises/"},
