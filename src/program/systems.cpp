@@ -18,6 +18,7 @@
 #include "comparison/refusal.hpp"
 #include "comparison/user_system_checks.hpp"
 #include "given_starts.hpp"
+#include "nysalt/detail/rounding.hpp"
 #include "output/written_arrays.hpp"
 
 namespace nysalt::program {
@@ -269,9 +270,11 @@ std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
   const auto make = [&] { return declared.make(values, conditions.bath, conditions.spread); };
   const std::string source = source_of_kind(declared, values);
   if (declared.is_checked) return std::make_unique<prepared_problem>(make(), named, conditions, source);
+  const nysalt::detail::usual_rounding rounding;
   try {
     initial_value_problem made = make();
     examine(made, declared.name, conditions.examined);
+    rounding.require();
     if (!settings.potential.text.empty()) add_named(coordinate_names(settings.potential), made);
     return std::make_unique<prepared_problem>(std::move(made), named, conditions, source);
   } catch (const refusal&) {
@@ -279,6 +282,7 @@ std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& problem) {  // of the user's code
+    rounding.require();                      // what else is wrong may come of it
     const std::string text = problem.what();
     if (text.empty())
       refuse("cannot make the system {}: an exception without a message was thrown", declared.name);

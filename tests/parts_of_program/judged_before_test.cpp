@@ -49,9 +49,9 @@ struct box {
 };
 
 template <class S>
-prepared_problem problem_of(const S& system, bool is_bundled = false) {
+prepared_problem problem_of(const S& system, bool is_bundled = false, double deviation_of_p = 1.0) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(system.size());
-  return {{.system = system, .starts = normal_around<Eigen::Dynamic>({zero, zero}, 1.0, 1.0)},
+  return {{.system = system, .starts = normal_around<Eigen::Dynamic>({zero, zero}, 1.0, deviation_of_p)},
           {},
           {.bath = bath::of_sigma(0.0, 0.0), .start = start::law, .is_bundled = is_bundled}};
 }
@@ -111,4 +111,15 @@ BOOST_AUTO_TEST_CASE(a_short_trial_finds_a_step_that_is_far_too_long) {
   run.step = 2.1;  // the limit of Verlet is 2
   const std::string reason = problem_of(box()).judged_before(method, run).reason;
   BOOST_TEST(reason.find("unstable") != std::string::npos, reason);
+}
+
+// A tenth of a radian from rest kinetic energies are 1/100 of those of the motion at most, and no scale of
+// errors.
+BOOST_AUTO_TEST_CASE(a_short_trial_from_rest_finds_no_fault_where_there_is_none) {
+  constexpr double at_rest = 1e-9;
+  const std::string reason = problem_of(box(), false, at_rest).judged_before(method, run_of(1, 200)).reason;
+  BOOST_TEST(reason == "");
+  trajectories_plan run = run_of(1, 200);
+  run.step = 2.1;
+  BOOST_TEST(problem_of(box(), false, at_rest).judged_before(method, run).reason != "");
 }

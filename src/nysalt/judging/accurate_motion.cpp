@@ -38,6 +38,8 @@ struct shown_motion {
     if (!(std::abs(energy - initial) <= hundredth * largest_kinetic)) has_left = true;
     return !has_left;
   }
+  /// From rest, or from a turning point, kinetic energies rise first.
+  bool rises() const { return !kinetic.empty() && kinetic.back() == largest_kinetic; }
 };
 
 constexpr std::int64_t most_steps = 400;
@@ -110,6 +112,9 @@ accurate_motion follow_at(double step, const model& system, const states& starts
     result.seen.assign(starts.begin(), starts.begin() + std::min(samples, std::ssize(starts)));
   const std::int64_t reads = trajectories * (every * samples + 1);
   result.is_followed = !knows_kinetic || 2 * std::ssize(all) >= reads;
+  // So short a piece may show no more than how all trajectories begin.
+  const bool is_short = every * samples <= 4 * samples;
+  if (is_short && 2 * std::ranges::count_if(shown, &shown_motion::rises) >= trajectories) return result;
   result.kinetic_energy = std::max(0.0, median_of(all));
   return result;
 }

@@ -26,7 +26,7 @@ decltype(auto) in_lanes_if_filled(const model& system, std::int64_t trajectories
 
 /// What an accurate motion shows.
 struct accurate_motion {
-  double kinetic_energy = 0.0;  // median over trajectories and times; 0: not known
+  double kinetic_energy = 0.0;  // median over trajectories and times; 0: not known, as where it still rises
   states seen;                  // states along it, typical ones first
   double step = 0.0;            // the coarsest that was tried at which the energy stays
   bool is_followed = true;      // false: at none it does
