@@ -163,15 +163,15 @@ void save(const std::string& path, const std::string& text) {
 
 void add_commands(py::module_& module) {
   module.attr("version") = program::version;
-  module.def("learn", &learn);
-  module.def("compare", &compare);
-  module.def("recommend", &recommend);
-  module.def("recommend_for_sampling", &recommend_for_sampling);
+  module.def("learn", &learn, rounded_as_usual());
+  module.def("compare", &compare, rounded_as_usual());
+  module.def("recommend", &recommend, rounded_as_usual());
+  module.def("recommend_for_sampling", &recommend_for_sampling, rounded_as_usual());
   module.def("listing", [] { return dumped(program::listing()); });
-  module.def("method", &method);
+  module.def("method", &method, rounded_as_usual());
   module.def("require_readable", [](const std::string& file) { program::require_readable(file); });
   module.attr("longest_method_file") = program::longest_method_file;
-  module.def("export", &export_method);
+  module.def("export", &export_method, rounded_as_usual());
   module.def("save", &save);
   module.def("in_words_of_python", &in_words_of_python);
 }

@@ -33,6 +33,7 @@ void compute_apart(const std::function<void()>& work) {
     const program::work_for work_scope(caller);
     const nysalt::detail::usual_rounding rounding;
     work();
+    rounding.require();
   });
   PyThreadState* const state = PyEval_SaveThread();
   const auto asked_for_signals = [&] {
@@ -61,6 +62,7 @@ void compute(bool calls_python, const std::function<void()>& work) {
   const program::work_for work_scope(caller);
   const nysalt::detail::usual_rounding rounding;
   work();
+  rounding.require();
 }
 
 void without_lock(const std::function<void()>& work) {
@@ -70,6 +72,7 @@ void without_lock(const std::function<void()>& work) {
   try {
     const nysalt::detail::usual_rounding rounding;
     work();
+    rounding.require();
   } catch (...) {
     thrown = std::current_exception();
   }

@@ -9,7 +9,12 @@
 
 #include <functional>
 
+#include "nysalt/detail/rounding.hpp"
+
 namespace nysalt::python {
+
+/// Of a function of the module: its arguments and results are read and written with the rounding of its work.
+using rounded_as_usual = pybind11::call_guard<nysalt::detail::usual_rounding>;
 
 /// Work that calls no function of Python is done on a thread of its own, without the interpreter's lock:
 /// other threads of Python run, and this one asks for signals fifty times a second. What a signal handler

@@ -33,7 +33,10 @@ std::unique_ptr<held_system> bundled(const py::dict& arguments) {
   auto made = std::make_unique<held_system>();
   made->settings = system_of(argument_reader(arguments));
   // Every command takes the system as it is now, also where its file is edited or the current folder changes.
-  without_lock([&] { made->settings.declared = &declaration_in(made->settings); });
+  without_lock([&] {
+    made->settings.declared = &declaration_in(made->settings);
+    made->settings.files = files_of(made->settings);
+  });
   made->model = make_system(made->settings);
   return made;
 }
@@ -42,7 +45,9 @@ std::unique_ptr<held_system> own(const py::dict& arguments) {
   const argument_reader asked(arguments);
   auto made = std::make_unique<held_system>();
   auto functions = std::make_shared<own_functions>(own_functions_of(asked, made->functions));
+  const nysalt::detail::usual_rounding rounding;
   examine(*functions);
+  rounding.require();
   made->functions->may_overflow = true;
   made->own = functions;
   made->settings = system_of(asked);
@@ -69,8 +74,10 @@ void for_states(const held_system& system, const numbers_array& q, const auto& f
   const auto all = [&] {
     for (std::int64_t m = 0; m < count; ++m) f(m);
   };
-  if (system.calls_python()) return all();
-  without_lock(all);
+  if (!system.calls_python()) return without_lock(all);
+  const nysalt::detail::usual_rounding rounding;
+  all();
+  rounding.require();
 }
 
 py::object energy(const held_system& system, const py::object& of_q, const py::object& of_p) {
@@ -196,13 +203,13 @@ void let_python_collect(PyHeapTypeObject* type) {
 
 void add_systems(py::module_& module) {
   py::class_<held_system>(module, "held_system", py::custom_type_setup(&let_python_collect))
-      .def("facts", &facts)
-      .def("energy", &energy)
-      .def("force", &force)
-      .def("starts", &starts);
-  module.def("bundled", &bundled);
-  module.def("build", &build);
-  module.def("own", &own);
+      .def("facts", &facts, rounded_as_usual())
+      .def("energy", &energy, rounded_as_usual())
+      .def("force", &force, rounded_as_usual())
+      .def("starts", &starts, rounded_as_usual());
+  module.def("bundled", &bundled, rounded_as_usual());
+  module.def("build", &build, rounded_as_usual());
+  module.def("own", &own, rounded_as_usual());
 }
 
 }  // namespace nysalt::python

@@ -218,9 +218,9 @@ py::tuple judge(const held_system& system, const py::dict& arguments) {
 }  // namespace
 
 void add_trajectories(py::module_& module) {
-  module.def("judge", &judge);
-  module.def("run", &run);
-  module.def("integrate", &integrate);
+  module.def("judge", &judge, rounded_as_usual());
+  module.def("run", &run, rounded_as_usual());
+  module.def("integrate", &integrate, rounded_as_usual());
 }
 
 }  // namespace nysalt::python

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <span>
 #include <sstream>
 #include <string_view>
 
@@ -162,13 +163,17 @@ std::optional<kept_dependencies> dependencies_kept_in(const fs::path& file, cons
   kept_dependencies found{.files = {whole(source)}, .library = {}};
   if (!std::getline(lines, found.library)) return std::nullopt;
   const fs::path folder = found.files.front().parent_path();
-  const auto folders = searched_folders(folder);
+  auto folders = searched_folders(folder);
   for (std::string line; std::getline(lines, line);) {
-    const fs::path one = folder / line;
-    if (!fs::is_regular_file(one, ignored)) return std::nullopt;
-    if (may_be_hidden(one, folders)) return std::nullopt;
-    found.files.push_back(one);
+    found.files.push_back(folder / line);
+    if (!fs::is_regular_file(found.files.back(), ignored)) return std::nullopt;
+    // What a file includes in quotes is looked for beside it first.
+    const fs::path beside = found.files.back().parent_path();
+    if (std::ranges::find(folders, beside) == folders.end()) folders.push_back(beside);
   }
+  const auto included = std::span(found.files).subspan(1);
+  if (std::ranges::any_of(included, [&](const fs::path& one) { return may_be_hidden(one, folders); }))
+    return std::nullopt;
   return found;
 }
 

@@ -2,18 +2,17 @@
 #include "plugin.hpp"
 
 #include <dlfcn.h>
-#include <link.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -22,6 +21,7 @@
 #include "cache.hpp"
 #include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
+#include "elf_file.hpp"
 #include "force_library.hpp"
 #include "named_signals.hpp"
 #include "names.hpp"
@@ -62,6 +62,7 @@ identity_of_file identity_of(const fs::path& file) {
 struct loaded {
   identity_of_file from;
   system_declaration declared;
+  std::set<std::string> unique_symbols;
 };
 
 /// What is loaded, for any number of threads. No thread waits here for what another one compiles or loads.
@@ -76,6 +77,19 @@ class all_loaded {
   bool was_replaced(const identity_of_file& file) const {
     const std::lock_guard lock(guard_);
     return std::ranges::any_of(all_, [&](const auto& one) { return one->from.path == file.path; });
+  }
+  /// Throws refusal where the loader would give the library variables of another one.
+  void require_apart(const std::set<std::string>& symbols, const std::string& shown) const {
+    const std::lock_guard lock(guard_);
+    for (const auto& one : all_) {
+      for (const auto& symbol : symbols) {
+        if (!one->unique_symbols.contains(symbol)) continue;
+        refuse(
+            "cannot load {}: the library must have variables of its own, got {}, which is that of {}, loaded "
+            "before; build it with -fno-gnu-unique, or begin a new process",
+            shown, symbol, one->from.path);
+      }
+    }
   }
   const system_declaration& keep(loaded one) {
     if (const auto* found = known(one.from)) return *found;  // another thread was first
@@ -125,27 +139,6 @@ class unloadable : public refusal {
  public:
   using refusal::refusal;
 };
-
-/// Whether all of the file that the loader would map is there; of one that was cut off the first use of what
-/// is missing would end the process. What is no library of this machine the loader refuses itself.
-bool is_whole(const fs::path& file) {
-  std::error_code failure;
-  const std::uintmax_t length = fs::file_size(file, failure);
-  std::ifstream input(file, std::ios::binary);
-  const auto read_into = [&](auto& to) {
-    return static_cast<bool>(input.read(reinterpret_cast<char*>(&to), sizeof to));
-  };
-  ElfW(Ehdr) header{};
-  if (failure || !read_into(header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return true;
-  if (header.e_phentsize != sizeof(ElfW(Phdr))) return true;
-  input.seekg(static_cast<std::streamoff>(header.e_phoff));
-  for (int k = 0; k < header.e_phnum; ++k) {
-    ElfW(Phdr) segment{};
-    if (!read_into(segment)) return false;
-    if (segment.p_filesz > length || segment.p_offset > length - segment.p_filesz) return false;
-  }
-  return true;
-}
 
 void require_sound(const system_declaration& declared, const std::string& path) {
   std::vector<std::string> names;
@@ -232,7 +225,10 @@ const system_declaration& load(const fs::path& library, const std::string& shown
   const identity_of_file file = identity_of(library);
   if (const auto* known = everything().known(file)) return *known;
   const bool is_another = everything().was_replaced(file);
-  return everything().keep({file, declared_in(is_another ? copy_of(library) : library, shown)});
+  auto symbols = unique_symbols_of(library);
+  everything().require_apart(symbols, shown);
+  return everything().keep(
+      {file, declared_in(is_another ? copy_of(library) : library, shown), std::move(symbols)});
 }
 
 }  // namespace

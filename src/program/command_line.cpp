@@ -36,16 +36,6 @@ constexpr const char* three_commands =
 /// The options of a system of the user's own are known only when it is loaded: before the others are read.
 void load_named_system(int argc, char** argv) {
   const std::string name = typed_after("--system", argc, argv);
-  const std::string file = typed_after("--config", argc, argv);
-  if (name.empty() && !file.empty()) {
-    const auto is_word = [](const char* word) { return word[0] != '-'; };
-    const auto command = std::find_if(argv + 1, argv + argc, is_word);
-    const std::string held = system_in_options_file(file, command == argv + argc ? "" : *command);
-    if (is_path_of_system(held))
-      refuse(
-          "--config {}: a system that is a file must be typed, as its code is run, got '{}'; add --system {}",
-          file, held, held);
-  }
   if (!is_path_of_system(name)) return;
   on_first(all_ranks(), [&] { declaration_of(name); });  // compiles, if it must, once
   declaration_of(name);

@@ -5,15 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <fstream>
-#include <optional>
-#include <system_error>
 #include <utility>
 
 #include "comparison/did_you_mean.hpp"
-#include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
+#include "systems.hpp"
 
 namespace nysalt::program {
 
@@ -37,10 +33,6 @@ std::string help_of(const CLI::App& command) {
 
 namespace {
 
-/// What was read of --config where it is a pipe, which can be read once. Options are read from there, after
-/// the system of the options was.
-std::optional<std::string> text_of_pipe;
-
 std::string bounded(std::istream& input) {
   constexpr std::size_t most = 1 << 20;  // bytes: files of options are far shorter
   std::string text;
@@ -62,29 +54,15 @@ bool takes_pairs(const std::string& option) {
 
 }  // namespace
 
-std::string system_in_options_file(const std::string& file, const std::string& command) {
-  note_input(file);
-  std::ifstream input(file);
-  if (!input) return {};  // reported where options are read
-  const std::string all = bounded(input);
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) text_of_pipe = all;
-  std::string of_all;
-  for (const auto& option : options_in_toml(all, named(file), takes_pairs)) {
-    if (option.name != "system" || option.values.empty()) continue;
-    if (option.section == command) return option.values.front();
-    if (option.section.empty()) of_all = option.values.front();
-  }
-  return of_all;
-}
-
 std::vector<CLI::ConfigItem> options_file::from_config(std::istream& input) const {
   const auto who = named(app_.get_option("--config")->as<std::string>());
-  const std::string text = text_of_pipe ? *std::exchange(text_of_pipe, {}) : bounded(input);
+  const std::string text = bounded(input);
   const auto running = app_.get_subcommands();
   const std::string command = running.empty() ? "" : running.front()->get_name();
   std::vector<CLI::ConfigItem> items;
-  for (const auto& option : options_in_toml(text, who, takes_pairs)) {
+  const auto all = options_in_toml(text, who, takes_pairs);
+  for (const auto& option : all) require_no_code(option, command, who);
+  for (const auto& option : all) {
     require_known(option, command, fmt::format("{}, line {}", who, option.line));
     const std::string& section = option.section.empty() ? command : option.section;
     // What several commands have would be taken from any section.
@@ -95,6 +73,19 @@ std::vector<CLI::ConfigItem> options_file::from_config(std::istream& input) cons
     if (!option.section.empty()) std::rotate(items.begin(), items.end() - 1, items.end());
   }
   return items;
+}
+
+void options_file::require_no_code(const toml_option& option, const std::string& running,
+                                   const std::string& who) const {
+  if (option.name != "system" || running.empty()) return;
+  if (!option.section.empty() && option.section != running) return;
+  const CLI::Option* typed = app_.get_subcommand(running)->get_option_no_throw("--system");
+  if (typed != nullptr && typed->count() > 0) return;  // what is typed wins
+  for (const std::string& name : option.values) {
+    if (!is_path_of_system(name)) continue;
+    refuse("{}: a system that is a file must be typed, as its code is run, got '{}'; add --system {}", who,
+           name, name);
+  }
 }
 
 /// CLI11 refuses what it does not know too, but does not say what it knows.

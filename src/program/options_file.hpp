@@ -16,9 +16,6 @@ std::vector<std::string> option_names(const CLI::App& command);
 /// "nysalt learn --help lists the options"
 std::string help_of(const CLI::App& command);
 
-/// The value of `system` in a file of options, for a command; empty if there is none.
-std::string system_in_options_file(const std::string& file, const std::string& command);
-
 /// TOML. Options outside of a [section] belong to the command that runs, and so do those of its section.
 class options_file : public CLI::Config {
  public:
@@ -32,6 +29,10 @@ class options_file : public CLI::Config {
  private:
   /// Throws refusal for an unknown section or option, and for a value of another kind than the option takes.
   void require_known(const toml_option& option, const std::string& running, const std::string& where) const;
+
+  /// Throws refusal for a system that is a file, and was not typed. What is loaded is known when the command
+  /// line is read, and its options come from there.
+  void require_no_code(const toml_option& option, const std::string& running, const std::string& who) const;
 
   const CLI::App& app_;
 };

@@ -48,6 +48,9 @@ struct system_settings {
   std::optional<std::int64_t> start_step;  // of the file
   given_states states{};                   // of the caller's own, to begin at
   examination examined = examination::whole;
+  /// Files that the system was made of, with names of their contents: they must be the same whenever it is
+  /// made.
+  std::map<std::string, std::string> files{};
 };
 
 struct learn_command {

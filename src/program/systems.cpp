@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 
 #include "../plugin/build.hpp"
+#include "../plugin/cache.hpp"
 #include "../plugin/plugin.hpp"
 #include "bundled_systems.hpp"
 #include "comparison/did_you_mean.hpp"
@@ -249,7 +253,37 @@ std::string options_of(const system_declaration& system) {
   return text;
 }
 
+std::map<std::string, std::string> files_of(const system_settings& settings) {
+  std::map<std::string, std::string> files;
+  const auto add = [&](const std::string& name) {
+    std::error_code ignored;
+    const bool is_file = std::filesystem::is_regular_file(name, ignored);
+    std::ostringstream contents;
+    if (is_file) contents << std::ifstream(name, std::ios::binary).rdbuf();
+    files[name] = is_file ? name_of(contents.view()) : "none";
+  };
+  if (is_file_of_starts(settings.start)) add(settings.start);
+  if (settings.own) return files;
+  const system_declaration& declared = declaration_in(settings);
+  for (const auto& [name, text] : settings.parameters) {
+    const auto is_of_file = [&](const auto& one) { return one.name == name && one.is_text(); };
+    if (std::ranges::any_of(declared.parameters, is_of_file)) add(text);
+  }
+  return files;
+}
+
 std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
+  if (!settings.files.empty()) {
+    const auto now = files_of(settings);
+    for (const auto& [name, contents] : settings.files) {
+      if (now.at(name) == contents) continue;
+      refuse(
+          "{}: the file must be as it was when the system was made, as every command reads it; make the "
+          "system "
+          "again",
+          name);
+    }
+  }
   surroundings conditions = surroundings_of(settings);
   if (settings.own) return settings.own(conditions);
   const system_declaration& declared = declaration_in(settings);

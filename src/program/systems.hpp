@@ -27,6 +27,8 @@ std::string text_of(const parameter_value& value);
 std::string options_of(const system_declaration& system);
 /// Whether --start names a file of positions.
 bool is_file_of_starts(const std::string& start);
+/// The files that settings name, of starts and of data, with names of what they hold now.
+std::map<std::string, std::string> files_of(const system_settings& settings);
 /// A name that is the path of a file.
 bool is_path_of_system(std::string_view name);
 
