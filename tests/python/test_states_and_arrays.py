@@ -145,3 +145,23 @@ def test_each_role_has_starts_of_its_own():
     starts = {role: spring.starts(3, role=role)[0].tolist() for role in ("training", "held_out", "test")}
     assert starts["training"] != starts["held_out"] != starts["test"] != starts["training"]
     assert spring.starts(3)[0].tolist() == starts["test"]
+
+
+def test_a_system_is_of_the_files_that_it_was_made_of(tmp_path, monkeypatch):
+    """All calls see one system: a file that has changed since, or is another in another folder, is refused."""
+    (tmp_path / "other").mkdir()
+    for folder, first in ((tmp_path, 0.1), (tmp_path / "other", 0.3)):
+        (folder / "at.csv").write_text(f"q1,q2\n{first},0.1\n")
+    monkeypatch.chdir(tmp_path)
+    system = nysalt.system("henon_heiles", start="at.csv")
+    assert system.starts()[0][0, 0] == 0.1
+    monkeypatch.chdir(tmp_path / "other")
+    for call in (system.starts, lambda: nysalt.run(system, "verlet", 0.1, 1), lambda: nysalt.judge(system, "verlet", 0.1)):
+        with pytest.raises(ValueError, match="at.csv: the file must be as it was when the system was made"):
+            call()
+    monkeypatch.chdir(tmp_path)
+    assert system.starts()[0][0, 0] == 0.1
+    (tmp_path / "at.csv").write_text("q1,q2\n0.2,0.1\n")
+    with pytest.raises(ValueError, match="at.csv: the file must be as it was when the system was made"):
+        system.starts()
+    assert nysalt.system("henon_heiles", start="at.csv").starts()[0][0, 0] == 0.2

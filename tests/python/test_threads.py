@@ -145,4 +145,6 @@ def test_the_rounding_of_a_thread_of_python_does_not_matter():
     armed.append(True)
     with pytest.raises(ValueError, match="leave the floating-point environment as it is, got rounding upward"):
         nysalt.run(system, "verlet", 0.1, 1, checks=False)
+    with pytest.raises(ValueError, match="leave the floating-point environment as it is, got rounding upward"):
+        system.force([1.0])
     assert C_LIBRARY.fegetround() == 0

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Systems of users that are compiled: by a source, whose letters make words that are families by name, and by a potential as
 text. What the words do, and which letters are refused, tests/smoke and tests/long/programs have. Tier 1: tests/smoke."""
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -91,6 +92,30 @@ def test_what_has_changed_is_another_system_and_what_is_held_stays(tmp_path, mon
     (tmp_path / "stiff" / "well.hpp").write_text(WELL.format(stiffness=25.0))
     nysalt.build("well.hpp")  # replaces the library, which is loaded
     assert force(nysalt.system(built)) == 50.0
+
+
+SHARED = """#include "nysalt/c_force.h"
+{kind} double stiffness = {stiffness};
+int64_t nysalt_dimension(void) {{ return 1; }}
+double nysalt_potential(int64_t, const double* q, void*) {{ return 0.5 * stiffness * q[0] * q[0]; }}
+void nysalt_force(int64_t, const double* q, double* f, void*) {{ f[0] = -stiffness * q[0]; }}
+void nysalt_start(int64_t, const double* z, double* q, double* p, void*) {{ q[0] = z[0], p[0] = z[1]; }}
+"""
+
+
+@pytest.mark.parametrize("kind", ["static", "inline"])
+def test_variables_of_two_libraries_are_two(tmp_path, kind):
+    """The loader gives the inline variable of the first library to all later ones, whose forces would be those of the first."""
+    for name, stiffness in (("first", 1), ("second", 100)):
+        (tmp_path / f"{name}.cpp").write_text(SHARED.format(kind=kind, stiffness=stiffness))
+        subprocess.run(["g++", "-shared", "-fPIC", "-I", str(PLUGINS.parents[1] / "include"), f"{name}.cpp", "-o", f"{name}.so"],
+                       cwd=tmp_path, check=True)
+    assert nysalt.system(str(tmp_path / "first.so")).force([1.0])[0] == -1.0
+    if kind == "static":
+        assert nysalt.system(str(tmp_path / "second.so")).force([1.0])[0] == -100.0
+        return
+    with pytest.raises(ValueError, match="variables of its own, got stiffness, which is that of .*first.so"):
+        nysalt.system(str(tmp_path / "second.so"))
 
 
 def test_a_potential_as_text():
