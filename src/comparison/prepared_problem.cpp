@@ -450,7 +450,7 @@ const judgement& prepared_problem::judged_before(const tabulated& method,
   constexpr double few = 16.0;  // coordinates, whose pairs cost little
   double dearer = 1.0;
   if (!is_bundled_ && !is_stated && made_.system.sites() == nullptr) dearer = coordinates / few;
-  dearer = std::max(dearer, static_cast<double>(default_lanes / lanes()));
+  dearer = std::max(dearer, static_cast<double>(default_lanes) / lanes());
   const double least = static_cast<double>(all) / dearer;
   if (std::max(taken, least) >= static_cast<double>(all)) return judged(method, run.step, run.threads);
   return judged_by(method, run.step, run.threads, static_cast<std::int64_t>(std::max(taken, least)));
@@ -474,7 +474,7 @@ const judgement& prepared_problem::judged_by(const tabulated& method, double ste
         "an evaluation of the force costs as much as {:.1e} coordinates, too much for a trial", cost));
   }
   const std::int64_t all = evaluations_of_trial(made_.system);
-  const std::int64_t fewest = 500 * method.letters().evaluations_per_step;
+  const std::int64_t fewest = std::int64_t{500} * method.letters().evaluations_per_step;
   if (evaluations < all && fewest > 5 * evaluations / 2) {
     return not_tried(
         fmt::format("a trial takes {} force evaluations or more, too many before so short a run; stability "

@@ -65,7 +65,7 @@ double frequency_of(const initial_value_problem& made) {
   constexpr Eigen::Index most = 1000;  // coordinates
   if (size(made.system) > most) return 0.0;
   // A large system has many parts in each start, and its force may be one of pairs.
-  constexpr Eigen::Index pairs = 64 * 64 * 64;
+  constexpr Eigen::Index pairs = Eigen::Index{64} * 64 * 64;
   const std::int64_t count = std::clamp<Eigen::Index>(pairs / (size(made.system) * size(made.system)), 4, 64);
   std::vector<phase_point<double, Eigen::Dynamic>> starts;
   for (std::int64_t n = 0; n < count; ++n) starts.push_back(sound_start(made.system, made.starts, 1, n));

@@ -101,7 +101,7 @@ fs::path compiled(const fs::path& source) {
     return name_of(beginning + contents) + ".so";
   };
   if (const auto kept = dependencies_kept_in(list, source)) {
-    const fs::path library = folder / kept->library;
+    fs::path library = folder / kept->library;
     if (library_name(contents_of(kept->files)) == kept->library && fs::is_regular_file(library, ignored)) {
       for (const auto& file : kept->files) note_input(file);
       return library;
@@ -113,7 +113,7 @@ fs::path compiled(const fs::path& source) {
     const dependencies files = dependencies_of(source, how);
     for (const auto& file : files) note_input(file);
     const std::string contents = contents_of(files);
-    const fs::path library = folder / library_name(contents);
+    fs::path library = folder / library_name(contents);
     if (!fs::is_regular_file(library, ignored) && !compile(source, files, contents, library, how)) continue;
     keep_dependencies(list, {.files = files, .library = library.filename().string()});
     return library;

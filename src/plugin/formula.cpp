@@ -256,7 +256,8 @@ class translation {
     const bool takes_more = called.name == "min" || called.name == "max";
     while (takes(',')) {
       const std::string next = sum();
-      code = ++arguments > 2 ? fmt::format("of_{}({}), {}", called.code, code, next) : code + ", " + next;
+      code = ++arguments > 2 ? fmt::format("of_{}({}), {}", called.code, code, next)
+                             : fmt::format("{}, {}", code, next);
       if (arguments > called.arguments && !takes_more) break;
     }
     if (arguments < called.arguments || (arguments > called.arguments && !takes_more)) {

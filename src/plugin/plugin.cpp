@@ -215,7 +215,7 @@ fs::path copy_of(const fs::path& library) {
   std::ifstream stream(library, std::ios::binary);
   std::ostringstream contents;
   contents << stream.rdbuf();
-  const fs::path copy = cache_folder() / (name_of(contents.view()) + ".so");
+  fs::path copy = cache_folder() / (name_of(contents.view()) + ".so");
   std::error_code ignored;
   if (stream && !fs::exists(copy, ignored)) write_to_cache(copy, contents.view());
   return copy;

@@ -265,9 +265,9 @@ std::map<std::string, std::string> files_of(const system_settings& settings) {
   if (is_file_of_starts(settings.start)) add(settings.start);
   if (settings.own) return files;
   const system_declaration& declared = declaration_in(settings);
-  for (const auto& [name, text] : settings.parameters) {
-    const auto is_of_file = [&](const auto& one) { return one.name == name && one.is_text(); };
-    if (std::ranges::any_of(declared.parameters, is_of_file)) add(text);
+  for (const auto& parameter : declared.parameters) {
+    const auto given = settings.parameters.find(parameter.name);
+    if (parameter.is_text() && given != settings.parameters.end()) add(given->second);
   }
   return files;
 }

@@ -135,7 +135,7 @@ class gathered_rows {
   }
 
   void put() {
-    std::ranges::sort(pieces_);
+    std::ranges::stable_sort(pieces_, {}, &piece::trajectory);
     std::string together;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const auto& [trajectory, begin, end] = pieces_[i];
@@ -155,7 +155,6 @@ class gathered_rows {
     std::size_t trajectory;
     std::size_t begin;
     std::size_t end;
-    auto operator<=>(const piece&) const = default;
   };
 
   unfinished_file& to_;
