@@ -42,8 +42,9 @@ static_assert(BlackBoxForce<own_hamiltonian> && NystromSystem<own_hamiltonian> &
 
 }  // namespace nysalt::python
 
-/// Whoever calls holds the interpreter's lock, which another thread may get while a function of Python runs:
-/// that thread must not wait here, nor a function that asks its own system.
+/// No mutex: its functions are called with the global interpreter lock (GIL) held, and Python may switch
+/// threads during such a call. A thread that waited for a mutex here would hold the GIL that the owner of the
+/// mutex needs, and a force that calls its own system would wait for itself: both are deadlocks.
 template <>
 inline constexpr bool nysalt::detail::needs_lock<nysalt::python::own_hamiltonian> = false;
 

@@ -263,7 +263,6 @@ std::map<std::string, std::string> files_of(const system_settings& settings) {
     files[name] = is_file ? name_of(contents.view()) : "none";
   };
   if (is_file_of_starts(settings.start)) add(settings.start);
-  if (settings.own) return files;
   const system_declaration& declared = declaration_in(settings);
   for (const auto& parameter : declared.parameters) {
     const auto given = settings.parameters.find(parameter.name);
@@ -272,18 +271,22 @@ std::map<std::string, std::string> files_of(const system_settings& settings) {
   return files;
 }
 
-std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
-  if (!settings.files.empty()) {
-    const auto now = files_of(settings);
-    for (const auto& [name, contents] : settings.files) {
-      if (now.at(name) == contents) continue;
-      refuse(
-          "{}: the file must be as it was when the system was made, as every command reads it; make the "
-          "system "
-          "again",
-          name);
-    }
+namespace {
+
+/// Throws refusal where a file of `settings.files` has other contents now.
+void require_same_files(const system_settings& settings) {
+  if (settings.files.empty()) return;
+  const auto now = files_of(settings);
+  for (const auto& [name, contents] : settings.files) {
+    if (now.at(name) == contents) continue;
+    refuse("{}: the file must be as it was when the system was made; make the system again", name);
   }
+}
+
+}  // namespace
+
+std::unique_ptr<prepared_problem> make_system(const system_settings& settings) {
+  require_same_files(settings);
   surroundings conditions = surroundings_of(settings);
   if (settings.own) return settings.own(conditions);
   const system_declaration& declared = declaration_in(settings);
