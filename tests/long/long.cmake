@@ -31,11 +31,8 @@ if(TARGET nysalt_faults)
     ${CMAKE_CXX_COMPILER} $<TARGET_FILE:nysalt_faults> ${CMAKE_CURRENT_BINARY_DIR}/locks)
 endif()
 
-# Systems of users: every way to include a file, and a new formula by many processes at once, of which a program that refuses
-# all but one must be found.
+# A new formula by many processes at once, of which a program that refuses all but one must be found.
 if(NYSALT_BUILD_PROGRAMS AND UNIX AND NOT APPLE)
-  add_long_test(long_plugins_includes
-    Python3::Interpreter -B ${folder}/plugins/includes.py $<TARGET_FILE:nysalt_program> ${CMAKE_CURRENT_BINARY_DIR}/includes)
   set(new_formula Python3::Interpreter -B ${folder}/plugins/new_formula.py)
   set(launcher "")
   if(TARGET nysalt::mpi)
