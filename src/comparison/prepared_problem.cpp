@@ -217,7 +217,9 @@ void prepared_problem::prepare_starts(std::uint64_t seed) {
     why = problem.what();
   }
   if (why.empty()) return;
-  why.resize(std::min(why.size(), why.rfind("; ")));  // the remedy of a C++ program is none here
+  // The remedy of a C++ program is none here; the description of a system may have "; " as well.
+  const auto got = why.rfind(", got ");
+  why.resize(std::min(why.size(), got == why.npos ? why.rfind("; ") : why.find("; ", got)));
   if (!is_start_usual_)
     refuse("cannot draw initial states: {}; take another temperature, or --start law", why);
   take_law(why + "; take --start law to begin there without a search");

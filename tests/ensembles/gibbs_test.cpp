@@ -86,6 +86,14 @@ struct cusp {
     return abs(q[0]);
   }
 };
+struct half_line {  // it leaves towards -x, and the potential of all chains is nearly 0: no mean shows that
+  static constexpr int dimension = 2;
+  template <class T>
+  T potential(const vector<T, 2>& q) const {
+    using std::abs;
+    return (abs(q[0]) + q[0]) * q[0] + q[1] * q[1];
+  }
+};
 struct no_force {
   static constexpr int dimension = 1;
   template <class T>
@@ -283,6 +291,7 @@ BOOST_AUTO_TEST_CASE(what_never_has_the_law_is_refused) {
                               {"gibbs", "must become stationary", "4096 steps"}));
   BOOST_TEST(refuses<failure>([&] { gibbs(free, near_0); }, {"gibbs", "pilot chain", "diverged at time",
                                                              "must be confined", "henon_heiles()"}));
+  BOOST_TEST(refuses<failure>([] { gibbs(at(1.0, half_line{}), near_0); }, {"must be confined", "left and"}));
   BOOST_TEST(
       refuses<failure>([&] { one_long_trajectory(free, near_0); }, {"diverged at time", "henon_heiles()"}));
 }

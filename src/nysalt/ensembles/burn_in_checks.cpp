@@ -32,6 +32,13 @@ void detail::refuse_escape(const watched_interval& later, const model& system) {
         "gibbs: the motion of {} must be confined, got chains that have all left and meet no force",
         describe(system)));
   }
+  // Half-way between the 1/2 of a half-line and the 0 of what repeats itself.
+  if (const double free = later.share_without_force(); free > 0.25) {
+    throw std::runtime_error(fmt::format(
+        "gibbs: the motion of {} must be confined, or its potential the same wherever it goes, got {:.0f} % "
+        "of the chains that have left and meet no force along a coordinate",
+        describe(system), 100.0 * free));
+  }
   const discrepancy potential = later.potential_of_the_far();
   if (!potential.shows()) return;
   throw std::runtime_error(fmt::format(

@@ -63,6 +63,7 @@ class burn_in_pilot {
     const auto chains = static_cast<std::size_t>(count_);
     for (auto* numbers : {&result.begin, &result.mean, &result.square})
       numbers->fill(std::vector<double>(chains));
+    result.force_square.assign(chains, Eigen::VectorXd());
     std::vector<double> begin(chains);
     std::vector<double> finish(chains);
     const std::int64_t before = blocks_.front().run.step();
@@ -81,6 +82,7 @@ class burn_in_pilot {
   }
 
  private:
+  /// What is watched, and then the square of each force.
   void read(const burn_in_chains& chains, const state& x, std::span<T> out) const {
     const model& system = chains.system();
     auto f = make_vector<T>(system);
@@ -89,6 +91,7 @@ class burn_in_pilot {
     T virial(0.0);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       virial -= x.q[i] * f[i];
+      out[watched_numbers + static_cast<std::size_t>(i)] = f[i] * f[i];
       p[i] += f[i] * (0.5 * chains_->step());
     }
     velocity<T>(system, p, f);
@@ -110,29 +113,31 @@ class burn_in_pilot {
 
   void follow(block& here, std::int64_t first, std::int64_t end, std::int64_t every,
               watched_interval& result) {
-    of_watched<T> begin;
-    of_watched<T> sum;
+    const std::size_t width_read = watched_numbers + static_cast<std::size_t>(here.start.size());
+    std::vector<T> begin(width_read);
+    std::vector<T> sum(width_read, T(0.0));
     of_watched<T> squares;
-    sum.fill(T(0.0));
     squares.fill(T(0.0));
     read(*here.chains, here.run.synchronous(), begin);
     std::int64_t observations = 0;
     const auto observe = [&](const state& x, std::span<T> out) { read(*here.chains, x, out); };
-    here.run.go_on(end, every, watched_numbers, observe,
-                   [&](std::int64_t, std::span<const T> seen, const auto&) {
-                     ++observations;
-                     for (std::size_t i = 0; i < watched_numbers; ++i) {
-                       sum[i] += seen[i];
-                       squares[i] += seen[i] * seen[i];
-                     }
-                   });
-    for (std::size_t i = 0; i < watched_numbers; ++i) {
-      for (int k = 0; k < here.count; ++k) {
-        const auto chain = static_cast<std::size_t>(first + k);
+    here.run.go_on(end, every, width_read, observe, [&](std::int64_t, std::span<const T> seen, const auto&) {
+      ++observations;
+      for (std::size_t i = 0; i < width_read; ++i) sum[i] += seen[i];
+      for (std::size_t i = 0; i < watched_numbers; ++i) squares[i] += seen[i] * seen[i];
+    });
+    for (int k = 0; k < here.count; ++k) {
+      const auto chain = static_cast<std::size_t>(first + k);
+      const auto mean = [&](const T& of) { return lane(of, k) / static_cast<double>(observations); };
+      for (std::size_t i = 0; i < watched_numbers; ++i) {
         result.begin[i][chain] = lane(begin[i], k);
-        result.mean[i][chain] = lane(sum[i], k) / static_cast<double>(observations);
-        result.square[i][chain] = lane(squares[i], k) / static_cast<double>(observations);
+        result.mean[i][chain] = mean(sum[i]);
+        result.square[i][chain] = mean(squares[i]);
       }
+      auto& forces = result.force_square[chain];
+      forces.resize(here.start.size());
+      for (Eigen::Index i = 0; i < forces.size(); ++i)
+        forces[i] = mean(sum[watched_numbers + static_cast<std::size_t>(i)]);
     }
   }
 

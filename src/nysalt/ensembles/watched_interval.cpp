@@ -32,6 +32,21 @@ discrepancy watched_interval::potential_of_the_far() const {
   return {a.mean - b.mean, std::hypot(a.standard_error, b.standard_error)};
 }
 
+double watched_interval::share_without_force() const {
+  const auto chains = static_cast<double>(force_square.size());
+  const Eigen::Index coordinates = force_square.empty() ? 0 : force_square.front().size();
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < coordinates; ++i) {
+    double mean = 0.0;
+    for (const auto& of_chain : force_square) mean += of_chain[i] / chains;
+    if (!(mean > 0.0)) continue;
+    constexpr double tail = 1e-12;  // of a force that falls off without an end, as exp(q) at -14
+    const auto is_free = [&](const Eigen::VectorXd& of_chain) { return of_chain[i] <= tail * mean; };
+    largest = std::max(largest, static_cast<double>(std::ranges::count_if(force_square, is_free)) / chains);
+  }
+  return largest;
+}
+
 bool watched_interval::is_cooling() const {
   const auto is_above = [](const discrepancy& one) { return !(one.mean <= 0.0) && one.shows(); };
   for (const watched what : {watched::kinetic, watched::virial}) {

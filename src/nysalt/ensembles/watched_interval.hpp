@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -18,8 +19,9 @@ struct watched_interval {
   of_watched<std::vector<double>> begin;   ///< at its beginning, one number a chain
   of_watched<std::vector<double>> mean;    ///< over time, one a chain
   of_watched<std::vector<double>> square;  ///< mean square over time, one a chain
-  std::vector<double> way_to_begin;        ///< |q - q_0|^2 at the beginning, one a chain
-  double way_to_end = 0.0;                 ///< its mean at the end
+  std::vector<Eigen::VectorXd> force_square;  ///< mean square over time of each force, a vector a chain
+  std::vector<double> way_to_begin;           ///< |q - q_0|^2 at the beginning, one a chain
+  double way_to_end = 0.0;                    ///< its mean at the end
 
   /// A random walk doubles its variance over an interval that begins where half the time is over.
   bool confined() const { return way_to_end < 1.5 * mean_over_chains(way_to_begin).mean; }
@@ -27,6 +29,10 @@ struct watched_interval {
   /// Where the motion is not confined it is 0 if the potential is the same wherever chains go, as that of
   /// angles and of a centre of mass. Where chains leave the potential behind there is no Gibbs distribution.
   discrepancy potential_of_the_far() const;
+  /// Largest share of chains, over all coordinates, that met no force there while others did. A random walk
+  /// along a half-line does not return within an interval that doubles its time with the probability
+  /// 2/pi arcsin(1/sqrt(2)) = 1/2; along a direction that repeats itself all chains meet the same forces.
+  double share_without_force() const;
   /// Whether number i is meaningful: the virial is where the motion is confined.
   bool counts(std::size_t i) const { return i != static_cast<std::size_t>(watched::virial) || confined(); }
 
