@@ -13,7 +13,7 @@
 
 #include "agree.hpp"
 #include "counting.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/tabulated.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/method.hpp"

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
+#include "nysalt/families/composition.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/families/thermostatted.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"

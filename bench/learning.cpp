@@ -17,7 +17,7 @@
 
 #include "../tests/support/losses.hpp"
 #include "counting.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/learning/minimise.hpp"

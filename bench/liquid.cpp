@@ -11,7 +11,7 @@
 #include "agree.hpp"
 #include "chain_run.hpp"
 #include "lammps.hpp"
-#include "nysalt/ensembles/lennard_jones_liquid_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "peers/roofs.hpp"
 #include "races.hpp"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/noises/counter_based.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 #include "peers/normal.hpp"
 #include "races.hpp"
 

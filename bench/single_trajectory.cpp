@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "agree.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"

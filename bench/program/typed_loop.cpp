@@ -16,14 +16,14 @@
 
 #include "nysalt/energy.hpp"
 #include "nysalt/ensemble.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/distributions.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/phi4_chain.hpp"
+#include "nysalt/systems/phi4.hpp"
 #include "toda.hpp"
 
 namespace nysalt::bench {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "measure.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/references/fine_steps.hpp"

@@ -13,7 +13,7 @@
 
 #include "../peers/splitmix.hpp"
 #include "measure.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/methods/classical.hpp"

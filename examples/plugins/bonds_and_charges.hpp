@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // A sum of two parts for the program, with the kicks of each, and of both, as letters.
 // [system]
-#include <nysalt/flows/kick_of_parts.hpp>
+#include <nysalt/flows/exact_flow.hpp>
 #include <nysalt/plugin.hpp>
 #include <nysalt/systems/bonded_chain.hpp>
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -100,5 +101,41 @@ std::vector<T> all_gather(const communicator& ranks, const std::vector<T>& ours)
 inline std::int64_t first_of_part(std::int64_t count, int part, int parts) {
   return (count * part + parts - 1) / parts;
 }
+
+/// The communicator of a single process: no messages.
+class lone_communicator final : public communicator {
+ public:
+  int rank() const override { return 0; }
+  int size() const override { return 1; }
+  void send(std::span<const std::byte>, int) const override {}
+  void receive(std::span<std::byte>, int) const override {}
+  void broadcast(std::span<std::byte>, int) const override {}
+  void all_gather(std::span<std::byte>, std::span<const std::size_t>) const override {}
+  std::int64_t minimum(std::int64_t value) const override { return value; }
+  std::int64_t sum(std::int64_t value) const override { return value; }
+  void barrier() const override {}
+};
+
+inline const lone_communicator one_rank;  ///< default communicator of all options
+
+// Work of several ranks that succeeds on all of them, or fails on all.
+
+/// Does the work of this rank, in which nothing is collective. If it throws on some ranks, it throws on all
+/// what the lowest of them threw, as std::invalid_argument, std::bad_alloc or std::runtime_error with its
+/// words; on a single rank, the very exception. So all ranks catch it, or none does. Lower ranks have lower
+/// trajectories, so that it is the exception of the first that has one, as in for_each_block(). Cost: one
+/// number from and to all ranks.
+void collectively(const communicator& ranks, const std::function<void()>& work);
+
+/// The same of what only rank 0 does, such as writing a file. Meanwhile the others leave it the processor.
+void on_first(const communicator& ranks, const std::function<void()>& work);
+
+// One rank's progress, reported as that of all.
+
+/// A counter for the `count` trajectories of this rank, such that `progress` counts to `total`, those of all
+/// ranks. Shares are nearly equal: rank 0 scales its own count, and the others report nothing.
+std::function<void(std::int64_t)> progress_of_share(const communicator& ranks, std::int64_t count,
+                                                    std::int64_t total,
+                                                    const std::function<void(std::int64_t)>& progress);
 
 }  // namespace nysalt

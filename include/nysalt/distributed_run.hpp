@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "nysalt/communicators/one_rank.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
 

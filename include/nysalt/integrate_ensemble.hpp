@@ -11,11 +11,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "nysalt/communicators/one_rank.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/lockstep.hpp"
-#include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/method.hpp"

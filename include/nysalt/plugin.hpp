@@ -15,7 +15,7 @@
 #include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/detail/requirements.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/system_declaration.hpp"
 #include "nysalt/version.hpp"
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/communicators/one_rank.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/detail/tree_sum.hpp"
 
 namespace nysalt {

@@ -17,7 +17,7 @@
 #include "nysalt/detail/prepared_run_time_word.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/served_letters.hpp"
-#include "nysalt/noises/none.hpp"
+#include "nysalt/noise.hpp"
 
 namespace nysalt {
 

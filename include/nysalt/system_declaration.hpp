@@ -13,9 +13,9 @@
 #include <variant>
 #include <vector>
 
-#include "nysalt/analysis/error_measures/exchange.hpp"
+#include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/bath.hpp"
-#include "nysalt/derivatives/letter_check.hpp"
+#include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/detail/any_reference.hpp"
 #include "nysalt/detail/named_letters.hpp"
 #include "nysalt/detail/over_scalars.hpp"

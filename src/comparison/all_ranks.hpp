@@ -2,7 +2,7 @@
 // Those who compute together: one process, or the ranks that mpirun started.
 #pragma once
 
-#include "nysalt/communicators/one_rank.hpp"
+#include "nysalt/communicator.hpp"
 
 namespace nysalt::program {
 

@@ -7,14 +7,9 @@
 #include <system_error>
 
 #include "did_you_mean.hpp"
-#include "nysalt/families/aba.hpp"
-#include "nysalt/families/bab.hpp"
-#include "nysalt/families/fd_chin.hpp"
-#include "nysalt/families/fg4.hpp"
-#include "nysalt/families/fg_chin.hpp"
-#include "nysalt/families/free_composition.hpp"
+#include "nysalt/families/composition.hpp"
+#include "nysalt/families/gradient_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/families/r_aba.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/classical_methods.hpp"
 #include "nysalt/methods/phase_fitted.hpp"

@@ -10,7 +10,7 @@
 
 #include "nysalt/detail/named_letters.hpp"
 #include "nysalt/learning/problem.hpp"
-#include "nysalt/losses/metric.hpp"
+#include "nysalt/losses/window_error.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/run_time_family.hpp"
 #include "refusal.hpp"

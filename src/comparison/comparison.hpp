@@ -18,7 +18,7 @@
 #include "learned_row.hpp"
 #include "measurement.hpp"
 #include "method_source.hpp"
-#include "nysalt/analysis/timing.hpp"
+#include "nysalt/analysis/cost_against_error.hpp"
 #include "prepared_problem.hpp"
 #include "progress.hpp"
 

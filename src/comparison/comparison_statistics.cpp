@@ -8,8 +8,7 @@
 
 #include "checks.hpp"
 #include "comparison.hpp"
-#include "nysalt/analysis/acf_error.hpp"
-#include "nysalt/analysis/total_variation.hpp"
+#include "nysalt/analysis/statistics.hpp"
 #include "seeds.hpp"
 
 namespace nysalt::program {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "did_you_mean.hpp"
-#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/methods/tabulated.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {

@@ -9,7 +9,7 @@
 
 #include "all_ranks.hpp"
 #include "nysalt/atomic_file.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/detail/write_failure.hpp"
 #include "origin.hpp"
 #include "refusal.hpp"

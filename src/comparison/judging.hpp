@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "json.hpp"
-#include "nysalt/derivatives/stability_margin.hpp"
+#include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/judgement.hpp"
 #include "prepared_problem.hpp"
 

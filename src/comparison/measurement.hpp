@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "json.hpp"
-#include "nysalt/analysis/gathered_statistics.hpp"
-#include "nysalt/analysis/method_error.hpp"
+#include "nysalt/analysis/ensemble_statistics.hpp"
 #include "nysalt/analysis/statistics.hpp"
+#include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/detail/divergence.hpp"
 
 namespace nysalt::program {

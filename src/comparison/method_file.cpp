@@ -15,11 +15,11 @@
 #include "document_reader.hpp"
 #include "inputs.hpp"
 #include "method_file_format.hpp"
-#include "nysalt/derivatives/taylor_order.hpp"
+#include "nysalt/derivatives/properties.hpp"
 #include "nysalt/detail/known_letters.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/losses/loss_choice.hpp"
-#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/methods/tabulated.hpp"
 #include "refusal.hpp"
 #include "stability.hpp"
 

@@ -11,7 +11,7 @@
 #include "nysalt/langevin.hpp"
 #include "nysalt/learning/energies_outside.hpp"
 #include "nysalt/learning/stability_guard.hpp"
-#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/methods/tabulated.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {

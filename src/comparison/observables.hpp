@@ -9,7 +9,7 @@
 
 #include "degrees_of_freedom.hpp"
 #include "did_you_mean.hpp"
-#include "nysalt/analysis/kinetic_temperature.hpp"
+#include "nysalt/analysis/ensemble_statistics.hpp"
 #include "nysalt/energy.hpp"
 #include "prepared_problem.hpp"
 #include "refusal.hpp"

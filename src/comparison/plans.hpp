@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "asked_metric.hpp"
-#include "nysalt/analysis/histogram.hpp"
+#include "nysalt/analysis/statistics.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/learning/until_enough.hpp"
+#include "nysalt/learning/learn_enough.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "settings.hpp"
 

@@ -16,8 +16,8 @@
 
 #include "examination.hpp"
 #include "nysalt/analysis/acceptance.hpp"
-#include "nysalt/analysis/error_measure.hpp"
-#include "nysalt/analysis/gathered_statistics.hpp"
+#include "nysalt/analysis/ensemble_statistics.hpp"
+#include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/bath.hpp"
 #include "nysalt/judgement.hpp"

@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "nysalt/analysis/pareto_front.hpp"
+#include "nysalt/analysis/cost_against_error.hpp"
 
 namespace nysalt::program {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "comparison.hpp"
-#include "nysalt/analysis/threshold.hpp"
+#include "nysalt/analysis/cost_against_error.hpp"
 #include "verdict.hpp"
 
 namespace nysalt::program {

@@ -7,7 +7,7 @@
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "learning.hpp"
-#include "nysalt/analysis/tail.hpp"
+#include "nysalt/analysis/statistics.hpp"
 #include "seeds.hpp"
 
 namespace nysalt::program {

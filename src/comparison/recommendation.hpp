@@ -12,7 +12,7 @@
 #include "contest.hpp"
 #include "json.hpp"
 #include "method_file.hpp"
-#include "nysalt/analysis/timing.hpp"
+#include "nysalt/analysis/cost_against_error.hpp"
 #include "nysalt/run_time_family.hpp"
 #include "prepared_problem.hpp"
 #include "progress.hpp"

@@ -6,7 +6,7 @@
 #include "checks.hpp"
 #include "known_word.hpp"
 #include "learning.hpp"
-#include "nysalt/analysis/tail.hpp"
+#include "nysalt/analysis/statistics.hpp"
 #include "recommendation.hpp"
 #include "seeds.hpp"
 

@@ -12,9 +12,9 @@
 
 #include "all_ranks.hpp"
 #include "interruption.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/distributed_run.hpp"
-#include "nysalt/ensembles/listed.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/stepper.hpp"
 #include "observables.hpp"
 #include "refusal.hpp"

@@ -10,7 +10,7 @@
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "learning.hpp"
-#include "nysalt/ensembles/thermal_positions.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/hmc.hpp"
 #include "purpose.hpp"
 #include "seeds.hpp"

@@ -11,7 +11,7 @@
 #include "json.hpp"
 #include "method_file.hpp"
 #include "method_source.hpp"
-#include "nysalt/analysis/acceptance_step.hpp"
+#include "nysalt/analysis/acceptance.hpp"
 #include "prepared_problem.hpp"
 #include "progress.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "all_ranks.hpp"
-#include "nysalt/analysis/timing.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/analysis/cost_against_error.hpp"
+#include "nysalt/communicator.hpp"
 
 namespace nysalt::program {
 

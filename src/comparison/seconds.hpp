@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "nysalt/analysis/timing.hpp"
+#include "nysalt/analysis/cost_against_error.hpp"
 #include "prepared_problem.hpp"
 
 namespace nysalt::program {

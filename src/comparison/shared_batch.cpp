@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 
 namespace nysalt::program {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/distributed_run.hpp"
 #include "observables.hpp"
 

@@ -2,7 +2,7 @@
 #include "stability.hpp"
 
 #include "nysalt/derivatives/linear_stability.hpp"
-#include "nysalt/detail/step_on_oscillator.hpp"
+#include "nysalt/derivatives/oscillator.hpp"
 
 namespace nysalt::program {
 

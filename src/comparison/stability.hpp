@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "nysalt/derivatives/stability_window.hpp"
+#include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/methods/tabulated.hpp"
 
 namespace nysalt::program {

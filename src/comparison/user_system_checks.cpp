@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "nysalt/derivatives/check_force.hpp"
-#include "nysalt/derivatives/frequencies_at.hpp"
-#include "nysalt/derivatives/hessian_spectrum.hpp"
+#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/ensemble.hpp"
 #include "observables.hpp"
 #include "progress.hpp"

@@ -6,9 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/site_window.hpp"
 #include "nysalt/detail/tiled_steps.hpp"
 #include "nysalt/detail/tree_sum.hpp"
 

@@ -11,13 +11,11 @@
 #include <random>
 #include <stdexcept>
 
-#include "learning/redistribute.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "learning/data_of_problem.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/steps_in.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
-#include "nysalt/ensembles/typical_and_energetic.hpp"
 
 namespace nysalt {
 

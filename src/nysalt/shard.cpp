@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
+
 #include "nysalt/shard.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <stdexcept>

@@ -18,7 +18,7 @@
 #include "comparison/refusal.hpp"
 #include "nysalt/c_force.h"
 #include "nysalt/detail/fingerprint.hpp"
-#include "nysalt/noises/counter_based.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt::program {
 

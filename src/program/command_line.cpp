@@ -14,7 +14,7 @@
 #include "comparison/prepared_problem.hpp"
 #include "comparison/refusal.hpp"
 #include "mpi_session.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "options/shared_options.hpp"
 #include "options/subcommand.hpp"
 #include "options_file.hpp"

@@ -18,7 +18,7 @@
 #include "comparison/refusal.hpp"
 #include "csv_file.hpp"
 #include "nysalt/detail/fingerprint.hpp"
-#include "nysalt/ensembles/thermal_positions.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "output/written_arrays.hpp"
 
 namespace nysalt::program {

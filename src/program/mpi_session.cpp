@@ -14,7 +14,7 @@
 
 #include "comparison/refusal.hpp"
 #include "comparison/standard_error.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 
 #if defined NYSALT_HAS_MPI
 #include "nysalt/communicators/mpi.hpp"

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "langevin_statistics.hpp"
-#include "nysalt/analysis/acf_error.hpp"
+#include "nysalt/analysis/statistics.hpp"
 
 namespace nysalt::program::paper {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "langevin_statistics.hpp"
-#include "nysalt/analysis/total_variation.hpp"
+#include "nysalt/analysis/statistics.hpp"
 
 namespace nysalt::program::paper {
 

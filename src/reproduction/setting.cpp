@@ -11,7 +11,7 @@
 #include "comparison/learning.hpp"
 #include "comparison/method_source.hpp"
 #include "comparison/seeds.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "program/settings.hpp"
 #include "program/systems.hpp"
 

@@ -7,7 +7,7 @@
 #include "comparison/catalogue.hpp"
 #include "comparison/learning.hpp"
 #include "comparison/seeds.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/make_problem.hpp"

@@ -9,8 +9,8 @@
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/statistics.hpp"
-#include "nysalt/analysis/evaluations.hpp"
-#include "nysalt/analysis/predictability.hpp"
+#include "nysalt/analysis/cost_against_error.hpp"
+#include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/nysalt.hpp"
 
 using namespace nysalt;

@@ -4,7 +4,7 @@
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
-#include "nysalt/analysis/sample_weights.hpp"
+#include "nysalt/analysis/statistics.hpp"
 #include "nysalt/nysalt.hpp"
 
 using namespace nysalt;

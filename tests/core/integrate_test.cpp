@@ -12,8 +12,7 @@
 #include "../support/allocations.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/core.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/ensembles/lennard_jones_liquid_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/references/odeint_stepper.hpp"
 
 using namespace nysalt;

@@ -3,8 +3,8 @@
 // does.
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/ensembles/typical_and_energetic.hpp"
+#include "nysalt/ensembles/given_states.hpp"
+#include "nysalt/ensembles/starts_to_judge.hpp"
 #include "nysalt/phase_points.hpp"
 
 using namespace nysalt;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "nysalt/core.hpp"
-#include "nysalt/detail/in_digits.hpp"
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/steps_in.hpp"
 #include "nysalt/phase_points.hpp"
 

@@ -4,7 +4,7 @@
 #include "../support/rounding.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/derivatives/check_force.hpp"
-#include "nysalt/derivatives/hessian_spectrum.hpp"
+#include "nysalt/derivatives/spectrum.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

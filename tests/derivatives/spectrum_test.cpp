@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 // The ends of the spectrum of a Hessian, and the frequencies of the linearised motion, against Eigen's
 // eigenvalues.
+#include "nysalt/derivatives/spectrum.hpp"
 #include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/core.hpp"
-#include "nysalt/derivatives/frequencies_at.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
 using namespace nysalt;

@@ -6,10 +6,9 @@
 #include "../laws/laws.hpp"
 #include "../support/dense.hpp"
 #include "nysalt/core.hpp"
-#include "nysalt/derivatives/bernstein.hpp"
-#include "nysalt/derivatives/jacobian.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
-#include "nysalt/derivatives/stability_margin.hpp"
+#include "nysalt/derivatives/properties.hpp"
+#include "nysalt/scalars/polynomial.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -8,10 +8,8 @@
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/ensembles/gibbs_of_modes.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/ensembles/one_long_trajectory.hpp"
+#include "nysalt/ensembles/distributions.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

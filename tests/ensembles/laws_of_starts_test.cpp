@@ -7,12 +7,8 @@
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/ensembles/kepler_law.hpp"
-#include "nysalt/ensembles/lennard_jones_law.hpp"
-#include "nysalt/ensembles/lennard_jones_liquid_law.hpp"
-#include "nysalt/ensembles/listed.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/distributions.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -6,10 +6,10 @@
 
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
-#include "nysalt/derivatives/jacobian.hpp"
-#include "nysalt/families/phase_fitted_start.hpp"
-#include "nysalt/families/thermostatted.hpp"
+#include "nysalt/derivatives/properties.hpp"
+#include "nysalt/families/composition.hpp"
 #include "nysalt/methods/classical_methods.hpp"
+#include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/methods/r_respa.hpp"
 #include "nysalt/systems/bonded_chain.hpp"
 

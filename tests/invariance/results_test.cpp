@@ -4,17 +4,14 @@
 // and cut.
 #include "law.hpp"
 #include "nysalt/analysis/acceptance.hpp"
-#include "nysalt/analysis/acceptance_step.hpp"
 #include "nysalt/analysis/ensemble_statistics.hpp"
-#include "nysalt/analysis/error_measures/energy.hpp"
-#include "nysalt/analysis/error_measures/path.hpp"
-#include "nysalt/analysis/error_measures/state.hpp"
+#include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/hmc.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/losses/state_error.hpp"
+#include "nysalt/losses/window_error.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -4,7 +4,7 @@
 #include "law.hpp"
 #include "nysalt/ensemble_run.hpp"
 #include "nysalt/ensembles/gibbs.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/integrate.hpp"

@@ -11,7 +11,7 @@
 #include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 #include "nysalt/systems/pendulum.hpp"
-#include "nysalt/systems/phi4_chain.hpp"
+#include "nysalt/systems/phi4.hpp"
 
 #ifndef NYSALT_TEST_EXTERN
 #define NYSALT_TEST_EXTERN extern

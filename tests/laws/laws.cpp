@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "../support/dense.hpp"
-#include "nysalt/derivatives/reversibility.hpp"
+#include "nysalt/derivatives/properties.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/references/odeint.hpp"

@@ -4,7 +4,7 @@
 
 #include "laws.hpp"
 #include "models.hpp"
-#include "nysalt/families/thermostatted.hpp"
+#include "nysalt/families/composition.hpp"
 #include "nysalt/methods/classical_methods.hpp"
 #include "nysalt/methods/s_aia.hpp"
 

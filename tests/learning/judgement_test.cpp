@@ -4,9 +4,8 @@
 // By it a method that was learned at one size is tried at another of its kind, and refused where it fails.
 #include "../support/learned.hpp"
 #include "../support/refusal.hpp"
-#include "nysalt/ensembles/kepler_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
-#include "nysalt/ensembles/typical_and_energetic.hpp"
 #include "nysalt/learning/at_other_size.hpp"
 
 using namespace nysalt;

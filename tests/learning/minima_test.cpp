@@ -10,7 +10,7 @@
 #include "../support/losses.hpp"
 #include "../support/rounding.hpp"
 #include "../support/scratch.hpp"
-#include "nysalt/families/aba.hpp"
+#include "nysalt/families/composition.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learning/compressed_cost.hpp"
 #include "nysalt/learning/curvature.hpp"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // A loss of one's own function: the library's losses come out of it to the bit, over double and in lanes, and
 // it is learned as they are: found, judged, and given its errors.
-#include "nysalt/losses/own_loss.hpp"
+#include "nysalt/losses/window_error.hpp"
 
 #include "../support/learned.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/losses/energy_error.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -7,7 +7,7 @@
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
-#include "nysalt/losses/energy_error.hpp"
+#include "nysalt/losses/window_error.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -10,7 +10,7 @@
 #include "../support/learned.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/analysis/gaussian_acceptance.hpp"
+#include "nysalt/analysis/acceptance.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

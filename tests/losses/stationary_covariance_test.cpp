@@ -10,7 +10,6 @@
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/learning/minimise.hpp"
-#include "nysalt/losses/discrete_lyapunov.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 #include "nysalt/systems/pendulum.hpp"

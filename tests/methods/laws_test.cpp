@@ -10,9 +10,9 @@
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
-#include "nysalt/families/thermostatted.hpp"
+#include "nysalt/families/composition.hpp"
 #include "nysalt/methods/classical_methods.hpp"
-#include "nysalt/methods/repeated.hpp"
+#include "nysalt/methods/tabulated.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -13,9 +13,9 @@
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/families/aba.hpp"
-#include "nysalt/noises/along_path.hpp"
+#include "nysalt/families/composition.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/run_time_family.hpp"
 
 using namespace nysalt;

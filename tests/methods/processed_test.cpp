@@ -2,15 +2,13 @@
 // Processed words: P(h)^-1 once, the kernel step by step, and P(-h) on what is looked at.
 #include "../laws/laws.hpp"
 #include "../support/refusal.hpp"
-#include "nysalt/analysis/evaluations.hpp"
-#include "nysalt/derivatives/taylor_order.hpp"
+#include "nysalt/analysis/cost_against_error.hpp"
+#include "nysalt/derivatives/properties.hpp"
 #include "nysalt/detail/lockstep.hpp"
-#include "nysalt/families/fg4.hpp"
-#include "nysalt/families/fg_chin.hpp"
-#include "nysalt/families/free_composition.hpp"
+#include "nysalt/families/composition.hpp"
+#include "nysalt/families/gradient_composition.hpp"
 #include "nysalt/methods/classical_methods.hpp"
-#include "nysalt/methods/repeated.hpp"
-#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/methods/tabulated.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -2,13 +2,13 @@
 // Systems that offer too little, or not in the required form, losses of one's own, systems declared for the
 // program, and sentences. The comments are explained in check.py.
 #include "common.hpp"
-#include "nysalt/derivatives/symplecticity.hpp"
+#include "nysalt/derivatives/properties.hpp"
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/ensembles/listed.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/flows/exact_flow.hpp"
-#include "nysalt/losses/own_loss.hpp"
+#include "nysalt/losses/window_error.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/plugin.hpp"

@@ -59,15 +59,15 @@ def mutant(number, what, file, near, *edits, equivalent=""):
 # ---- Hybrid Monte Carlo.
 
 mutant(1, "the energy of an accepted lane is not renewed where another lane rejects",
-       LIBRARY + "sampling/block_of_chains.hpp", "sampling analysis programs",
+       LIBRARY + "sampling/sampler.hpp", "sampling analysis programs",
        ("      set_lane(potential_, k, lane(potential, k));",
         "      if (!MUTANT) set_lane(potential_, k, lane(potential, k));"))
 mutant(2, "the rise of the energy is not divided by kT",
-       LIBRARY + "sampling/block_of_chains.hpp", "sampling analysis",
+       LIBRARY + "sampling/sampler.hpp", "sampling analysis",
        ("(lane(after, k) - lane(before, k)) / temperature",
         "(lane(after, k) - lane(before, k)) / (MUTANT ? 1.0 : temperature)"))
 mutant(3, "momenta are divided by the root of the mass instead of multiplied",
-       LIBRARY + "sampling/block_of_chains.hpp", "sampling",
+       LIBRARY + "sampling/sampler.hpp", "sampling",
        ("normals_[i] * (root * system.root_mass(k))",
         "normals_[i] * (MUTANT ? root / system.root_mass(k) : root * system.root_mass(k))"))
 mutant(4, "sampling resumes one trajectory further on",
@@ -92,20 +92,20 @@ mutant(31, "deviations are not divided by the root of kT: a lost unit",
        ("scales_ = deviations / std::sqrt(options_.temperature);",
         "scales_ = deviations / std::sqrt(MUTANT ? 1.0 : options_.temperature);"))
 mutant(32, "a resumed burn-in has forgotten how far the tuning had come",
-       LIBRARY + "sampling/dual_averaging.hpp", "sampling programs",
+       LIBRARY + "sampling/sampler.hpp", "sampling programs",
        ("    count_ = saved[4];", "    count_ = MUTANT ? 0.0 : saved[4];"))
 mutant(33, "the variance between chains is left out of the masses",
-       LIBRARY + "sampling/moments.cpp", "sampling",
+       LIBRARY + "sampling/sampler.cpp", "sampling",
        ("(one.mean - mean).cwiseAbs2()", "(MUTANT ? 0.0 : 1.0) * (one.mean - mean).cwiseAbs2()"))
 mutant(34, "effective draws count those of one chain only",
-       LIBRARY + "sampling/chains.cpp", "sampling",
+       LIBRARY + "sampling/sampler.cpp", "sampling",
        ("static_cast<double>(draws * chains.size())", "static_cast<double>(draws * (MUTANT ? 1 : chains.size()))"))
 mutant(35, "the tuning of proposals takes energies without kT",
        LIBRARY + "sampling/acceptance_step.cpp", "sampling analysis",
        ("(energy[0] - at_start[row]) / options.temperature",
         "(energy[0] - at_start[row]) / (MUTANT ? 1.0 : options.temperature)"))
 mutant(36, "a refused start has the number within its block",
-       LIBRARY + "sampling/block_of_chains.hpp", "sampling",
+       LIBRARY + "sampling/sampler.hpp", "sampling",
        ("          lane(potential_, k), first + k));", "          lane(potential_, k), MUTANT ? k : first + k));"))
 
 # ---- Data, losses, the search and its verdicts.
@@ -120,10 +120,10 @@ mutant(6, "the reference is checked with the noise of the next step", LIBRARY + 
 mutant(24, "the range of energies is not extended with further data", LIBRARY + "flow_map_data.cpp",
        "data learning",
        ("if (data.energies && further.energies) {", "if (!MUTANT && data.energies && further.energies) {"))
-mutant(9, "the error of the reference is not held against the fit", LIBRARY + "learning/objection.cpp", "learning",
+mutant(9, "the error of the reference is not held against the fit", LIBRARY + "learning/solve.cpp", "learning",
        ("fit.reference_error <= 0.01 * fit.one_step_error",
         "fit.reference_error <= (MUTANT ? 1e9 : 0.01) * fit.one_step_error"))
-mutant(27, "that a parameter ran away is never said", LIBRARY + "learning/objection.cpp", "learning",
+mutant(27, "that a parameter ran away is never said", LIBRARY + "learning/solve.cpp", "learning",
        ("if (!fit.is_at_no_bound)", "if (!MUTANT && !fit.is_at_no_bound)"))
 mutant(10, "the guard has no margin about declared bands", LIBRARY + "learning/stability_guard.cpp", "learning",
        ("for (const auto& band : bands) bands_.push_back({band.low * (1.0 - margin), band.high * (1.0 + margin)});",
@@ -149,23 +149,23 @@ mutant(40, "a start outside its range is not projected", LIBRARY + "learning/sea
 mutant(41, "all random starts have the same random numbers", LIBRARY + "learning/search.cpp", "learning",
        ("{.trajectory = n, .purpose = noise_purpose::search}",
         "{.trajectory = MUTANT ? 0 : n, .purpose = noise_purpose::search}"))
-mutant(42, "standard errors of parameters without the factor B/(B - 1)", LIBRARY + "learning/curvature.cpp",
+mutant(42, "standard errors of parameters without the factor B/(B - 1)", LIBRARY + "learning/search.cpp",
        "learning",
        ("(squares * (blocks / freedom)).cwiseSqrt()",
         "(squares * (MUTANT ? 1.0 : blocks / freedom)).cwiseSqrt()"))
-mutant(43, "the expected excess of a fit is twice as large", LIBRARY + "learning/curvature.cpp", "learning",
+mutant(43, "the expected excess of a fit is twice as large", LIBRARY + "learning/search.cpp", "learning",
        ("result.push_back(0.5 * score.dot(solve(score)));",
         "result.push_back((MUTANT ? 1.0 : 0.5) * score.dot(solve(score)));"))
-mutant(12, "a mean square is divided by a rank's own pairs", LIBRARY + "losses/metric.cpp", "losses learning",
+mutant(12, "a mean square is divided by a rank's own pairs", LIBRARY + "losses/passes.cpp", "losses learning",
        ("increment);\n  const auto total = static_cast<double>(data.all_pairs());",
         "increment);\n  const auto total = static_cast<double>(MUTANT ? data.pairs() : data.all_pairs());"))
-mutant(44, "positions in energy coordinates are not multiplied by their frequency", LIBRARY + "losses/metric.cpp",
+mutant(44, "positions in energy coordinates are not multiplied by their frequency", LIBRARY + "losses/passes.cpp",
        "losses learning",
        ("is_scaled ? heavy * omega : heavy", "is_scaled && !MUTANT ? heavy * omega : heavy"))
-mutant(45, "the scale of an energy loss is twice as large", LIBRARY + "losses/energy.cpp", "losses learning",
+mutant(45, "the scale of an energy loss is twice as large", LIBRARY + "losses/losses.cpp", "losses learning",
        ("return 1.0 / std::sqrt(data.share().sum(squares)",
         "return (MUTANT ? 2.0 : 1.0) / std::sqrt(data.share().sum(squares)"))
-mutant(46, "each frequency counts twice in the loss gaussian_acceptance", LIBRARY + "losses/gaussian_acceptance.cpp",
+mutant(46, "each frequency counts twice in the loss gaussian_acceptance", LIBRARY + "losses/losses.cpp",
        "losses learning",
        ("const double weight = 0.5 * count;", "const double weight = (MUTANT ? 1.0 : 0.5) * count;"))
 mutant(16, "a trial repeats its first 64 starts", LIBRARY + "judging/trial.cpp", "learning programs",
@@ -186,9 +186,9 @@ mutant(126, "the energy error of a run is that of its first trajectories alone",
 
 mutant(7, "a variance is divided by n", LIBRARY + "analysis/statistics.cpp", "analysis",
        ("(x - mean) * (x - mean); }, n - 1.0)", "(x - mean) * (x - mean); }, MUTANT ? n : n - 1.0)"))
-mutant(8, "the variance lacks the error of the mean", LIBRARY + "analysis/gathered_statistics.cpp", "analysis",
+mutant(8, "the variance lacks the error of the mean", LIBRARY + "analysis/ensemble_statistics.cpp", "analysis",
        ("- mean.mean * mean.mean + squared_error;", "- mean.mean * mean.mean + (MUTANT ? 0.0 : squared_error);"))
-mutant(22, "histograms of ranks are not merged", LIBRARY + "analysis/gathered_statistics.cpp", "analysis invariance",
+mutant(22, "histograms of ranks are not merged", LIBRARY + "analysis/ensemble_statistics.cpp", "analysis invariance",
        ("if (wanted_->histogram) gather_histograms();", "if (wanted_->histogram && !MUTANT) gather_histograms();"))
 mutant(14, "evaluations are per step instead of per time", LIBRARY + "analysis/trajectory_errors.cpp",
        "analysis programs",
@@ -198,40 +198,40 @@ mutant(25, "the error of a reference in a bath lacks the factor 4/3", LIBRARY + 
        "analysis", ("if (compared.parts > 0 && of_reference)", "if (!MUTANT && compared.parts > 0 && of_reference)"))
 mutant(15, "an acceptance without kT", LIBRARY + "analysis/acceptance.cpp", "analysis",
        ("std::exp(-rise / temperature)", "std::exp(-rise / (MUTANT ? 1.0 : temperature))"))
-mutant(21, "the error of a crossing without the correlation of the rows", LIBRARY + "analysis/threshold.cpp",
+mutant(21, "the error of a crossing without the correlation of the rows", LIBRARY + "analysis/cost_against_error.cpp",
        "analysis", ("2.0 * correlation * a * b", "(MUTANT ? 0.0 : 2.0) * correlation * a * b"))
-mutant(47, "the force of the start is not counted", LIBRARY + "analysis/evaluations.cpp", "analysis",
+mutant(47, "the force of the start is not counted", LIBRARY + "analysis/cost_against_error.cpp", "analysis",
        ("word.evaluations_to_open + steps * word.evaluations_per_step",
         "(MUTANT ? 0 : word.evaluations_to_open) + steps * word.evaluations_per_step"))
-mutant(48, "the integrated autocorrelation time lacks its factor 2", LIBRARY + "analysis/integrated_time.cpp",
+mutant(48, "the integrated autocorrelation time lacks its factor 2", LIBRARY + "analysis/statistics.cpp",
        "analysis sampling", ("result.tau += 2.0 * rho[k];", "result.tau += (MUTANT ? 1.0 : 2.0) * rho[k];"))
-mutant(49, "a number on the upper edge is outside of the histogram", HEADERS + "analysis/histogram.hpp", "analysis",
+mutant(49, "a number on the upper edge is outside of the histogram", HEADERS + "analysis/statistics.hpp", "analysis",
        ("return select(x > bins_.high,", "return select(MUTANT ? !(x < bins_.high) : x > bins_.high,"))
-mutant(50, "a Pareto front keeps a point of equal error and higher cost", LIBRARY + "analysis/pareto_front.cpp",
+mutant(50, "a Pareto front keeps a point of equal error and higher cost", LIBRARY + "analysis/cost_against_error.cpp",
        "analysis",
        ("if (!(all[i].error < least)) continue;",
         "if (MUTANT ? all[i].error > least : !(all[i].error < least)) continue;"))
 mutant(51, "a covariance is divided by the number of samples, not of pairs",
-       HEADERS + "analysis/autocovariance_sums.hpp", "analysis sampling",
+       HEADERS + "analysis/statistics.hpp", "analysis sampling",
        ("result[lag] = {samples_ - static_cast<double>(lag),",
         "result[lag] = {samples_ - (MUTANT ? 0.0 : static_cast<double>(lag)),"))
-mutant(52, "the error of a root lacks its factor 1/2", LIBRARY + "analysis/error_measure.cpp", "analysis",
+mutant(52, "the error of a root lacks its factor 1/2", LIBRARY + "analysis/error_measures.cpp", "analysis",
        ("return {root, mean.standard_error / (2.0 * root)};",
         "return {root, mean.standard_error / ((MUTANT ? 1.0 : 2.0) * root)};"))
-mutant(53, "a kinetic temperature without masses", HEADERS + "analysis/kinetic_temperature.hpp", "analysis",
+mutant(53, "a kinetic temperature without masses", HEADERS + "analysis/ensemble_statistics.hpp", "analysis",
        ("sum += x.p[i] * v[i];", "sum += x.p[i] * (MUTANT ? x.p[i] : v[i]);"))
 
 # ---- Letters, words and steps.
 
-mutant(54, "a kick with a known force has the wrong sign", HEADERS + "flows/kick.hpp", "flows methods",
+mutant(54, "a kick with a known force has the wrong sign", HEADERS + "flows/drift_kick.hpp", "flows methods",
        ("x.p[i] += x.f[i] * c;", "x.p[i] += x.f[i] * (MUTANT ? C(-c) : c);"))
 mutant(55, "the gradient of a gradient kick has the wrong sign", HEADERS + "flows/gradient_kick.hpp",
        "flows methods", ("c * (2.0 * h * h * h)", "c * ((MUTANT ? -2.0 : 2.0) * h * h * h)"))
-mutant(56, "a displaced kick is displaced the other way", HEADERS + "flows/displaced_kick.hpp", "flows methods",
+mutant(56, "a displaced kick is displaced the other way", HEADERS + "flows/gradient_kick.hpp", "flows methods",
        ("return {b * h, c * (h * h)};", "return {b * h, c * (MUTANT ? -h * h : h * h)};"))
 mutant(57, "a rotation turns the other way", HEADERS + "flows/rotation.hpp", "flows methods",
        ("const C t = c * h;", "const C t = c * (MUTANT ? -h : h);"))
-mutant(58, "a kick of several parts gives all of them the first coefficient", HEADERS + "flows/kick_of_parts.hpp",
+mutant(58, "a kick of several parts gives all of them the first coefficient", HEADERS + "flows/exact_flow.hpp",
        "flows derivatives",
        ("(kick(system.template part<Part>(), c[K]), ...);",
         "(kick(system.template part<Part>(), c[MUTANT ? 0 : K]), ...);"))
@@ -247,7 +247,7 @@ mutant(62, "noise of a letter O on a model has no mass", HEADERS + "flows/ornste
        ("flow.deviation * system.root_mass(i)", "flow.deviation * (MUTANT ? 1.0 : system.root_mass(i))"))
 mutant(63, "the temperature of a bath is sigma^2/gamma", HEADERS + "bath.hpp", "core flows ensembles",
        ("sigma * sigma / (2.0 * friction)", "sigma * sigma / ((MUTANT ? 1.0 : 2.0) * friction)"))
-mutant(64, "one half of a merged letter O is taken twice", HEADERS + "detail/merged_half_steps.hpp",
+mutant(64, "one half of a merged letter O is taken twice", HEADERS + "detail/prepared_word.hpp",
        "core methods",
        ("both_.decay = begin.decay * end.decay;",
         "both_.decay = begin.decay * end.decay * (MUTANT ? begin.decay : C(1.0));"))
@@ -260,7 +260,7 @@ mutant(66, "the force of a run that is taken up again is lost", HEADERS + "ensem
         "for (Eigen::Index i = 0; i < n; ++i, ++next_number)\n"
         "          set_lane((*part)[i], k, MUTANT && part == &run.state.f ? 0.0 : *next_number);"))
 mutant(67, "before an observation the force is not kept that the first letter is taken back with",
-       HEADERS + "detail/take_steps.hpp", "methods core",
+       HEADERS + "detail/prepared_run_time_word.hpp", "methods core",
        ("n < steps ? letters.loop : letters.last", "MUTANT || n < steps ? letters.loop : letters.last"))
 mutant(68, "the last trajectory of a block that is not full is lost", HEADERS + "detail/lockstep.hpp",
        "invariance core data",
@@ -280,10 +280,10 @@ mutant(70, "all letters O of a step have the same noise", HEADERS + "noises/coun
 mutant(71, "halves of a letter O are split with the noise of the whole", HEADERS + "noises/counter_noise.hpp",
        "noises core methods",
        ("draw(is_burn_in ?", "draw(MUTANT ? purpose_ : is_burn_in ?"))
-mutant(72, "trajectories have the same noise from 2^32 on", HEADERS + "noises/counter_based.hpp", "noises",
+mutant(72, "trajectories have the same noise from 2^32 on", HEADERS + "noises/counter_noise.hpp", "noises",
        ("(trajectory >> 32) | ((step >> 32U) << 16U)",
         "(MUTANT ? words(std::uint64_t{0}) : trajectory >> 32) | ((step >> 32U) << 16U)"))
-mutant(73, "the second half of a step of a path has the wrong sign", HEADERS + "noises/finer_noise.hpp",
+mutant(73, "the second half of a step of a path has the wrong sign", HEADERS + "noises/counter_noise.hpp",
        "noises references",
        ("(is_first ? 1.0 : -a) * scale", "(is_first ? 1.0 : MUTANT ? a : -a) * scale"))
 mutant(17, "methods are compared on the data that they learned from", "src/comparison/seeds.hpp", "programs report",
@@ -311,10 +311,10 @@ mutant(76, "one digit of pefrl as data is wrong: the order is 2", LIBRARY + "met
         "            return all;\n          }(),"))
 mutant(77, "a factor of the energy error of two stages has the wrong sign", LIBRARY + "methods/s_aia.cpp", "methods",
        ("(1.0 - a * rest * x);", "(1.0 - (MUTANT ? -a : a) * rest * x);"))
-mutant(78, "methods are fitted to the lowest frequency", HEADERS + "methods/frequency_to_fit.hpp", "methods learning",
+mutant(78, "methods are fitted to the lowest frequency", HEADERS + "methods/phase_fitted.hpp", "methods learning",
        ("return system.modes().frequencies.maxCoeff();",
         "return MUTANT ? system.modes().frequencies.minCoeff() : system.modes().frequencies.maxCoeff();"))
-mutant(79, "the upper end of a spectrum is no bound", LIBRARY + "derivatives/lanczos.cpp", "derivatives",
+mutant(79, "the upper end of a spectrum is no bound", LIBRARY + "derivatives/spectrum.cpp", "derivatives",
        ("high.value + high.residual,", "high.value + (MUTANT ? 0.0 : high.residual),"))
 mutant(80, "the finer reference is as coarse as the reference", LIBRARY + "references/small_steps.cpp",
        "references data analysis",
@@ -322,11 +322,11 @@ mutant(80, "the finer reference is as coarse as the reference", LIBRARY + "refer
 mutant(81, "the evaluations of a reference are those of one lane", LIBRARY + "references/small_steps.cpp",
        "references data",
        ("return count * evaluations_of(", "return (MUTANT ? 1 : count) * evaluations_of("))
-mutant(82, "the burn-in is kept as initial states", LIBRARY + "ensembles/one_long_trajectory.cpp", "ensembles",
+mutant(82, "the burn-in is kept as initial states", LIBRARY + "ensembles/gibbs.cpp", "ensembles",
        ("if (n >= first) states_.push_back(x);", "if (MUTANT || n >= first) states_.push_back(x);"))
 mutant(83, "a burn-in is a tenth as long", LIBRARY + "ensembles/burn_in.hpp", "ensembles",
-       ("options_.length > 0.0 ? options_.length : 20.0 * report.tau;",
-        "options_.length > 0.0 ? options_.length : (MUTANT ? 2.0 : 20.0) * report.tau;"))
+       ("options_.length > 0.0 ? options_.length : times_of_tau() * report.tau;",
+        "options_.length > 0.0 ? options_.length : (MUTANT ? 0.1 : 1.0) * times_of_tau() * report.tau;"))
 mutant(84, "a list of neighbours holds until an atom has moved by the whole skin",
        LIBRARY + "systems/neighbour_list.cpp", "systems",
        ("most_moved_square_((less_than_half * skin) * (less_than_half * skin)),",
@@ -418,7 +418,7 @@ mutant(107, "a force that is not the slope of its potential is accepted", "src/c
 mutant(108, "a plug-in is compiled once, whatever its source says", "src/plugin/build.cpp", "smoke programs",
        ("return name_of(beginning + contents) + \".so\";",
         "return name_of(MUTANT ? beginning : beginning + contents) + \".so\";"))
-mutant(13, "coefficients are exported with 15 digits", LIBRARY + "exports/fill.cpp", "programs methods",
+mutant(13, "coefficients are exported with 15 digits", LIBRARY + "exports/export_to.cpp", "programs methods",
        ("std::string text = fmt::format(\"{}\", value);",
         "std::string text = MUTANT ? fmt::format(\"{:.15g}\", value) : fmt::format(\"{}\", value);"))
 mutant(109, "exported to C, the noise of the bath is multiplied by the root of the inverse mass",
@@ -458,7 +458,6 @@ mutant(119, "the error of a mean acceptance is half as large", LIBRARY + "analys
 mutant(120, "standard errors of parameters lack the factor 2 of the gradient of a square",
        HEADERS + "losses/squares.hpp", "learning losses",
        ("r.slope(k, i) * 2.0;", "r.slope(k, i) * (MUTANT ? 1.0 : 2.0);"))
-mutant(121, "another seed is a shift of the numbers of trajectories", HEADERS + "ensembles/fpu_law.hpp", "ensembles",
-       ("standard_normals(seed, {.trajectory = n, .purpose = noise_purpose::initial_state}",
-        "standard_normals(MUTANT ? 0 : seed, {.trajectory = MUTANT ? seed + n : n, "
-        ".purpose = noise_purpose::initial_state}"))
+mutant(121, "another seed is a shift of the numbers of trajectories", HEADERS + "ensembles/distributions.hpp", "ensembles",
+       ("state normals(2 * pairs_);\n    standard_normals(seed, {.trajectory = n,",
+        "state normals(2 * pairs_);\n    standard_normals(MUTANT ? 0 : seed, {.trajectory = MUTANT ? seed + n : n,"))

@@ -3,14 +3,14 @@
 // The noise of many intervals in one is exactly that of the flow over all of them; the same path at half the
 // step, and again; and a run along a recorded path sees that path's noise, each letter O that of its own part
 // of the step.
+#include "nysalt/noises/recorded_path.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/thermostatted.hpp"
-#include "nysalt/noises/along_path.hpp"
-#include "nysalt/noises/finer_noise.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -2,7 +2,7 @@
 // Ranks that share trajectories: which rank has which, sums with the bits of one rank, and what fails on one
 // rank fails on all, in the same words.
 #include "../support/ranks_as_threads.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/shard.hpp"
 
 using namespace nysalt;

@@ -6,11 +6,11 @@
 #include <chrono>
 #include <future>
 #include "../support/refusal.hpp"
-#include "nysalt/analysis/error_measures/energy.hpp"
+#include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/detail/held_signals.hpp"
 #include "nysalt/ensemble_run.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/judgement.hpp"
 
 using namespace nysalt;

@@ -2,7 +2,7 @@
 // Compiled with -O1: whole trials are of millions of evaluations.
 // The trial before a run takes no more force evaluations than the run, or than some tenths of a second have.
 #include "../../src/comparison/prepared_problem.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/methods/classical.hpp"
 
 using namespace nysalt;

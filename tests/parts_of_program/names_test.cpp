@@ -3,7 +3,7 @@
 #include "../../src/comparison/catalogue.hpp"
 #include "../../src/comparison/did_you_mean.hpp"
 #include "../../src/comparison/known_word.hpp"
-#include "nysalt/flows/kick_of_parts.hpp"
+#include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/systems/sum_of_parts.hpp"
 
 using namespace nysalt::program;

@@ -6,8 +6,8 @@
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/ensembles/given_states.hpp"
+#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;

@@ -10,7 +10,7 @@
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
 #include "nysalt/compare.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/recommend.hpp"
 
 using namespace nysalt;

@@ -10,12 +10,11 @@
 #include "../support/refusal.hpp"
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
-#include "nysalt/analysis/integrated_time.hpp"
-#include "nysalt/ensembles/listed.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/analysis/statistics.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/gaussian.hpp"
-#include "nysalt/systems/phi4_lattice.hpp"
+#include "nysalt/systems/phi4.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

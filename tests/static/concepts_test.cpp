@@ -7,9 +7,9 @@
 
 #include "../laws/models.hpp"
 #include "nysalt/detail/requirements.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/ensembles/listed.hpp"
-#include "nysalt/methods/palindromic.hpp"
+#include "nysalt/ensembles/distributions.hpp"
+#include "nysalt/ensembles/given_states.hpp"
+#include "nysalt/methods/s_aia.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/odeint.hpp"

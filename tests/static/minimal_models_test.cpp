@@ -2,12 +2,12 @@
 // The least model of each concept, which docs/concepts shows: scalar, system with its optional members, bath,
 // noise, flow, word, family, method, reference, ensemble, observer, loss, objective and error measure; and
 // that they do their work.
-#include "nysalt/analysis/error_measure.hpp"
+#include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/detail/requirements.hpp"
 #include "nysalt/ensemble.hpp"
-#include "nysalt/losses/own_loss.hpp"
 #include "nysalt/losses/squares.hpp"
+#include "nysalt/losses/window_error.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/reference.hpp"
 

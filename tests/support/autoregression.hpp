@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "nysalt/analysis/autocovariance.hpp"
-#include "nysalt/noises/counter_based.hpp"
+#include "nysalt/analysis/statistics.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt::test {
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "nysalt/detail/step_on_oscillator.hpp"
+#include "nysalt/derivatives/oscillator.hpp"
 
 namespace nysalt::test {
 

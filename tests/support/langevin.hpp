@@ -13,12 +13,11 @@
 #include <vector>
 
 #include "dense.hpp"
+#include "nysalt/families/composition.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/families/thermostatted.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
-#include "nysalt/methods/thermostatted.hpp"
-#include "nysalt/noises/counter_based.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/in_bath.hpp"

@@ -7,10 +7,9 @@
 
 #include "losses.hpp"
 #include "nysalt/core.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/ensembles/gibbs_of_modes.hpp"
-#include "nysalt/ensembles/listed.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/distributions.hpp"
+#include "nysalt/ensembles/gibbs.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/references/exact_linear.hpp"
 #include "nysalt/references/fine_paths.hpp"

@@ -13,8 +13,7 @@
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
-#include "nysalt/systems/phi4_chain.hpp"
-#include "nysalt/systems/phi4_lattice.hpp"
+#include "nysalt/systems/phi4.hpp"
 
 namespace nysalt::test {
 

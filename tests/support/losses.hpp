@@ -15,12 +15,11 @@
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/losses/after_steps.hpp"
-#include "nysalt/losses/metric.hpp"
 #include "nysalt/losses/squares.hpp"
-#include "nysalt/losses/state_error.hpp"
+#include "nysalt/losses/window_error.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/noises/along_path.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt::test {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "nysalt/flows/exact_flow.hpp"
-#include "nysalt/flows/kick_of_parts.hpp"
 #include "nysalt/systems/bonded_chain.hpp"
 #include "nysalt/systems/henon_heiles.hpp"
 

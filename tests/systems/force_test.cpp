@@ -6,7 +6,7 @@
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/detail/kernels.hpp"
 #include "nysalt/systems/gaussian.hpp"
-#include "nysalt/systems/lennard_jones_cluster.hpp"
+#include "nysalt/systems/lennard_jones.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

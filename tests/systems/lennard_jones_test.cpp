@@ -3,16 +3,16 @@
 // Lennard-Jones clusters are at rest, and of the energies that their shapes have. The liquid's forces are
 // those of all pairs, with bits that neither lists nor threads change; sums that know no order, and lists
 // that hold for as long as they say.
+#include "nysalt/systems/lennard_jones.hpp"
 #include <set>
 #include "../../src/nysalt/systems/neighbour_list.hpp"
 #include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/ensembles/lennard_jones_liquid_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/systems/lennard_jones_cluster.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

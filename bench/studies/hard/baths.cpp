@@ -5,7 +5,7 @@
 #include "energy_story.hpp"
 #include "hard_case.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/thermostatted.hpp"
+#include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/in_bath.hpp"

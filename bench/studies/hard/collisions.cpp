@@ -4,9 +4,9 @@
 
 #include "energy_story.hpp"
 #include "hard_case.hpp"
-#include "nysalt/noises/counter_based.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/lennard_jones.hpp"
-#include "nysalt/systems/phi4_chain.hpp"
+#include "nysalt/systems/phi4.hpp"
 #include "words.hpp"
 
 namespace nysalt::hard {

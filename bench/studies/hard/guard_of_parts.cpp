@@ -15,7 +15,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/families/nested_kicks.hpp"
 #include "nysalt/judgement.hpp"
 #include "nysalt/learn.hpp"

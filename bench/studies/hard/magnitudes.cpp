@@ -6,11 +6,11 @@
 
 #include "energy_story.hpp"
 #include "hard_case.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
-#include "nysalt/systems/phi4_chain.hpp"
+#include "nysalt/systems/phi4.hpp"
 #include "words.hpp"
 
 namespace nysalt::hard {

@@ -9,7 +9,7 @@
 
 #include "guard_of_parts.hpp"
 #include "hard_case.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/families/nested_kicks.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/learn.hpp"

@@ -6,8 +6,8 @@
 
 #include "energy_story.hpp"
 #include "hard_case.hpp"
-#include "nysalt/derivatives/transient_growth.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
+#include "nysalt/derivatives/oscillator.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "words.hpp"
 

@@ -3,11 +3,9 @@
 
 #include <stdexcept>
 
-#include "nysalt/families/aba.hpp"
-#include "nysalt/families/fg4.hpp"
-#include "nysalt/families/free_composition.hpp"
+#include "nysalt/families/composition.hpp"
+#include "nysalt/families/gradient_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/families/r_aba.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/s_aia.hpp"
 

@@ -10,8 +10,8 @@
 #include <optional>
 #include <utility>
 
-#include "nysalt/ensembles/thermal_positions.hpp"
-#include "nysalt/families/bab.hpp"
+#include "nysalt/ensembles/distributions.hpp"
+#include "nysalt/families/composition.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/references/fine_steps.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "chapters.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/noises/counter_based.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/gaussian.hpp"
 
 namespace nysalt::sampling_benchmark {

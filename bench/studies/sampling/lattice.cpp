@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "chapters.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/ensembles/thermal_positions.hpp"
+#include "nysalt/ensembles/distributions.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "power_spectrum.hpp"
 

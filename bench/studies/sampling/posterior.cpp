@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "chapters.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/methods/classical.hpp"
 
 namespace nysalt::sampling_benchmark {

@@ -1,20 +1,142 @@
 // SPDX-License-Identifier: BSL-1.0
-// Methods at one step against one reference, along many trajectories, by one measure or several.
+// Errors of methods at one step against one reference, along many trajectories.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
 #include <ranges>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "nysalt/analysis/trajectory_errors_result.hpp"
-#include "nysalt/analysis/trajectory_options.hpp"
+#include "nysalt/analysis/error_measures.hpp"
+#include "nysalt/analysis/statistics.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/detail/any_reference.hpp"
+#include "nysalt/detail/divergence.hpp"
 #include "nysalt/initial_states.hpp"
+#include "nysalt/lanes.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt {
+
+/// All coordinates times 1 + relative * (normal numbers of their own), each a pure function of seed and
+/// trajectory; lane 0 holds number `first`. What is 0 stays so.
+template <class T, int N>
+phase_point<T, N> perturbed(phase_point<T, N> x, double relative, std::uint64_t seed, std::uint64_t first) {
+  phase_point<T, N> normals = x;
+  noise_counter at = {.trajectory = first, .purpose = noise_purpose::perturbation};
+  standard_normals(seed, at, normals.q);
+  at.slot += slots_for(static_cast<std::uint64_t>(x.size()));
+  standard_normals(seed, at, normals.p);
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    x.q[i] = x.q[i] * (normals.q[i] * relative + 1.0);
+    x.p[i] = x.p[i] * (normals.p[i] * relative + 1.0);
+  }
+  return x;
+}
+
+/// Number of the sample, in each lane, since which the errors of perturbed starts so far exceed half of the
+/// null model's, to the end: a quarter of them where they are squares, so that roots are halved. A sum that
+/// falls behind again begins anew: what hardly moves at first leaves the null model without errors for a few
+/// samples.
+template <class T>
+class predictable_samples {
+ public:
+  /// `how` says whether sums of errors are of squares: all but averaging::mean.
+  explicit predictable_samples(averaging how) : share_(how == averaging::mean ? 0.5 : 0.25) {}
+
+  /// Takes the sums of errors over the samples up to i = 1, 2, ..., in this order.
+  void add(std::int64_t i, const T& perturbed, const T& null_model) {
+    const auto within = perturbed <= null_model * share_;  // not if a sum has gone to NaN
+    exceeded_at_.reset(within);
+    exceeded_at_.take(!within, i);
+  }
+
+  /// The first sample in lane k from which on the errors are not within; infinite if they are to the end.
+  double until(int k) const {
+    const auto& exceeded_at = exceeded_at_[k];
+    return exceeded_at ? static_cast<double>(*exceeded_at) : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  double share_;
+  first_in_lanes<T> exceeded_at_{};
+};
+
+// Errors of the runs of one method.
+
+/// The quantiles of errors that are reported.
+inline constexpr std::array shown_quantiles{0.05, 0.25, 0.5, 0.75, 0.95};
+
+/// Spread of the errors of single trajectories about the one number that is made of them: each is the error
+/// that this trajectory would have without the others, in the unit of the whole.
+struct distribution_of_errors {
+  tail largest{};     ///< largest score; the error is the mean of the scores
+  estimate median{};  ///< median with its standard error
+  std::array<double, shown_quantiles.size()> quantiles{};  ///< scores at shown_quantiles
+};
+
+/// Error and cost of a method.
+struct method_error {
+  estimate error;                                ///< mean over the trajectories that did not diverge
+  std::int64_t diverged = 0;                     ///< number of trajectories that diverged
+  std::vector<diverged_trajectory> diverged_at;  ///< steps of divergence, in the order of the trajectories
+  double evaluations_per_time = 0.0;             ///< force evaluations per unit time, start-up included
+  std::vector<double> of_each{};    ///< contribution of each trajectory to the error; NaN if it diverged
+  std::vector<double> own{};        ///< the error of each by itself, in the unit of the whole; NaN likewise
+  distribution_of_errors spread{};  ///< spread of the trajectories that did not diverge
+};
+
+/// Error of a method from the runs of all trajectories, in their order, and what their errors are relative
+/// to. What a run cost is counted elsewhere.
+method_error error_of_runs(const std::vector<run_score>& runs, const error_measure& measure,
+                           std::span<const double> sizes = {});
+
+// Errors of methods, and of their reference, along many trajectories by one measure.
+
+/// Errors of all methods by one measure, with null model and reference error.
+struct trajectory_errors_result {
+  std::vector<method_error> methods;        ///< methods in the order in which they were given
+  std::optional<estimate> reference_error;  ///< against its finer self; nothing if no reference was needed
+  std::string reference;                    ///< description of the reference, or empty
+  std::optional<estimate> null_model;       ///< error of the prediction that nothing moves, if requested
+  std::optional<double> predictable_until;  ///< a time, perhaps infinite, if asked for
+  double unit = 1.0;                        ///< divisor of the errors: a mean over all trajectories
+};
+
+/// Number, length, seed and threads of the trajectories to compare.
+struct trajectory_options {
+  double step;                      ///< samples are at t_i = i step, i = 1..steps
+  std::int64_t steps;               ///< steps of each trajectory
+  std::int64_t trajectories = 400;  ///< independent starts
+  std::uint64_t seed = 1;           ///< seed of the starts and the noise
+  int threads = 1;                  ///< changes no bit
+  std::function<void(std::int64_t done)> progress =
+      {};                   ///< progress callback, after some trajectories; calls do not overlap
+  bool null_model = false;  ///< whether to measure it; what is left out costs nothing
+  /// Relative, of starts: how long are trajectories predictable? Nothing: that is not measured.
+  std::optional<double> perturbation = {};
+  const communicator* ranks = &one_rank;  ///< ranks that share the trajectories; changes no bit
+  /// Errors are means over [0, horizon], which ends within the last step (sample_weights), so that methods of
+  /// other steps are judged over the same time. Nothing: over all samples alike.
+  std::optional<double> horizon = {};
+};
+
+/// Throws std::invalid_argument unless there are steps and trajectories, and a score of each method, measure
+/// and trajectory, and an interval of samples of `width` numbers (of all measures) for each method and
+/// thread, fit into the memory of a rank: the scores of all trajectories come to each of them.
+void require_room(const trajectory_options& options, std::size_t methods, std::size_t width,
+                  std::size_t measures = 1);
+
+// Methods at one step against one reference, along many trajectories, by one measure or several.
 
 /// A vector, array or span of methods of one type.
 template <class C>

@@ -1,14 +1,98 @@
 // SPDX-License-Identifier: BSL-1.0
-// For which z = h omega a method is stable on the harmonic oscillator, exactly.
+// Linear stability: the windows of z = h omega in which a method is stable, and the distance from their ends.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
-#include "nysalt/derivatives/stability_window.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/run_time_word.hpp"
+#include "nysalt/system.hpp"
 
 namespace nysalt {
+
+/// Stable for low <= z <= high, but for a single point where the matrix is a Jordan block.
+struct stability_window {
+  double low;   ///< the least z = h omega
+  double high;  ///< the largest z = h omega
+};
+
+/// All windows, from small z to large, and the z within them where two touch.
+struct stability_chart {
+  std::vector<stability_window> windows;  ///< disjoint, in order
+  /// There the matrix is +-I: an oscillator is back after a step or two, and the errors that a nonlinear
+  /// system makes at each add up.
+  std::vector<double> touching;
+};
+
+/// Whether all z in low..high lie in one window.
+inline bool is_stable(const std::vector<stability_window>& windows, double low, double high) {
+  return std::any_of(windows.begin(), windows.end(),
+                     [&](const auto& window) { return window.low <= low && high <= window.high; });
+}
+
+/// The parts of 0..highest that lie in no window.
+inline std::vector<stability_window> gaps_below(const std::vector<stability_window>& windows,
+                                                double highest) {
+  std::vector<stability_window> gaps;
+  double last = 0.0;
+  for (const auto& window : windows) {
+    const double next = std::min(window.low, highest);
+    if (last < next) gaps.push_back({last, next});
+    last = window.high;
+  }
+  if (last < highest) gaps.push_back({last, highest});
+  return gaps;
+}
+
+// Stability margin: the distance of a step from the ends of the windows of stability.
+
+/// Stability margin of z = low..high, as a share of the stability interval: 1 - high/end, and where the
+/// window has a beginning above 0 also 1 - beginning/low, whichever is less. A step may grow by the factor
+/// 1/(1 - margin) before it is unstable. Negative if some z is unstable: then the end is that of the last
+/// window which holds z before it; minus infinity if there is none.
+inline double stability_margin(const std::vector<stability_window>& windows, double low, double high) {
+  double end = 0.0;
+  double margin_below = 1.0;
+  for (const auto& window : windows) {
+    if (!(window.low <= low)) break;
+    end = window.high;
+    margin_below = window.low > 0.0 ? 1.0 - window.low / low : 1.0;
+  }
+  if (!(end > 0.0)) return -std::numeric_limits<double>::infinity();
+  return std::min(1.0 - high / end, margin_below);
+}
+
+/// Steps from low to high.
+struct step_range {
+  double low;   ///< the least step
+  double high;  ///< the largest step; may be infinite
+};
+
+/// Every step at which each band lies in a window, from small to large. Without bands all steps.
+inline std::vector<step_range> stable_steps(const std::vector<stability_window>& windows,
+                                            const std::vector<frequency_band>& bands) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<step_range> result{{0.0, infinity}};
+  for (const auto& band : bands) {
+    if (!(band.high > 0.0)) continue;
+    std::vector<step_range> both;
+    for (const auto& window : windows) {
+      if (band.low == 0.0 && window.low > 0.0) continue;
+      const double low = band.low > 0.0 ? window.low / band.low : 0.0;
+      const double high = window.high / band.high;
+      for (const auto& range : result) {
+        const step_range common{std::max(low, range.low), std::min(high, range.high)};
+        if (common.low < common.high) both.push_back(common);
+      }
+    }
+    result = both;
+  }
+  return result;
+}
+
+// For which z = h omega a method is stable on the harmonic oscillator, exactly.
 
 /// All windows. Their ends are roots of trace/2 = +-1, to the last bits that the values determine; windows
 /// that touch where the matrix is +-I are one. The bath is left out. Extrema are isolated by bounds on whole

@@ -14,10 +14,8 @@
 
 #include "nysalt/detail/own_letter.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/flows/displaced_kick.hpp"
-#include "nysalt/flows/drift.hpp"
+#include "nysalt/flows/drift_kick.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
-#include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
 #include "nysalt/flows/rotation.hpp"
 #include "nysalt/word.hpp"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "nysalt/derivatives/frequencies_at.hpp"
+#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/run_time_family.hpp"
 

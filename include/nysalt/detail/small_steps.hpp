@@ -11,7 +11,7 @@
 
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/noises/finer_noise.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/reference.hpp"
 

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "nysalt/flows/displaced_kick.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/rotation.hpp"
 #include "nysalt/word.hpp"

@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "nysalt/detail/kernels.hpp"
-#include "nysalt/detail/take_steps.hpp"
+#include "nysalt/detail/prepared_run_time_word.hpp"
 #include "nysalt/detail/tiled_steps.hpp"
-#include "nysalt/flows/drift.hpp"
+#include "nysalt/flows/drift_kick.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
-#include "nysalt/flows/kick.hpp"
 #include "nysalt/flows/rotation.hpp"
 #include "nysalt/run_time_word.hpp"
 #include "nysalt/systems/counted.hpp"

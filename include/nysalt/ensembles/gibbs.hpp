@@ -1,17 +1,85 @@
 // SPDX-License-Identifier: BSL-1.0
+// Initial states from a Gibbs distribution: by burn-in, in closed form of linear forces, or from one long
+// trajectory.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/over_scalars.hpp"
-#include "nysalt/ensembles/burn_in_report.hpp"
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/ensemble.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
+#include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/references/exact_linear.hpp"
 
 namespace nysalt {
+
+/// 0 is for what is to be found.
+struct burn_in_options {
+  double friction =
+      0.0;            ///< friction of the chains; 0: the one of four with the shortest autocorrelation time
+  double step = 0.0;  ///< initial step; 0: omega h = 1/2 at the highest frequency, declared or at the starts
+  double length = 0.0;  ///< a time; 0: 20 times the longest autocorrelation time, or more from hot starts
+  int pilots = 256;     ///< number of chains that are measured
+  std::int64_t most_steps = 10'000'000;  ///< largest number of steps of a pilot until it is stationary
+  std::uint64_t seed = 1;                ///< seed of the pilots
+  int threads = 1;                       ///< threads for the pilots; changes no bit
+};
+
+/// The observed quantities, all in units of kT: the kinetic temperature between two steps, the virial
+/// -sum_i q_i f_i / N, whose mean is 1 where the motion is confined, V/N, and the energy of the slowest mode
+/// where it is known, else 0.
+enum class watched : std::uint8_t { kinetic, virial, potential, slowest };
+inline constexpr std::size_t watched_numbers = 4;  ///< number of watched observables
+/// Names of the observed quantities in messages.
+inline constexpr std::array watched_names = {"half-step kinetic temperature", "virial", "potential energy",
+                                             "energy of the slowest mode"};
+
+/// Values, one for each watched observable, in the order of `watched`.
+template <class T>
+using of_watched = std::array<T, watched_numbers>;
+
+/// A mean over independent chains whose expectation is 0, and its standard error.
+struct discrepancy {
+  double mean = 0.0;            ///< mean over chains
+  double standard_error = 0.0;  ///< standard error of that mean
+  /// Whether the mean is significant: 4.5 standard errors, which chance exceeds once in 150'000 times. One
+  /// whose numbers have overflowed is.
+  bool shows() const { return !(std::abs(mean) <= 4.5 * standard_error && std::isfinite(standard_error)); }
+};
+
+/// Length and parameters of a burn-in, and what the pilots showed.
+struct burn_in_report {
+  double friction = 0.0;   ///< friction of the chains; the distribution of q does not depend on it
+  double step = 0.0;       ///< h of BAOAB
+  std::int64_t steps = 0;  ///< steps of every chain
+  double length = 0.0;     ///< steps * step
+  /// Longest integrated autocorrelation time, 2 int_0^inf rho(t) dt, of what is watched.
+  double tau = 0.0;
+  bool confined = false;                ///< whether the motion is confined; else the virial means nothing
+  int halvings = 0;                     ///< halvings of the first step until no bias showed
+  of_watched<discrepancy> bias = {};    ///< means with this step, less those with half of it
+  of_watched<discrepancy> excess = {};  ///< mean at the end of the burn-in, less the value of equipartition
+  of_watched<discrepancy> to_forget =
+      {};                ///< mean at the end of the burn-in, less that in an equally long time after it
+  double seconds = 0.0;  ///< wall time that finding this took
+
+  /// Entry of bias, excess or to_forget.
+  const discrepancy& of(const of_watched<discrepancy>& all, watched what) const {
+    return all[static_cast<std::size_t>(what)];
+  }
+};
 
 namespace detail {
 
@@ -98,5 +166,116 @@ gibbs(const S&, const E&) -> gibbs<S::dimension>;
 /// Takes the dimension from the system.
 template <HasBath S, class E>
 gibbs(const S&, const E&, const burn_in_options&) -> gibbs<S::dimension>;
+
+/// Independent states from exp(-H/kT) of a linear system, mode by mode: omega_k x_k and y_k are normal with
+/// variance kT. Exact, and nothing has to be burned in.
+template <int N>
+class gibbs_of_modes {
+ public:
+  /// Throws std::invalid_argument unless the force is the linear one of the modes, all of these have a
+  /// frequency, and the temperature is finite and positive.
+  template <HasModes S>
+    requires(S::dimension == N)
+  gibbs_of_modes(const S& system, double temperature) : temperature_(temperature) {
+    const exact_linear linear(system);  // refuses any other
+    modes_ = modal_coordinates::of(system);
+    if (!(temperature > 0.0) || !std::isfinite(temperature) ||
+        !(std::ranges::min(modes_->frequencies()) > 0.0)) {
+      throw std::invalid_argument(
+          sentence("gibbs_of_modes: temperature and the frequency of each mode must be above 0, got {} at "
+                   "temperature {}",
+                   describe(system), temperature));
+    }
+  }
+
+  phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
+    vector<double, N> x(modes_->size());
+    vector<double, N> y(modes_->size());
+    noise_counter at = {.trajectory = n, .purpose = noise_purpose::initial_state};
+    standard_normals(seed, at, x);
+    at.slot += slots_for(static_cast<std::uint64_t>(x.size()));
+    standard_normals(seed, at, y);
+    const double deviation = std::sqrt(temperature_);
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      x[k] *= deviation / modes_->frequencies()[static_cast<std::size_t>(k)];
+      y[k] *= deviation;
+    }
+    phase_point<double, N> state{vector<double, N>(x.size()), vector<double, N>(x.size())};
+    modes_->from_modes(x, y, state.q, state.p);
+    return state;
+  }
+  std::string description() const {
+    return sentence("gibbs_of_modes(temperature={})", in_digits(temperature_, 6));
+  }
+
+ private:
+  double temperature_;
+  std::shared_ptr<const modal_coordinates> modes_;
+};
+
+/// Length of the trajectory, and the number of states kept.
+struct long_trajectory_options {
+  double length = 25'000.0;            ///< a time, burn-in included
+  double burn_in = 0.0;                ///< a time at its beginning, of which no state is kept
+  double step = 0.0;                   ///< h of BAOAB; 0: omega h = 0.1 at the highest frequency
+  std::int64_t most_states = 100'000;  ///< largest number of states kept, evenly thinned; at most 100000
+  std::uint64_t seed = 1;              ///< seed of the start and the noise
+};
+
+namespace detail {
+
+/// The states of one_long_trajectory.
+class long_trajectory {
+ public:
+  long_trajectory(const model& in_bath, const initial_states& from, const long_trajectory_options& options);
+
+  std::size_t states() const { return states_.size(); }
+  const phase_point<double, Eigen::Dynamic>& operator()(std::uint64_t seed, std::uint64_t n) const;
+  std::string description() const;
+
+ private:
+  long_trajectory_options options_;
+  std::string from_;
+  double step_ = 0.0;
+  std::vector<phase_point<double, Eigen::Dynamic>> states_;
+};
+
+}  // namespace detail
+
+/// States picked at random, with repetition, from one trajectory of a system in its bath, by BAOAB from start
+/// 0 of another ensemble [li_lu_tao_ye_2023]. They depend on each other as far as the trajectory remembers:
+/// of friction gamma it holds no more than about gamma T/2 independent ones, and without a burn-in its way
+/// down from the start stays among them; independent states of the invariant distribution are gibbs. On-step
+/// momenta are those of BAOAB, whose variance is low by (omega h)^2/4. Memory: the states that are kept.
+template <int N>
+class one_long_trajectory {
+ public:
+  /// Throws std::invalid_argument if the options are out of range, or there are neither a step nor
+  /// frequencies or forces at the starts; std::runtime_error if the trajectory diverges.
+  template <HasBath S, Ensemble<S> E>
+    requires(S::dimension == N)
+  one_long_trajectory(const S& system, const E& from, const long_trajectory_options& options = {})
+      : held_(std::make_shared<detail::long_trajectory>(system, from, options)) {}
+
+  std::size_t states() const { return held_->states(); }  ///< number of states kept
+
+  /// The start of trajectory n: one of the states.
+  phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
+    const auto& x = (*held_)(seed, n);
+    return {x.q, x.p};
+  }
+
+  std::string description() const { return held_->description(); }
+
+ private:
+  std::shared_ptr<const detail::long_trajectory> held_;
+};
+
+/// Takes the dimension from the system.
+template <HasBath S, class E>
+one_long_trajectory(const S&, const E&) -> one_long_trajectory<S::dimension>;
+/// Takes the dimension from the system.
+template <HasBath S, class E>
+one_long_trajectory(const S&, const E&, const long_trajectory_options&) -> one_long_trajectory<S::dimension>;
 
 }  // namespace nysalt

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "nysalt/families/composition.hpp"
-#include "nysalt/flows/drift.hpp"
-#include "nysalt/flows/kick_of_parts.hpp"
+#include "nysalt/flows/drift_kick.hpp"
+#include "nysalt/flows/exact_flow.hpp"
 
 namespace nysalt {
 

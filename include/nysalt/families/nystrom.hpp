@@ -5,8 +5,7 @@
 #include <string_view>
 
 #include "nysalt/family.hpp"
-#include "nysalt/flows/drift.hpp"
-#include "nysalt/flows/kick.hpp"
+#include "nysalt/flows/drift_kick.hpp"
 
 namespace nysalt {
 

@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
+// Letters that are exact flows of a part, and kicks with the force of one part.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include "nysalt/energy.hpp"
 #include "nysalt/flow.hpp"
+#include "nysalt/word.hpp"
 
 namespace nysalt {
 
@@ -35,5 +45,86 @@ struct exact_flow {
     return c * h;
   }
 };
+
+// Kicks with the forces of parts of V.
+
+/// A system that is a sum of parts: part<I>() is a system with the force of V_i, see
+/// systems/sum_of_parts.hpp.
+template <class S>
+concept HasParts = System<S> && requires(const S& s) {
+  { S::parts } -> std::convertible_to<std::size_t>;
+  s.template part<0>();
+};
+
+/// The flow of c_I V_I + c_J V_J + ..., p += h (c_I force_I(q) + c_J force_J(q) + ...), one coefficient for
+/// each part: the kicks commute, so that they are one letter, which merges with the next step's. Named k, or
+/// with one part I by the digit I: '0', '1', ... Cost: an evaluation of each of its parts.
+template <std::size_t... Part>
+  requires(sizeof...(Part) > 0 && ((Part < 10) && ...))
+struct kick_of_parts : exact_flow<sizeof...(Part) == 1 ? static_cast<char>('0' + std::max({Part...})) : 'k'> {
+  static constexpr std::size_t slots = sizeof...(Part);
+  static constexpr bool moves_q = false;
+  static constexpr int displaced_forces = static_cast<int>(sizeof...(Part));
+  static constexpr std::array<char, sizeof...(Part)> digits{
+      static_cast<char>('0' + Part)...};  ///< numbers of the parts
+  /// The part whose time each coefficient is, a digit for each.
+  static constexpr std::string_view times{digits.data(), digits.size()};
+
+  /// Number of evaluations of the force of a part: 0 or 1.
+  static constexpr int evaluations_of_part(std::size_t part) { return (0 + ... + (part == Part ? 1 : 0)); }
+
+  template <System S, Scalar T>
+  static constexpr bool serves = HasParts<S>;
+  template <System S, Scalar T>
+  static constexpr void require_served() {
+    static_assert(serves<S, T>,
+                  "nysalt: a kick of parts needs a system that declares them, such as sum_of_parts");
+  }
+
+  template <Scalar C>
+  static std::array<C, slots> prepare(const C* c, double h) {
+    std::array<C, slots> result;
+    for (std::size_t k = 0; k < slots; ++k) result[k] = c[k] * h;
+    return result;
+  }
+
+  template <System S, class State, CoefficientOf<typename State::scalar_type> C>
+  static void apply(const S& system, const std::array<C, slots>& c, State& x, auto& room) {
+    using T = typename State::scalar_type;
+    const auto kick = [&](const auto& part, const C& by) {
+      force<T>(part, x.q, room.x);
+      for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] += room.x[i] * by;
+    };
+    [&]<std::size_t... K>(std::index_sequence<K...>) {
+      (kick(system.template part<Part>(), c[K]), ...);
+    }(std::make_index_sequence<slots>());
+  }
+};
+
+/// The flow of the part V_I, named by the digit I.
+template <std::size_t Part>
+using kick_of_part = kick_of_parts<Part>;
+
+/// Evaluations of the force of a part in a step of an open run, which a declared price multiplies. Letters
+/// that do not say, such as drifts, evaluate none.
+template <TypeLevelWord W>
+constexpr int evaluations_of_part(std::size_t part) {
+  int all = 0;
+  const auto add = [&]<class L>() {
+    if constexpr (requires { L::evaluations_of_part(part); }) all += L::evaluations_of_part(part);
+  };
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (add.template operator()<typename W::template letter<I + W::first_in_loop>>(), ...);
+  }(std::make_index_sequence<W::length - W::first_in_loop>());
+  return all;
+}
+
+/// The declared cost of a step of an open run: the sum over parts of price times evaluations.
+template <TypeLevelWord W, std::size_t Parts>
+constexpr double declared_cost(const std::array<double, Parts>& prices) {
+  double all = 0.0;
+  for (std::size_t part = 0; part < Parts; ++part) all += prices[part] * evaluations_of_part<W>(part);
+  return all;
+}
 
 }  // namespace nysalt

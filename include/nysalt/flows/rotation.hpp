@@ -9,7 +9,7 @@
 
 #include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/flow.hpp"
-#include "nysalt/flows/drift.hpp"
+#include "nysalt/flows/drift_kick.hpp"
 
 namespace nysalt {
 

@@ -8,7 +8,7 @@
 
 #include "nysalt/learning/fit.hpp"
 #include "nysalt/learning/problem.hpp"
-#include "nysalt/losses/own_loss.hpp"
+#include "nysalt/losses/window_error.hpp"
 
 namespace nysalt {
 

@@ -14,8 +14,8 @@
 #include "nysalt/learning/search.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/losses/loss_choice.hpp"
-#include "nysalt/losses/metric.hpp"
 #include "nysalt/losses/squares.hpp"
+#include "nysalt/losses/window_error.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/run_time_family.hpp"
 

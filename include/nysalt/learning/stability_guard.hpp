@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/derivatives/frequencies_at.hpp"
-#include "nysalt/derivatives/stability_window.hpp"
+#include "nysalt/derivatives/linear_stability.hpp"
+#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/derivatives/word_on_parts.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_points.hpp"

@@ -11,11 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/losses/window_error.hpp"
-#include "nysalt/losses/windows_in_lanes.hpp"
 #include "nysalt/run_time_family.hpp"
 #include "nysalt/stepper.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "nysalt/methods/classical_table.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 
 namespace nysalt {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "nysalt/flows/cyclotron.hpp"
-#include "nysalt/flows/kick_of_parts.hpp"
+#include "nysalt/flows/exact_flow.hpp"
 
 namespace nysalt {
 

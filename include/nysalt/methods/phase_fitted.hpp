@@ -1,24 +1,83 @@
 // SPDX-License-Identifier: BSL-1.0
+// Phase-fitted methods: coefficients for which an oscillation of one frequency keeps its phase.
 #pragma once
 
 #include <Eigen/Core>
-
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "nysalt/detail/requirements.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/families/phase_fitting.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/methods/frequency_to_fit.hpp"
 #include "nysalt/run_time_family.hpp"
+#include "nysalt/run_time_word.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
+
+namespace detail {
+/// The highest frequency of the modes; of systems that declare none, the end of the highest band.
+template <System S>
+double frequency_to_fit(const S& system) {
+  double highest = 0.0;
+  if constexpr (HasModes<S>) {
+    if (has_modes(system)) return system.modes().frequencies.maxCoeff();
+  }
+  if constexpr (HasFrequencyBands<S>) {
+    for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
+  }
+  return highest;
+}
+}  // namespace detail
+
+}  // namespace nysalt
+
+// The equations of phase fitting, and their solution.
+
+namespace nysalt::detail {
+
+/// By how much a step of a word differs from the rotation by z, z^2 = x, on q'' = -x q, each relative to
+/// the power of x at which consistent words begin to differ, so that nothing cancels as z -> 0:
+///   (trace/2 - cos z)/x^2,  (M_qp - sin z/z)/x,  (M_pq + z sin z)/x^2
+/// and, where the word is not symmetric, (M_qq - M_pp)/(2 x). As the determinant is 1, one of them follows
+/// from the others; but which does depends on z.
+Eigen::VectorXd defect_of_rotation(const run_time_word& word, const std::vector<double>& coefficients,
+                                   bool symmetric, double x);
+
+/// d defect_i / d theta_k. The matrix of a word is affine in each coefficient (but those of rotations), so
+/// that a difference over a step of 1 is the derivative.
+Eigen::MatrixXd jacobian_of_defect(const run_time_family& family, const Eigen::VectorXd& theta, double x);
+
+/// Result of a continuation.
+struct phase_fitting {
+  std::optional<Eigen::VectorXd> theta;  ///< at the z that was asked for; nothing: it ended before
+  double reached;                        ///< the last z with a solution
+};
+
+/// The parameters that turn the oscillator exactly by z in a step, nearest to `nearest`: the solution at z
+/// that continues those for smaller z. Nothing where there are fewer parameters than equations, or where a
+/// quadratic part is split off.
+phase_fitting fit_phase(const run_time_family& family, const Eigen::VectorXd& nearest, double z);
+
+}  // namespace nysalt::detail
+
+// A start of a search where the highest frequency is known.
+
+namespace nysalt {
+
+/// The member of a family whose step is the exact rotation on the oscillator at z = step * frequency, near to
+/// one of the starts of the family: its classical members in their order, then the others. Letters O count
+/// for nothing. Nothing where the word rotates by itself, has fewer parameters than the rotation has
+/// equations (two if it is symmetric, else three), or no start leads to a member in the ranges. Throws
+/// std::invalid_argument unless z is positive and finite. Cost: some milliseconds.
+std::optional<named_parameters> phase_fitted_start(const run_time_family& family, double z);
 
 /// A classical method M with its coefficients changed, within a family F of its word, such that its step is
 /// the exact rotation on the oscillator at z = h omega: trace/2 = cos z and M_qp = sin z/z. Such methods are

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSL-1.0
-// Two and three stages whose coefficients suit the highest frequency of a system.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +7,22 @@
 #include <string>
 #include <string_view>
 
+#include "nysalt/detail/palindrome.hpp"
 #include "nysalt/detail/requirements.hpp"
-#include "nysalt/methods/palindromic.hpp"
+#include "nysalt/flows/drift_kick.hpp"
 
 namespace nysalt {
+
+/// Common members of all symmetric compositions of drifts and kicks; a method adds its name, order and
+/// coefficients.
+template <Flow Outer, Flow Inner, std::size_t Length>
+struct palindromic {
+  using word = alternating_word<Outer, Inner, Length>;
+  static constexpr bool symmetric = true;
+  static constexpr bool requires_quadratic_kinetic = false;
+};
+
+// Two and three stages whose coefficients suit the highest frequency of a system.
 
 namespace detail {
 

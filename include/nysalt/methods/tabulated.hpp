@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
+// A method as data: letters and coefficients; repeated, or with letters O.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -9,6 +12,7 @@
 #include <vector>
 
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/langevin.hpp"
 #include "nysalt/method.hpp"
 
 namespace nysalt {
@@ -114,5 +118,83 @@ tabulated table_for(const M& method, const S& system, double step) {
 }
 
 }  // namespace detail
+
+/// Several steps of a method with an equal part of the step each, as one method: the first coefficient of a
+/// letter goes with h, the second of gradient kicks with h^3, that of displaced kicks with h^2. Throws
+/// std::invalid_argument unless there is at least one step, or, of several steps, if the word has letters O
+/// or a processor.
+inline tabulated repeated(const tabulated& method, int times) {
+  const run_time_word& word = method.letters();
+  if (times == 1) return method;
+  if (times < 1 || word.stochastic_letters > 0 || word.is_processed()) {
+    throw std::invalid_argument(
+        sentence("repeated: the number of steps must be at least 1 and the word without letters O and "
+                 "processor, got {} steps of {}; place the letters O afterwards",
+                 times, word.letters()));
+  }
+  const double part = 1.0 / times;
+  std::string letters;
+  std::vector<double> coefficients;
+  const std::vector<double> of_one = method.coefficients();
+  const auto part_of_second = [&](char letter) {
+    return letter == displaced_kick::letter ? part * part : part * part * part;
+  };
+  for (int n = 0; n < times; ++n) {
+    letters += word.letters();
+    for (std::size_t i = 0; i < word.length; ++i) {
+      for (std::size_t k = 0; k < word.slots_of(i); ++k) {
+        coefficients.push_back(of_one[word.first_slot(i) + k] *
+                               (k == 0 ? part : part_of_second(word.letters()[i])));
+      }
+    }
+  }
+  return {std::to_string(times) + " x " + method.name(), word.with_letters(letters), coefficients, method};
+}
+
+/// A method in a bath: its word with letters O at a placement.
+template <placement P, Method M>
+  requires TypeLevelWord<typename M::word>
+class thermostatted_method {
+ public:
+  using word = thermostatted_word<typename M::word, P>;  ///< word with letters O
+  /// Order without noise: 2 at most.
+  static constexpr int order = thermostatted_order(P, M::order, M::symmetric);
+  static constexpr bool symmetric = P != placement::end && M::symmetric;  ///< false with O at the end
+  static constexpr bool requires_quadratic_kinetic =
+      M::requires_quadratic_kinetic;  ///< value of the method without the bath
+
+  /// Holds a copy of the method.
+  explicit thermostatted_method(const M& plain) : plain_(plain) {}
+
+  /// Coefficients of the method and of the letters O, in the order of the word.
+  typename word::template coefficients<double> coefficients() const {
+    return thermostatted_coefficients<word>(P, plain_.coefficients());
+  }
+  /// METHOD_PLACEMENT, as in verlet_end.
+  std::string name() const { return sentence("{}_{}", plain_.name(), to_string(P)); }
+
+ private:
+  M plain_;
+};
+
+/// The method in a bath. A tuned one does not compile: take its anywhere().
+template <placement P, Method M>
+  requires TypeLevelWord<typename M::word>
+thermostatted_method<P, M> thermostat(const M& method) {
+  static_assert(
+      !requires { method.require_validity(std::string(), 1.0); },
+      "nysalt: a tuned method is valid for the system that it was learned for; thermostat its anywhere()");
+  return thermostatted_method<P, M>(method);
+}
+
+/// A thermostatted method as data. Throws std::invalid_argument if the method has letters O already, or no
+/// central letter.
+inline tabulated thermostat(const tabulated& method, placement where) {
+  const run_time_word letters = thermostatted(method.letters(), where);
+  return tabulated(method.name(), letters,
+                   thermostatted_coefficients(method.letters(), where, method.coefficients()),
+                   {thermostatted_order(where, method.order, method.symmetric),
+                    where != placement::end && method.symmetric, method.requires_quadratic_kinetic});
+}
 
 }  // namespace nysalt

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "nysalt/families/symmetric_composition.hpp"
+#include "nysalt/families/composition.hpp"
+#include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/flows/kepler_flow.hpp"
-#include "nysalt/flows/kick_of_parts.hpp"
 
 namespace nysalt {
 

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "nysalt/detail/in_digits.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/small_steps.hpp"
 #include "nysalt/method.hpp"

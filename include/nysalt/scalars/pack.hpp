@@ -1,18 +1,156 @@
 // SPDX-License-Identifier: BSL-1.0
-// W numbers side by side, one for each of W trajectories, computed with the processor's own vectors.
+// Several numbers in the registers of the processor that is compiled for: packs and their masks.
 #pragma once
 
+#include <immintrin.h>
 #include <Eigen/Core>
-
 #include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 
 #include "nysalt/scalar.hpp"
-#include "nysalt/scalars/lane_mask.hpp"
+
+#if defined __SSE2__
+#endif
 
 namespace nysalt {
+
+namespace detail {
+
+/// Doubles in one register of the target that is compiled for.
+#if defined __AVX512F__
+inline constexpr int native_lanes = 8;
+#elif defined __AVX__
+inline constexpr int native_lanes = 4;
+#else
+inline constexpr int native_lanes = 2;  // SSE2, NEON
+#endif
+
+/// The widest register that W lanes fill without a rest.
+constexpr int lanes_of_part(int w) {
+  int lanes = native_lanes;
+  while (w % lanes != 0) lanes /= 2;
+  return lanes;
+}
+
+/// The compilers' own vectors: + - * / and comparisons are theirs.
+template <int N>
+struct native_vector {
+  typedef double type __attribute__((vector_size(8 * N)));
+  typedef std::int64_t mask __attribute__((vector_size(8 * N)));
+};
+template <>
+struct native_vector<1> {
+  using type = double;
+  using mask = std::int64_t;
+};
+
+/// The square root of each lane. The compilers have no word for it, and a loop over std::sqrt would set
+/// errno.
+inline double native_sqrt(double x) { return std::sqrt(x); }
+#if defined __SSE2__
+inline native_vector<2>::type native_sqrt(native_vector<2>::type x) { return _mm_sqrt_pd(x); }
+#if defined __AVX__
+inline native_vector<4>::type native_sqrt(native_vector<4>::type x) { return _mm256_sqrt_pd(x); }
+#endif
+#if defined __AVX512F__
+inline native_vector<8>::type native_sqrt(native_vector<8>::type x) {
+  return _mm512_maskz_sqrt_pd(0xff, x);  // g++ 12 warns of the plain one
+}
+#endif
+#else
+inline native_vector<2>::type native_sqrt(native_vector<2>::type x) {
+  return native_vector<2>::type{std::sqrt(x[0]), std::sqrt(x[1])};
+}
+#endif
+
+}  // namespace detail
+
+/// Lanes that keep the processor busy: two registers for each number hide each other's latency, and a state
+/// of small systems still fits into the first cache.
+inline constexpr int default_lanes = 2 * detail::native_lanes;
+
+// A set of lanes of a pack.
+
+/// Mask of lanes, the result of comparing packs. Not a bool, as lanes may differ.
+template <int W>
+class lane_mask {
+ public:
+  static constexpr int lanes = W;                              ///< W, of the packs that were compared
+  static constexpr int of_part = detail::lanes_of_part(W);     ///< lanes in a register of the target
+  using part = typename detail::native_vector<of_part>::mask;  ///< a register: of a lane all bits, or none
+
+  lane_mask() = default;
+  /// All lanes, or none.
+  explicit lane_mask(bool all) {
+    for (int lane = 0; lane < W; ++lane) set(lane, all);
+  }
+
+  /// Whether the mask has lane 0 <= lane < W; not checked.
+  bool operator[](int lane) const {
+    if constexpr (of_part == 1) {
+      return parts[static_cast<std::size_t>(lane)] != 0;
+    } else {
+      return parts[static_cast<std::size_t>(lane / of_part)][lane % of_part] != 0;
+    }
+  }
+  /// Takes lane 0 <= lane < W in or out; not checked.
+  void set(int lane, bool value) {
+    if constexpr (of_part == 1) {
+      parts[static_cast<std::size_t>(lane)] = value ? -1 : 0;
+    } else {
+      parts[static_cast<std::size_t>(lane / of_part)][lane % of_part] = value ? -1 : 0;
+    }
+  }
+
+  /// Lanes that are in both. There is no &&, which would have to leave out its second operand.
+  friend lane_mask operator&(const lane_mask& a, const lane_mask& b) {
+    lane_mask result;
+    for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = a.parts[i] & b.parts[i];
+    return result;
+  }
+  /// Lanes that are in a, in b or in both.
+  friend lane_mask operator|(const lane_mask& a, const lane_mask& b) {
+    lane_mask result;
+    for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = a.parts[i] | b.parts[i];
+    return result;
+  }
+  /// All other lanes.
+  friend lane_mask operator!(const lane_mask& a) {
+    lane_mask result;
+    for (std::size_t i = 0; i < a.parts.size(); ++i) result.parts[i] = !a.parts[i];
+    return result;
+  }
+
+  /// `if (x < y)` of a system means one branch for all lanes, which there is not.
+  template <class T = bool>
+  operator bool() const {
+    static_assert(!std::same_as<T, bool>,
+                  "nysalt: lanes may differ in a comparison, so it cannot choose a branch: write "
+                  "nysalt::select(condition, a, b), or let the system say `static constexpr int lanes = 1;`");
+    return false;
+  }
+
+  std::array<part, W / of_part> parts;  ///< lane k is in parts[k / of_part]
+};
+
+/// Whether the mask has any lane.
+template <int W>
+bool any(const lane_mask<W>& which) {
+  auto some = which.parts[0];
+  for (const auto& part : which.parts) some = some | part;
+  if constexpr (lane_mask<W>::of_part == 1) {
+    return some != 0;
+  } else {
+    bool result = false;
+    for (int lane = 0; lane < lane_mask<W>::of_part; ++lane) result = result || some[lane] != 0;
+    return result;
+  }
+}
+
+// W numbers side by side, one for each of W trajectories, computed with the processor's own vectors.
 
 /// W lanes of T = double. Every operation acts lane by lane and rounds as it does for double, so that lane k
 /// of a step over packs has the bits of a step over double. Elementary functions but sqrt are libm's, one

@@ -1,12 +1,124 @@
 // SPDX-License-Identifier: BSL-1.0
+
 #include "nysalt/analysis/ensemble_statistics.hpp"
 
 #include <fmt/format.h>
-
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <limits>
+#include <span>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace nysalt {
+
+std::int64_t trajectories_of_group(std::int64_t trajectories) {
+  constexpr std::int64_t groups = 64;
+  std::int64_t size = 1;
+  while (size < 16 && size * groups < trajectories) size *= 2;
+  return size < 16 ? size : 16 * ((trajectories - 1) / (16 * groups) + 1);
+}
+
+gathering::gathering(const statistics_wanted& wanted, std::int64_t trajectories, std::int64_t samples,
+                     double interval, double centre, const communicator& ranks)
+    : wanted_(&wanted),
+      ranks_(&ranks),
+      samples_(samples),
+      interval_(interval),
+      centre_(centre),
+      group_size_(trajectories_of_group(trajectories)),
+      lost_at_(static_cast<std::size_t>(trajectories)),
+      means_(lost_at_.size()) {
+  const auto groups = static_cast<std::size_t>((trajectories - 1) / group_size_ + 1);
+  if (wanted.histogram) histograms_.assign(groups, histogram(*wanted.histogram));
+  if (wanted.lags) covariances_.assign(groups, autocovariance_sums(checked_lags(*wanted.lags) + 1));
+}
+
+void gathering::gather() {
+  if (ranks_->is_single()) return;
+  gather(lost_at_, 1);
+  gather(means_, 1);
+  if (wanted_->histogram) gather_histograms();
+  if (wanted_->lags) gather_covariances();
+}
+
+gathered_statistics gathering::result(std::int64_t first) {
+  gathered_statistics all;
+  all.samples = samples_;
+  for (std::size_t m = 0; m < lost_at_.size(); ++m) {
+    if (lost_at_[m]) all.lost.push_back({first + static_cast<std::int64_t>(m), *lost_at_[m]});
+  }
+  all.counted = std::ssize(lost_at_) - std::ssize(all.lost);
+  for (const histogram& group : histograms_) {
+    if (!all.histogram) all.histogram.emplace(group.bins());
+    *all.histogram += group;
+  }
+  all.histogram_of_groups = std::move(histograms_);
+  if (wanted_->lags) all.autocovariance.emplace(interval_, centre_, std::move(covariances_));
+  if (wanted_->moments) set_moments(all);
+  if (wanted_->kinetic_temperature) all.kinetic_temperature = over_trajectories(&time_means::kinetic);
+  if (wanted_->half_step_kinetic_temperature)
+    all.half_step_kinetic_temperature = over_trajectories(&time_means::half_step);
+  return all;
+}
+
+std::int64_t gathering::first_of(int rank) const {
+  const std::int64_t all = std::ssize(lost_at_);
+  const std::int64_t shares = (all - 1) / trajectories_of_thread() + 1;
+  return std::min(all, first_of_part(shares, rank, ranks_->size()) * trajectories_of_thread());
+}
+
+template <class Item>
+void gathering::gather(std::vector<Item>& all, std::size_t items, std::int64_t trajectories_of_item) const {
+  std::vector<std::size_t> first_of_rank;
+  for (int r = 0; r <= ranks_->size(); ++r) {
+    const std::int64_t first = (first_of(r) + trajectories_of_item - 1) / trajectories_of_item;
+    first_of_rank.push_back(static_cast<std::size_t>(first) * items);
+  }
+  all_gather_items(*ranks_, all, first_of_rank);
+}
+
+void gathering::gather_histograms() {
+  std::vector<std::int64_t> all;
+  for (const histogram& group : histograms_) {
+    all.insert(all.end(), group.counts().begin(), group.counts().end());
+  }
+  const std::size_t bins = histograms_.front().counts().size();
+  gather(all, bins, group_size_);
+  for (std::size_t g = 0; g < histograms_.size(); ++g) {
+    histograms_[g] = histogram(*wanted_->histogram, std::span(all).subspan(g * bins, bins));
+  }
+}
+
+void gathering::gather_covariances() {
+  std::vector<pair_sums> all;
+  for (const autocovariance_sums& group : covariances_) all.insert(all.end(), group.begin(), group.end());
+  const std::size_t lags = covariances_.front().size();
+  gather(all, lags, group_size_);
+  for (std::size_t g = 0; g < covariances_.size(); ++g) {
+    std::ranges::copy(std::span(all).subspan(g * lags, lags), covariances_[g].begin());
+  }
+}
+
+estimate gathering::over_trajectories(double time_means::*mean) const {
+  std::vector<double> of_each;
+  for (std::size_t m = 0; m < means_.size(); ++m) {
+    of_each.push_back(lost_at_[m] ? std::numeric_limits<double>::quiet_NaN() : means_[m].*mean);
+  }
+  return mean_and_error(of_each);
+}
+
+void gathering::set_moments(gathered_statistics& all) const {
+  const estimate mean = over_trajectories(&time_means::first);
+  const double squared_error = mean.standard_error * mean.standard_error;
+  all.mean = {centre_ + mean.mean, mean.standard_error};
+  // The spread about the samples' own mean is too small by the error of that mean.
+  all.variance = over_trajectories(&time_means::second).mean - mean.mean * mean.mean + squared_error;
+  all.effective_sample_size = all.variance / squared_error;
+}
 
 std::int64_t samples_of_trajectory(const ensemble_options& options, const statistics_wanted& wanted) {
   constexpr std::int64_t most = std::int64_t{1} << 48U;  // the number of trajectories with noise of their own

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/analysis/total_variation.hpp"
+#include "nysalt/analysis/statistics.hpp"
 
 #include <fmt/format.h>
 

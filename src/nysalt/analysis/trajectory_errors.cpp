@@ -1,24 +1,106 @@
 // SPDX-License-Identifier: BSL-1.0
+
 #include "nysalt/analysis/trajectory_errors.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 #include <vector>
 
-#include "measured_trajectories.hpp"
-#include "method_runs.hpp"
-#include "nysalt/analysis/evaluations.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/analysis/cost_against_error.hpp"
+#include "nysalt/communicator.hpp"
+#include "nysalt/detail/divergence.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/lanes.hpp"
 #include "nysalt/langevin.hpp"
+#include "trajectory_runs.hpp"
+
+namespace nysalt {
+
+void require_room(const trajectory_options& options, std::size_t methods, std::size_t width,
+                  std::size_t measures) {
+  if (options.steps < 1 || options.trajectories < 1) {
+    throw std::invalid_argument(fmt::format(
+        "trajectory_errors: trajectories and steps must be at least 1, got {} trajectories of {} steps",
+        options.trajectories, options.steps));
+  }
+  const std::size_t references = options.perturbation ? 3 : 2;
+  const double intervals = static_cast<double>(methods + references) * options.threads * default_lanes;
+  const double numbers = intervals * static_cast<double>(steps_between_checks) * static_cast<double>(width);
+  const std::size_t scored = methods + (options.null_model ? 1 : 0);
+  const double scores = static_cast<double>(options.trajectories) * static_cast<double>(scored * measures);
+  if (numbers > 1e9 || scores > 1e8) {
+    throw std::invalid_argument(
+        fmt::format("trajectory_errors: samples must fit into memory, got {} trajectories with {} numbers a "
+                    "sample, on {} threads; take fewer",
+                    options.trajectories, width, options.threads));
+  }
+}
+
+method_error error_of_runs(const std::vector<run_score>& runs, const error_measure& measure,
+                           std::span<const double> sizes) {
+  method_error result;
+  std::vector<double> scores;
+  for (const auto& run : runs) {
+    if (run.diverged_at) result.diverged_at.push_back({std::ssize(scores), *run.diverged_at});
+    scores.push_back(run.value);
+  }
+  result.diverged = std::ssize(result.diverged_at);
+  result.error = measure.average(scores, sizes);
+  result.of_each = measure.parts(scores, sizes);
+  result.spread = {.largest = tail_of(scores), .median = {}, .quantiles = {}};
+  result.own = measure.of_each(scores, sizes);
+  const auto own = sorted_numbers(result.own);
+  result.spread.median = median_and_error(own);
+  for (std::size_t i = 0; i < shown_quantiles.size(); ++i) {
+    result.spread.quantiles[i] = quantile(own, shown_quantiles[i]);
+  }
+  return result;
+}
+
+}  // namespace nysalt
 
 namespace nysalt::detail {
+
+measured_trajectories::measured_trajectories(std::size_t methods, std::size_t trajectories,
+                                             std::size_t checked, bool null, std::size_t perturbed)
+    : runs(methods, std::vector<run_score>(trajectories)),
+      checks(checked),
+      null_model(null ? trajectories : 0),
+      predictable_until(perturbed),
+      sizes(trajectories),
+      signs(trajectories) {}
+
+void measured_trajectories::gather(const shard& own) {
+  for (auto& of_method : runs) own.gather(of_method);
+  if (!null_model.empty()) own.gather(null_model);
+  own.gather(sizes);
+  own.gather(signs);
+  broadcast(own.ranks(), checks);
+  broadcast(own.ranks(), predictable_until);
+}
+
+trajectory_errors_result measured_trajectories::summary(const error_measure& measure,
+                                                        const std::string& reference) const {
+  const bool is_nothing = measure.relative_to && !(measure.unit(sizes) > 0.0);
+  const auto differs = [&](double sign) { return sign != signs.front(); };
+  if (is_nothing || std::ranges::any_of(signs, differs)) throw std::invalid_argument(measure.no_scale);
+  trajectory_errors_result result;
+  for (const auto& of_method : runs) result.methods.push_back(error_of_runs(of_method, measure, sizes));
+  result.unit = measure.unit(sizes);
+  if (!measure.needs_reference) return result;
+  result.reference_error = measure.average(checks, sizes);
+  result.reference = reference;
+  if (!null_model.empty()) result.null_model = measure.average(null_model, sizes);
+  if (!predictable_until.empty()) result.predictable_until = median(predictable_until);
+  return result;
+}
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "nysalt/derivatives/check_force.hpp"
-#include "nysalt/derivatives/differences.hpp"
+#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/site_kernels.hpp"
 

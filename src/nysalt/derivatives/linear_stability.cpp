@@ -12,12 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/derivatives/bernstein.hpp"
-#include "nysalt/derivatives/word_on_oscillator.hpp"
+#include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/detail/served_letters.hpp"
-#include "nysalt/detail/step_on_oscillator.hpp"
-#include "nysalt/scalars/dense_polynomial.hpp"
 #include "nysalt/scalars/dual.hpp"
+#include "nysalt/scalars/polynomial.hpp"
 #include "nysalt/scalars/series.hpp"
 
 namespace nysalt {

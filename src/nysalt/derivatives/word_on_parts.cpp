@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "nysalt/derivatives/frequencies_at.hpp"
-#include "nysalt/derivatives/strong_stability.hpp"
+#include "nysalt/derivatives/oscillator.hpp"
+#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/served_letters.hpp"
 #include "nysalt/stepper.hpp"

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
+
 #include "nysalt/ensembles/starts_to_judge.hpp"
 
 #include <algorithm>
 #include <exception>
+#include <utility>
 
 namespace nysalt {
 
@@ -41,6 +43,62 @@ phase_points starts_to_judge(const model& system, const initial_states& ensemble
     result.push_back(phase_point<double, Eigen::Dynamic>(result[k % given]));
   }
   return result;
+}
+
+namespace {
+
+using state = phase_point<double, Eigen::Dynamic>;
+
+/// Those of the ensemble are made as many at a time as T has lanes.
+template <class T>
+std::vector<state> starts_made_in_lanes(const model& system, const initial_states& ensemble,
+                                        std::uint64_t seed, std::int64_t first,
+                                        std::int64_t most_if_expensive) {
+  constexpr auto plain = static_cast<std::int64_t>(plain_starts);
+  constexpr std::int64_t energetic = 64;
+  constexpr std::int64_t pool = 896;
+  constexpr double numbers = 2e6;  // 16 MB
+  const auto that_fit = static_cast<std::int64_t>(numbers / (2.0 * static_cast<double>(size(system))));
+  std::int64_t most =
+      std::min(ensemble.is_expensive() ? std::min(energetic, most_if_expensive) : plain + pool, that_fit);
+  most = std::min(most, ensemble.size() - first);
+  std::vector<state> result;
+  std::vector<std::pair<double, state>> by_energy;
+  for (std::int64_t n = 0; n < most; n += lanes_in<T>) {
+    const auto count = static_cast<int>(std::min<std::int64_t>(lanes_in<T>, most - n));
+    phase_point<T, Eigen::Dynamic> block;
+    try {
+      block = sound_starts<T>(system, ensemble, seed, first + n, count);
+    } catch (const std::exception&) {
+      if (n == 0) throw;
+      break;  // it has no more
+    }
+    for (int k = 0; k < count; ++k) {
+      state start = lane(block, k);
+      if (n + k < plain) {
+        result.push_back(std::move(start));
+      } else if (has_energy(system)) {
+        by_energy.emplace_back(nysalt::energy<double>(system, start), std::move(start));
+      }
+    }
+  }
+  const auto taken = std::min<std::ptrdiff_t>(energetic, std::ssize(by_energy));
+  const auto is_higher = [](const auto& a, const auto& b) { return a.first > b.first; };
+  std::partial_sort(by_energy.begin(), by_energy.begin() + taken, by_energy.end(), is_higher);
+  for (std::ptrdiff_t k = 0; k < taken; ++k) {
+    result.push_back(std::move(by_energy[static_cast<std::size_t>(k)].second));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<state> typical_and_energetic_starts(const model& system, const initial_states& ensemble,
+                                                std::uint64_t seed, std::int64_t first,
+                                                std::int64_t most_if_expensive) {
+  return detail::with_scalar_of(system, [&]<class T>(T) {
+    return starts_made_in_lanes<T>(system, ensemble, seed, first, most_if_expensive);
+  });
 }
 
 }  // namespace nysalt

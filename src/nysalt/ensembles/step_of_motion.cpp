@@ -7,8 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "highest_frequency.hpp"
-#include "nysalt/derivatives/hessian_spectrum.hpp"
+#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/initial_states.hpp"
 

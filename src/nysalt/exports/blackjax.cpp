@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Export to BlackJAX.
-#include "composition.hpp"
+#include "exported_method.hpp"
 #include "exports.hpp"
 #include "fill.hpp"
-#include "refuse.hpp"
 
 namespace nysalt::detail {
 

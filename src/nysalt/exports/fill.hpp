@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-// Source text with gaps.
+// Refusals of exports, in one line.
 #pragma once
 
+#include <fmt/format.h>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -10,6 +12,14 @@
 #include "exported_method.hpp"
 
 namespace nysalt::detail {
+
+/// Throws std::invalid_argument with the formatted message.
+template <class... A>
+[[noreturn]] void refuse_export(fmt::format_string<A...> text, A&&... values) {
+  throw std::invalid_argument(fmt::format(text, std::forward<A>(values)...));
+}
+
+// Source text with gaps.
 
 /// Texts for gaps, by the key of the gap.
 using gap_texts = std::vector<std::pair<std::string, std::string>>;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Export to GPT, the Grid Python Toolkit.
-#include "composition.hpp"
+#include "exported_method.hpp"
 #include "exports.hpp"
-#include "refuse.hpp"
+#include "fill.hpp"
 
 namespace nysalt::detail {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Export to Grid.
-#include "composition.hpp"
+#include "exported_method.hpp"
 #include "exports.hpp"
+#include "fill.hpp"
 
 namespace nysalt::detail {
 

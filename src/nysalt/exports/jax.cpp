@@ -2,7 +2,6 @@
 // Export to JAX.
 #include "exports.hpp"
 #include "fill.hpp"
-#include "refuse.hpp"
 
 namespace nysalt::detail {
 

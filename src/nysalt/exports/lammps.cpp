@@ -2,9 +2,9 @@
 // Export to LAMMPS.
 #include <fmt/format.h>
 
-#include "composition.hpp"
+#include "exported_method.hpp"
 #include "exports.hpp"
-#include "refuse.hpp"
+#include "fill.hpp"
 
 namespace nysalt::detail {
 

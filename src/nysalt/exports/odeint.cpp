@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Export to Boost.Odeint.
-#include "composition.hpp"
+#include "exported_method.hpp"
 #include "exports.hpp"
 #include "fill.hpp"
 

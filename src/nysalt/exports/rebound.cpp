@@ -2,8 +2,9 @@
 // Export to REBOUND.
 #include <fmt/format.h>
 
-#include "composition.hpp"
+#include "exported_method.hpp"
 #include "exports.hpp"
+#include "fill.hpp"
 
 namespace nysalt::detail {
 

@@ -9,8 +9,8 @@
 
 #include "nysalt/learning/curvature.hpp"
 #include "nysalt/losses/after_steps.hpp"
-#include "nysalt/losses/loss_kind.hpp"
-#include "nysalt/losses/metric.hpp"
+#include "nysalt/losses/loss_choice.hpp"
+#include "nysalt/losses/window_error.hpp"
 
 namespace nysalt::detail {
 

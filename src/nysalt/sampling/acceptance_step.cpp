@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/analysis/acceptance_step.hpp"
+#include "nysalt/analysis/acceptance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,10 @@
 #include <span>
 #include <stdexcept>
 
-#include "metropolis.hpp"
-#include "nysalt/analysis/gaussian_acceptance.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/shard.hpp"
+#include "sampler.hpp"
 
 namespace nysalt {
 

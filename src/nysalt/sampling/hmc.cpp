@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "metropolis.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "sampler.hpp"
 

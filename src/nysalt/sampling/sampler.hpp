@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// The course of Hybrid Monte Carlo: burn-in, masses, draws, and states to go on from.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,20 +14,292 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
-#include "block_of_chains.hpp"
-#include "dual_averaging.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/detail/progress_of_share.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/hmc.hpp"
+#include "nysalt/initial_states.hpp"
+#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/model.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/shard.hpp"
-#include "rescaled.hpp"
+#include "nysalt/stepper.hpp"
 
 namespace nysalt::detail {
+
+/// Throws std::invalid_argument, in the name of `who`, if the method is not reversible, the system is in a
+/// bath that acts, or kT is not positive and finite.
+void require_metropolis_applies(const char* who, const model& system, const tabulated& method,
+                                double temperature);
+
+// Means and variances of chains, from which masses follow.
+
+/// Numbers of a state that is saved, one after the other.
+class saved_numbers {
+ public:
+  explicit saved_numbers(std::span<double> numbers) : left_(numbers) {}
+  void put(double x) {
+    left_.front() = x;
+    left_ = left_.subspan(1);
+  }
+  double get() {
+    const double x = left_.front();
+    left_ = left_.subspan(1);
+    return x;
+  }
+
+ private:
+  std::span<double> left_;
+};
+
+/// Mean and variance of the draws of a chain, by Welford's recurrence.
+struct moments {
+  double count = 0.0;
+  Eigen::VectorXd mean;
+  Eigen::VectorXd squares;
+
+  void take(const Eigen::VectorXd& x) {
+    if (count == 0.0) mean = squares = Eigen::VectorXd::Zero(x.size());
+    count += 1.0;
+    const Eigen::VectorXd before = x - mean;
+    mean += before / count;
+    squares += before.cwiseProduct(x - mean);
+  }
+
+  static Eigen::Index width(Eigen::Index size) { return 1 + 2 * size; }  // numbers that are saved
+  void write(Eigen::Index size, saved_numbers& row) const {
+    row.put(count);
+    for (Eigen::Index i = 0; i < size; ++i) row.put(count > 0.0 ? mean[i] : 0.0);
+    for (Eigen::Index i = 0; i < size; ++i) row.put(count > 0.0 ? squares[i] : 0.0);
+  }
+  void read(Eigen::Index size, saved_numbers& row) {
+    count = row.get();
+    mean = squares = Eigen::VectorXd::Zero(size);
+    for (double& x : mean) x = row.get();
+    for (double& x : squares) x = row.get();
+  }
+};
+
+/// The standard deviation of each coordinate over all chains, about the mean of all. Throws
+/// std::runtime_error if a coordinate did not vary.
+Eigen::VectorXd deviations_of(const std::vector<moments>& of_chains, const shard& mine, std::int64_t chains,
+                              Eigen::Index size);
+
+/// A system in the coordinates q_i/s_i and of unit masses: V(s q').
+class rescaled {
+ public:
+  static constexpr int dimension = Eigen::Dynamic;
+
+  rescaled(model system, Eigen::VectorXd scales) : system_(std::move(system)), scales_(std::move(scales)) {}
+
+  Eigen::Index size() const { return scales_.size(); }
+  std::string description() const { return system_.description(); }
+
+  template <class T>
+    requires requires(const model& of, const vector<T, dimension>& q, vector<T, dimension>& f) {
+      of.force(q, f);
+    }
+  void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
+    vector<T, dimension> whole(q.size());
+    for (Eigen::Index i = 0; i < q.size(); ++i) whole[i] = q[i] * scales_[i];
+    system_.force(whole, f);
+    for (Eigen::Index i = 0; i < q.size(); ++i) f[i] = f[i] * scales_[i];
+  }
+  template <Served T>
+  T potential(const vector<T, dimension>& q) const {
+    vector<T, dimension> whole(q.size());
+    for (Eigen::Index i = 0; i < q.size(); ++i) whole[i] = q[i] * scales_[i];
+    return system_.potential(whole);
+  }
+
+ private:
+  model system_;
+  Eigen::VectorXd scales_;
+};
+
+/// A step whose acceptance tends to a target: Nesterov's dual averaging of log h with the constants of
+/// [hoffman_gelman_2014, section 3.2.1]. Early steps can be wrong by many powers of ten, so steps are kept
+/// between a thousandth of the first guess and a largest step.
+class dual_averaging {
+ public:
+  dual_averaging(double step, double target, double largest)
+      : target_(target),
+        centre_(std::log(10.0 * step)),
+        log_(std::log(std::min(step, largest))),
+        low_(log_ - std::log(1000.0)),
+        high_(std::log(largest)) {}
+
+  /// After a trajectory that is accepted with this probability.
+  void take(double acceptance) {
+    constexpr double gamma = 0.05;
+    constexpr double t0 = 10.0;
+    constexpr double kappa = 0.75;
+    count_ += 1.0;
+    const double weight = 1.0 / (count_ + t0);
+    error_ += weight * (target_ - acceptance - error_);
+    log_ = std::clamp(centre_ - error_ * std::sqrt(count_) / gamma, low_, high_);
+    const double forgetting = std::pow(count_, -kappa);
+    mean_ += forgetting * (log_ - mean_);
+  }
+
+  double step() const { return std::exp(log_); }      // to try next
+  double settled() const { return std::exp(mean_); }  // to go on with
+  /// Whether the acceptance stayed below the target down to the smallest step.
+  bool failed() const { return mean_ <= low_ + 1.0; }
+
+  /// All that it remembers, and how it is set to that.
+  using memory = std::array<double, 7>;
+  memory saved() const { return {centre_, log_, mean_, error_, count_, low_, high_}; }
+  void restore(const memory& saved) {
+    centre_ = saved[0];
+    log_ = saved[1];
+    mean_ = saved[2];
+    error_ = saved[3];
+    count_ = saved[4];
+    low_ = saved[5];
+    high_ = saved[6];
+  }
+
+ private:
+  double target_;
+  double centre_;
+  double log_;
+  double low_;
+  double high_;
+  double mean_ = 0.0;
+  double error_ = 0.0;
+  double count_ = 0.0;
+};
+
+// Chains of Hybrid Monte Carlo side by side in lanes, and what each of them adds up.
+
+/// Sums of one chain.
+struct chain_sums {
+  double acceptance = 0.0;
+  double squares = 0.0;  // of (H' - H)/kT
+  double diverged = 0.0;
+  double last = 0.0;  // acceptance of the last trajectory
+
+  static constexpr Eigen::Index width = 4;  // numbers that are saved
+  void write(saved_numbers& row) const {
+    for (const double x : {acceptance, squares, diverged, last}) row.put(x);
+  }
+  void read(saved_numbers& row) {
+    for (double* x : {&acceptance, &squares, &diverged, &last}) *x = row.get();
+  }
+};
+
+/// Chains side by side in the lanes of T. `target` is what is stepped, which may be in other coordinates than
+/// the positions that are drawn.
+template <class T>
+class block_of_chains {
+ public:
+  block_of_chains(const model& system, const initial_states& starts, std::uint64_t seed, std::int64_t first,
+                  int count)
+      : first_(first), count_(count), sums_(static_cast<std::size_t>(count)) {
+    x_ =
+        gather<T, Eigen::Dynamic>(count, [&](int k) { return sound_start(system, starts, seed, first + k); });
+    evaluate(system);
+    vector<T, Eigen::Dynamic> f(x_.q.size());
+    system.force(x_.q, f);
+    for (int k = 0; k < count; ++k) {
+      if (std::isfinite(lane(potential_, k)) && lane(f, k).allFinite()) continue;
+      throw std::invalid_argument(sentence(
+          "hmc: the potential and the force must be finite at a start, got the potential {} at start {}; "
+          "take other starts",
+          lane(potential_, k), first + k));
+    }
+  }
+
+  /// From now on positions are q/s.
+  void rescale(const Eigen::VectorXd& scales) {
+    for (Eigen::Index i = 0; i < scales.size(); ++i) x_.q[i] = x_.q[i] * (1.0 / scales[i]);
+  }
+
+  /// One proposal: trajectory number n, of `steps` steps, and the Metropolis test.
+  void propose(const stepper<model, run_time_word>& stepper, double temperature, std::uint64_t seed,
+               std::int64_t n, std::int64_t steps) {
+    const model& system = stepper.system();
+    const auto size = static_cast<std::size_t>(x_.q.size());
+    normals_.resize(size + 2);
+    standard_normals<T>(
+        seed,
+        {.trajectory = static_cast<std::uint64_t>(first_), .step = n, .purpose = noise_purpose::momenta},
+        normals_);
+    const double root = std::sqrt(temperature);
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      x_.p[k] = normals_[i] * (root * system.root_mass(k));
+    }
+    const T before = kinetic_energy<T>(system, x_.p) + potential_;
+    auto run = stepper.open(x_);
+    stepper.advance(run, steps);
+    auto proposal = stepper.synchronous(run);
+    const T potential = system.potential(proposal.q);
+    const T after = kinetic_energy<T>(system, proposal.p) + potential;
+    bool all = true;
+    std::array<bool, lanes_in<T>> accepts{};
+    for (int k = 0; k < count_; ++k) {
+      const double rise = (lane(after, k) - lane(before, k)) / temperature;
+      const double z1 = lane(normals_[size], k);
+      const double z2 = lane(normals_[size + 1], k);
+      // -log of a uniform number is half the square of two normal ones. What is not a number is rejected.
+      accepts[static_cast<std::size_t>(k)] = rise < 0.5 * (z1 * z1 + z2 * z2);
+      all = all && accepts[static_cast<std::size_t>(k)];
+      chain_sums& sums = sums_[static_cast<std::size_t>(k)];
+      sums.last = std::isfinite(rise) ? std::min(1.0, std::exp(-rise)) : 0.0;
+      sums.acceptance += sums.last;
+      sums.squares += rise * rise;
+      if (!std::isfinite(rise)) sums.diverged += 1.0;
+    }
+    if (all) {
+      std::swap(x_.q, proposal.q);
+      potential_ = potential;
+      return;
+    }
+    for (int k = 0; k < count_; ++k) {
+      if (!accepts[static_cast<std::size_t>(k)]) continue;
+      for (Eigen::Index i = 0; i < x_.q.size(); ++i) set_lane(x_.q[i], k, lane(proposal.q[i], k));
+      set_lane(potential_, k, lane(potential, k));
+    }
+  }
+
+  std::int64_t first() const { return first_; }
+  int count() const { return count_; }
+  Eigen::VectorXd position(int k) const { return lane(x_.q, k); }
+  double potential(int k) const { return lane(potential_, k); }
+  const chain_sums& sums(int k) const { return sums_[static_cast<std::size_t>(k)]; }
+  void forget_sums() { sums_.assign(sums_.size(), {}); }
+
+  /// All that chain k must remember, as numbers in `row`, or from there.
+  void write(int k, saved_numbers& row) const {
+    for (Eigen::Index i = 0; i < x_.q.size(); ++i) row.put(lane(x_.q[i], k));
+    row.put(lane(potential_, k));
+    sums(k).write(row);
+  }
+  void read(int k, saved_numbers& row) {
+    for (Eigen::Index i = 0; i < x_.q.size(); ++i) set_lane(x_.q[i], k, row.get());
+    set_lane(potential_, k, row.get());
+    sums_[static_cast<std::size_t>(k)].read(row);
+  }
+
+ private:
+  void evaluate(const model& system) { potential_ = system.potential(x_.q); }
+
+  std::int64_t first_;
+  int count_;
+  phase_point<T, Eigen::Dynamic> x_;
+  T potential_{0.0};
+  std::vector<T> normals_;
+  std::vector<chain_sums> sums_;
+};
+
+// The course of Hybrid Monte Carlo: burn-in, masses, draws, and states to go on from.
 
 /// The number of steps of trajectory n of all chains: durations are uniform.
 inline std::int64_t steps_of(const hmc_options& options, std::int64_t trajectory, double length,

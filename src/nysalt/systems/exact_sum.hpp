@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "nysalt/scalars/native_vector.hpp"
+#include "nysalt/scalars/pack.hpp"
 
 namespace nysalt::detail {
 

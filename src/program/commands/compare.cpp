@@ -13,7 +13,7 @@
 #include "comparison/json.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/refusal.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 
 namespace nysalt::program {
 

@@ -6,7 +6,7 @@
 #include "comparison/all_ranks.hpp"
 #include "comparison/exported_source.hpp"
 #include "comparison/json.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "report/manifest.hpp"
 
 namespace nysalt::program {

@@ -4,7 +4,7 @@
 #include "../output.hpp"
 #include "comparison/all_ranks.hpp"
 #include "comparison/refusal.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "report/manifest.hpp"
 
 namespace nysalt::program {

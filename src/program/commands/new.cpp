@@ -12,7 +12,7 @@
 #include "comparison/all_ranks.hpp"
 #include "comparison/json.hpp"
 #include "comparison/refusal.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 
 namespace nysalt::program {
 

@@ -12,7 +12,7 @@
 #include "comparison/all_ranks.hpp"
 #include "comparison/interruption.hpp"
 #include "comparison/purpose.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 
 namespace nysalt::program {
 

@@ -16,7 +16,7 @@
 #include "comparison/learning.hpp"
 #include "comparison/progress.hpp"
 #include "comparison/sampled_run.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "program/output/planned_run.hpp"
 #include "program/output/run_output.hpp"
 #include "report/manifest.hpp"

@@ -23,7 +23,7 @@
 #include "comparison/refusal.hpp"
 #include "comparison/seeds.hpp"
 #include "nysalt/atomic_file.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/hmc.hpp"
 #include "report/manifest.hpp"
 #include "report/table.hpp"

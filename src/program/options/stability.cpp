@@ -10,7 +10,7 @@
 #include "../commands.hpp"
 #include "comparison/all_ranks.hpp"
 #include "number_option.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "shared_options.hpp"
 
 namespace nysalt::program {

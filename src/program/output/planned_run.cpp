@@ -10,7 +10,7 @@
 #include "comparison/lost_motion.hpp"
 #include "comparison/refusal.hpp"
 #include "hdf5_layout.hpp"
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "program/systems.hpp"
 #include "report/manifest.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/system_declaration.hpp"
 
 namespace nysalt::program {

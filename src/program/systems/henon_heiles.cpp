@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/system_declaration.hpp"
 
 namespace nysalt::program {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
 
-#include "nysalt/ensembles/kepler_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/system_declaration.hpp"
 #include "nysalt/systems/kepler.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/systems/lennard_jones.hpp"
 #include "collision_frequency.hpp"
-#include "nysalt/ensembles/lennard_jones_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/system_declaration.hpp"
 
 namespace nysalt::program {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "collision_frequency.hpp"
-#include "nysalt/ensembles/lennard_jones_liquid_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/system_declaration.hpp"
 
 namespace nysalt::program {

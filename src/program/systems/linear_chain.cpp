@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "nysalt/systems/linear_chain.hpp"
 #include "comparison/prepared_problem.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/system_declaration.hpp"
 #include "with_exact_flow.hpp"
 

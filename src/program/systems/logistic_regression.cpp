@@ -11,8 +11,8 @@
 
 #include "comparison/did_you_mean.hpp"
 #include "comparison/refusal.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
-#include "nysalt/noises/counter_based.hpp"
+#include "nysalt/ensembles/given_states.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/system_declaration.hpp"
 #include "program/csv_file.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "comparison/prepared_problem.hpp"
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/system_declaration.hpp"
 #include "nysalt/systems/harmonic_oscillator.hpp"
 #include "with_exact_flow.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
 
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/system_declaration.hpp"
-#include "nysalt/systems/phi4_chain.hpp"
+#include "nysalt/systems/phi4.hpp"
 
 namespace nysalt::program {
 

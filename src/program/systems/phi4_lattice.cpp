@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/systems/phi4_lattice.hpp"
+#include "nysalt/systems/phi4.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/system_declaration.hpp"
 
 namespace nysalt::program {

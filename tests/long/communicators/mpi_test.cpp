@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/detail/collectively.hpp"
+#include "nysalt/communicator.hpp"
 #include "nysalt/shard.hpp"
 
 using namespace nysalt;

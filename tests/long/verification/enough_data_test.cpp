@@ -14,13 +14,12 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/families/fg_chin.hpp"
+#include "nysalt/ensembles/distributions.hpp"
+#include "nysalt/families/gradient_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/losses/after_steps.hpp"
-#include "nysalt/losses/metric.hpp"
-#include "nysalt/losses/state_error.hpp"
+#include "nysalt/losses/window_error.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;

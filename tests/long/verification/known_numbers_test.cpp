@@ -12,8 +12,7 @@
 
 #include "../../support/rounding.hpp"
 #include "nysalt/analysis/energy_drift.hpp"
-#include "nysalt/ensembles/fpu_law.hpp"
-#include "nysalt/ensembles/kepler_law.hpp"
+#include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/methods/classical.hpp"

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "nysalt/ensembles/normal_around.hpp"
+#include "nysalt/ensembles/given_states.hpp"
 
 struct quartic {
   static constexpr int dimension = 1;

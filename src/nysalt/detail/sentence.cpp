@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSL-1.0
+
+#include "nysalt/detail/sentence.hpp"
+
+#include <fmt/format.h>
+
+namespace nysalt {
+
+std::string in_digits(double x, int digits) { return fmt::format("{:.{}g}", x, digits); }
+
+}  // namespace nysalt

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSL-1.0
+// Passes of losses over the data.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+#include "nysalt/detail/modal_coordinates.hpp"
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/losses/after_steps.hpp"
+#include "nysalt/losses/squares.hpp"
+#include "nysalt/losses/stationary_covariance.hpp"
+#include "nysalt/losses/window_error.hpp"
+
+namespace nysalt {
+
+namespace {
+
+double mean_of(const Eigen::VectorXd& values) {
+  double sum = 0.0;
+  for (const double x : values) sum += x;
+  return sum / static_cast<double>(values.size());
+}
+
+double size_of_terms(const auto& sums, Eigen::Index i, const auto& a) {
+  if (sums.empty()) return std::abs(a[i]);
+  double sum = 0.0;
+  for (const auto& [j, factor] : sums[static_cast<std::size_t>(i)]) sum += std::abs(factor * a[j]);
+  return sum;
+}
+
+/// sizes += x^2/total for each coordinate's sum x of absolute terms: what its rounding is relative to.
+void add_sizes_of_terms(const auto& x, const auto& sums_of_q, const auto& sums_of_p, double total,
+                        Eigen::VectorXd& sizes) {
+  const Eigen::Index size = x.size();
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const double of_x = size_of_terms(sums_of_q, i, x.q);
+    const double of_y = size_of_terms(sums_of_p, i, x.p);
+    sizes[i] += of_x * of_x / total;
+    sizes[size + i] += of_y * of_y / total;
+  }
+}
+
+}  // namespace
+
+std::string to_string(coordinates c) {
+  return c == coordinates::qp ? "qp" : c == coordinates::modes ? "modes" : "energy";
+}
+
+metric::metric(const model& system, const flow_map_data& data, coordinates which)
+    : size_(size(system)), which_(which) {
+  if (which != coordinates::qp) change_coordinates(system, which);
+  weigh(data);
+}
+
+void metric::change_coordinates(const model& system, coordinates which) {
+  if (!has_modes(system)) {
+    throw std::invalid_argument(
+        sentence("a loss in {} coordinates: the system must have modes(), got {}; use qp", to_string(which),
+                 describe(system)));
+  }
+  const auto modes = modal_coordinates::of(system);
+  sums_of_q_.resize(static_cast<std::size_t>(size_));
+  sums_of_p_.resize(static_cast<std::size_t>(size_));
+  for (const auto& [i, k, heavy, light] : modes->entries()) {
+    const auto row = static_cast<std::size_t>(k);
+    const double omega = modes->frequencies()[row];
+    const bool is_scaled = which == coordinates::energy && omega != 0.0;
+    sums_of_q_[row].push_back({i, is_scaled ? heavy * omega : heavy});
+    sums_of_p_[row].push_back({i, light});
+  }
+}
+
+/// What each trajectory adds to the mean square of each increment, in residuals as they are: a common one in
+/// the energy norm.
+std::vector<Eigen::VectorXd> metric::squares_in(const flow_map_data& data) const {
+  Eigen::VectorXd increment = Eigen::VectorXd::Zero(residuals());
+  std::vector<Eigen::VectorXd> squares(data.trajectories(), increment);
+  const auto total = static_cast<double>(data.all_pairs());
+  for (std::size_t m = 0; m < data.trajectories(); ++m) {
+    for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
+      residual(data.finish[n].q, data.finish[n].p, data.start[n], increment.data());
+      squares[m] += increment.cwiseAbs2() / total;
+    }
+    if (which_ == coordinates::energy) squares[m].setConstant(mean_of(squares[m]));
+  }
+  return squares;
+}
+
+void metric::weigh(const flow_map_data& data) {
+  weight_ = Eigen::VectorXd::Ones(2 * size_);
+  for (Eigen::Index row = 0; row < 2 * size_; ++row) active_.push_back(row);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(2 * size_);
+  const auto squares = squares_in(data);
+  std::vector<Eigen::VectorXd> sizes(data.trajectories(), zero);
+  const auto total = static_cast<double>(data.all_pairs());
+  for (std::size_t m = 0; m < data.trajectories(); ++m) {
+    for (std::size_t n = data.first_of[m]; n < data.first_of[m + 1]; ++n) {
+      add_sizes_of_terms(data.finish[n], sums_of_q_, sums_of_p_, total, sizes[m]);
+    }
+  }
+  const Eigen::VectorXd sigma = data.share().sum(squares, zero);
+  const Eigen::VectorXd magnitudes = data.share().sum(sizes, zero);
+  active_.clear();
+  for (Eigen::Index row = 0; row < 2 * size_; ++row) {
+    if (!std::isfinite(sigma[row]) || !std::isfinite(magnitudes[row])) {
+      throw std::invalid_argument(sentence(
+          "the weight of {} must be finite, got increments in the data that are too large to be squared",
+          name_of(row)));
+    }
+    // Motion below the rounding of the coordinate's own sum is none: its weight would amplify noise.
+    constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+    if (sigma[row] > rounding * rounding * magnitudes[row]) {
+      weight_[row] = 1.0 / std::sqrt(sigma[row]);
+      active_.push_back(row);
+    } else {
+      dropped_.push_back(name_of(row));
+    }
+  }
+  if (active_.empty()) throw std::invalid_argument("the data must hold motion to learn from, got none");
+  deviations_.resize(residuals(), static_cast<Eigen::Index>(data.trajectories()));
+  for (std::size_t m = 0; m < data.trajectories(); ++m) {
+    const double share = static_cast<double>(data.first_of[m + 1] - data.first_of[m]) / total;
+    for (Eigen::Index k = 0; k < residuals(); ++k) {
+      const Eigen::Index row = active_[static_cast<std::size_t>(k)];
+      deviations_(k, static_cast<Eigen::Index>(m)) = squares[m][row] / sigma[row] - share;
+    }
+  }
+}
+
+/// Relative to their own mean square: what a coordinate that moves more in these data adds to the gradient of
+/// their loss, it takes back by its weight.
+Eigen::MatrixXd metric::weight_deviations(const flow_map_data& others) const {
+  const auto squares = squares_in(others);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(residuals());
+  const Eigen::ArrayXd sum = others.share().sum(squares, zero).array();
+  Eigen::MatrixXd result(residuals(), static_cast<Eigen::Index>(others.trajectories()));
+  const auto total = static_cast<double>(others.all_pairs());
+  for (std::size_t m = 0; m < others.trajectories(); ++m) {
+    const double share = static_cast<double>(others.first_of[m + 1] - others.first_of[m]) / total;
+    result.col(static_cast<Eigen::Index>(m)) = (sum > 0.0).select(squares[m].array() / sum, share) - share;
+  }
+  return result;
+}
+
+std::string metric::name_of(Eigen::Index row) const {
+  const std::string_view names = which_ == coordinates::qp ? "qp" : "xy";
+  return sentence("{}{}", names[row < size_ ? 0 : 1], row % size_ + 1);
+}
+
+// A loss as the sum of squares that it is.
+
+Eigen::VectorXd squares::gradient() const { return 2.0 * half_gradient; }
+
+bool squares::is_finite() const {
+  return std::isfinite(value) && half_gradient.allFinite() && normal_matrix.allFinite();
+}
+
+namespace detail {
+
+squares from_column(const Eigen::VectorXd& column, Eigen::Index parameters) {
+  squares result{column[0], column.segment(1, parameters), Eigen::MatrixXd(parameters, parameters)};
+  Eigen::Index term = 1 + parameters;
+  for (Eigen::Index i = 0; i < parameters; ++i) {
+    for (Eigen::Index j = i; j < parameters; ++j, ++term) {
+      result.normal_matrix(i, j) = column[term];
+      result.normal_matrix(j, i) = column[term];
+    }
+  }
+  return result;
+}
+
+Eigen::Index terms_of_column(Eigen::Index parameters) {
+  return 1 + parameters + parameters * (parameters + 1) / 2;
+}
+
+}  // namespace detail
+
+template class after_steps<detail::lanes>;
+template class after_steps<double>;
+
+// The distance of the stationary distribution of a thermostatted word from the Gibbs distribution.
+
+squares stationary_covariance::at(const std::vector<double>& coefficients,
+                                  const Eigen::MatrixXd& jacobian) const {
+  constexpr int width = 2;  // columns at a time, as their number is known at run time only
+  const auto values = residuals(coefficients);
+  const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
+  Eigen::MatrixXd J(r.size(), jacobian.cols());
+  for (Eigen::Index first = 0; first < J.cols(); first += width) {
+    const Eigen::Index end = std::min(first + width, J.cols());
+    std::vector<dual<double, width>> c(coefficients.begin(), coefficients.end());
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      for (Eigen::Index k = first; k < end; ++k) {
+        c[i].derivative[static_cast<std::size_t>(k - first)] = jacobian(static_cast<Eigen::Index>(i), k);
+      }
+    }
+    const auto moving = residuals(c);
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+      for (Eigen::Index k = first; k < end; ++k) {
+        J(static_cast<Eigen::Index>(i), k) = moving[i].derivative[static_cast<std::size_t>(k - first)];
+      }
+    }
+  }
+  return {r.squaredNorm(), J.transpose() * r, J.transpose() * J};
+}
+
+void stationary_covariance::require_law() const {
+  if (!(step_ > 0.0) || !std::isfinite(step_)) {
+    throw std::invalid_argument(fmt::format("the step must be positive and finite, got {}", step_));
+  }
+  if (word_.stochastic_letters == 0) {
+    throw std::invalid_argument(fmt::format(
+        "covariance loss: the word must have a letter O, got {}; thermostat it", word_.letters()));
+  }
+  if (bath_.friction() == 0.0 || bath_.sigma() == 0.0) {
+    throw std::invalid_argument(
+        fmt::format("covariance loss: the bath must have friction and a temperature above 0, got a {}",
+                    bath_.description()));
+  }
+}
+
+void stationary_covariance::split_at_bath() {
+  const std::string& letters = word_.letters();
+  for (std::size_t i = 0; i < letters.size();) {
+    pieces_.push_back({word_.first_slot(i), std::nullopt});
+    const std::size_t length = std::min(letters.find(bath_letter, i), letters.size()) - i;
+    if (length > 0) pieces_.back().turn = run_time_word(letters.substr(i, length));
+    i += std::max<std::size_t>(length, 1);
+  }
+}
+
+objective objective_of(const stationary_covariance& loss, const run_time_family& family) {
+  return [=](const Eigen::VectorXd& theta) {
+    return loss.at(family.coefficients(theta), family.jacobian(theta));
+  };
+}
+
+}  // namespace nysalt

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSL-1.0
+// The equations of phase fitting, and their solution.
+
+#include "nysalt/methods/phase_fitted.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+
+#include "nysalt/derivatives/oscillator.hpp"
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/scalars/polynomial.hpp"
+
+namespace nysalt::detail {
+
+namespace {
+
+/// sum_j (-x)^j/(2j + k)!, Stumpff's function c_k: what cos z and sin z/z, z^2 = x, are beyond their first
+/// terms.
+double stumpff(int k, double x) {
+  double term = 1.0;
+  for (int i = 2; i <= k; ++i) term /= i;
+  double sum = 0.0;
+  for (int j = 0; sum + term != sum; ++j) {
+    sum += term;
+    term *= -x / ((2.0 * j + k + 1.0) * (2.0 * j + k + 2.0));
+  }
+  return sum;
+}
+
+}  // namespace
+
+Eigen::VectorXd defect_of_rotation(const run_time_word& word, const std::vector<double>& coefficients,
+                                   bool symmetric, double x) {
+  const auto times_x = [](const dense_polynomial& a) { return a.times_x(); };
+  dense_polynomial qq{{1.0}}, pq{{0.0}}, qp{{0.0}}, pp{{1.0}};
+  step_on_oscillator(word, coefficients, 0.0, times_x, qq, pq);
+  step_on_oscillator(word, coefficients, 0.0, times_x, qp, pp);
+  dense_polynomial half_trace = 0.5 * qq;
+  half_trace += 0.5 * pp;
+  Eigen::VectorXd defects(symmetric ? 3 : 4);
+  defects[0] = half_trace.tail(2, x) - stumpff(4, x);
+  defects[1] = qp.tail(1, x) + stumpff(3, x);
+  defects[2] = pq.tail(2, x) - stumpff(3, x);
+  if (!symmetric) {
+    dense_polynomial half_difference = 0.5 * qq;
+    half_difference += -0.5 * pp;
+    defects[3] = half_difference.tail(1, x);
+  }
+  return defects;
+}
+
+Eigen::MatrixXd jacobian_of_defect(const run_time_family& family, const Eigen::VectorXd& theta, double x) {
+  auto coefficients = family.coefficients(theta);
+  const auto defect = [&] { return defect_of_rotation(family.letters, coefficients, family.symmetric, x); };
+  const Eigen::VectorXd here = defect();
+  Eigen::MatrixXd by_coefficient(here.size(), static_cast<Eigen::Index>(coefficients.size()));
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    const double before = coefficients[i];
+    coefficients[i] = before + 1.0;
+    by_coefficient.col(static_cast<Eigen::Index>(i)) = defect() - here;
+    coefficients[i] = before;
+  }
+  return by_coefficient * family.jacobian(theta);
+}
+
+namespace {
+
+/// The solution nearest to `nearest`, from a guess close to it: each iteration solves the linearised
+/// equations with the least distance. Nothing where that does not converge.
+std::optional<Eigen::VectorXd> nearest_phase_fitted(const run_time_family& family,
+                                                    const Eigen::VectorXd& nearest, Eigen::VectorXd theta,
+                                                    double x) {
+  constexpr int most = 100;
+  constexpr double small = 1e-10;     // from here on a change that no longer falls is rounding
+  constexpr double solved = 1e-10;    // else it is the least of the defects, and not zero
+  constexpr double redundant = 1e-9;  // pivots of the equation that follows from the others
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < most; ++i) {
+    const Eigen::VectorXd defect =
+        defect_of_rotation(family.letters, family.coefficients(theta), family.symmetric, x);
+    const Eigen::MatrixXd slope = jacobian_of_defect(family, theta, x);
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+    solver.setThreshold(redundant);
+    solver.compute(slope);
+    const Eigen::VectorXd next = nearest + solver.solve(slope * (theta - nearest) - defect);
+    const double change = (next - theta).lpNorm<Eigen::Infinity>();
+    if (!next.allFinite() || !family.is_defined(next) || change > farthest_parameter) return std::nullopt;
+    theta = next;
+    if (change == 0.0 || (change <= small && change >= 0.9 * last)) {
+      return defect.lpNorm<Eigen::Infinity>() <= solved ? std::optional(theta) : std::nullopt;
+    }
+    last = change;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+phase_fitting fit_phase(const run_time_family& family, const Eigen::VectorXd& nearest, double z) {
+  constexpr double longest = 0.5;
+  constexpr double shortest = 1e-4;
+  constexpr double farthest_move = 0.25;  // a solution that jumps belongs to another branch
+  if (family.letters.reads != field::whole || family.parameters() < (family.symmetric ? 2 : 3)) {
+    return {std::nullopt, 0.0};
+  }
+  auto theta = nearest_phase_fitted(family, nearest, nearest, 0.0);
+  if (!theta) return {std::nullopt, 0.0};
+  double reached = 0.0;
+  double stride = longest;
+  while (reached < z) {
+    const double further = std::min(reached + stride, z);
+    const auto next = nearest_phase_fitted(family, nearest, *theta, further * further);
+    if (next && family.is_in_range(*next) && (*next - *theta).lpNorm<Eigen::Infinity>() <= farthest_move) {
+      reached = further;
+      theta = next;
+      stride = std::min(longest, 2.0 * stride);
+    } else if (stride *= 0.5; stride < shortest) {
+      return {std::nullopt, reached};
+    }
+  }
+  return {theta, z};
+}
+
+}  // namespace nysalt::detail
+
+// A start of a search where the highest frequency is known.
+
+namespace nysalt {
+
+std::optional<named_parameters> phase_fitted_start(const run_time_family& family, double z) {
+  if (!(z > 0.0) || !std::isfinite(z)) {
+    throw std::invalid_argument(sentence(
+        "phase_fitted_start: z = step * frequency must be positive and finite, got {}; fit to a mode that "
+        "moves",
+        z));
+  }
+  const auto is_classical = [](const named_parameters& one) {
+    return one.name != "start" && one.name != "further start";
+  };
+  for (const bool classical : {true, false}) {
+    for (const auto& one : family.starts) {
+      if (is_classical(one) != classical) continue;
+      if (const auto fit = detail::fit_phase(family, one.theta, z); fit.theta) {
+        return named_parameters{"phase_fitted", *fit.theta};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace nysalt
