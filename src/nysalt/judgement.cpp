@@ -13,8 +13,7 @@
 
 #include "judging/trial.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
-#include "nysalt/derivatives/near_resonance.hpp"
-#include "nysalt/derivatives/stability_margin.hpp"
+#include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 
@@ -56,8 +55,17 @@ double quantile_of(std::vector<double>& numbers, double share) {
   return *at;
 }
 
-/// Puts what the trajectories did into the judgement.
-void summarise(std::vector<course>& courses, double rounding, judgement& found) {
+/// Least growth from one half of the trial to the other that the finite number of trajectories leaves open:
+/// each quantile by one standard error sqrt(N p (1 - p)) of its rank, against the growth. Energies that jump
+/// now and then have a quantile that doubles by chance.
+double least_growth(std::vector<double>& first_half, std::vector<double>& second_half, double share) {
+  const double error = std::sqrt(share * (1.0 - share) / static_cast<double>(first_half.size()));
+  const double before = quantile_of(first_half, share + error);
+  return before > 0.0 ? quantile_of(second_half, share - error) / before : 0.0;
+}
+
+/// Puts what the trajectories did into the judgement. Returns the least growth of the energy error.
+double summarise(std::vector<course>& courses, double rounding, judgement& found) {
   const double scale = found.kinetic_energy;
   std::vector<double> errors;
   std::array<std::vector<double>, windows> levels;
@@ -100,7 +108,7 @@ void summarise(std::vector<course>& courses, double rounding, judgement& found) 
                           one.diverged_at.value_or(std::max<std::int64_t>(0, one.large_at))};
     }
   }
-  if (errors.empty()) return;
+  if (errors.empty()) return 0.0;
   constexpr double all_but_few = 1.0 - few_lost;
   found.energy_error.median = median_of(errors);
   found.energy_error.most = quantile_of(errors, most);
@@ -110,17 +118,18 @@ void summarise(std::vector<course>& courses, double rounding, judgement& found) 
   std::array<double, windows> level{};
   for (std::size_t w = 0; w < levels.size(); ++w) level[w] = median_of(levels[w]);
   found.drift = slope_of(level);
+  return least_growth(first_half, second_half, all_but_few);
 }
 
 /// The energy error that nearly all trajectories stay below in a run `longer` times as long: a power of time
-/// grows by its square for another two doublings, and what grows faster than time itself is taken to be
-/// exponential.
-double projected(const judgement& found) {
+/// grows by its square for another two doublings, and what is shown to grow faster than time itself is taken
+/// to be exponential.
+double projected(const judgement& found, double least_growth) {
   constexpr double linear = 2.0;  // growth of what is proportional to time
   const double growth = std::max(1.0, found.growth);
   const double further_halves = 2.0 * detail::longer - 2.0;
   return found.energy_error.nearly_all *
-         (growth <= linear ? growth * growth : std::pow(growth, further_halves));
+         (least_growth <= linear ? growth * growth : std::pow(growth, further_halves));
 }
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
@@ -143,7 +152,7 @@ bool shows_instability(const judgement& found, Eigen::Index size) {
 }
 
 /// The rules, in this order.
-void decide(judgement& found, Eigen::Index size) {
+void decide(judgement& found, Eigen::Index size, double least_growth) {
   const auto say = [&](step_verdict verdict, std::string reason) {
     found.verdict = verdict;
     found.reason = std::move(reason);
@@ -168,7 +177,7 @@ void decide(judgement& found, Eigen::Index size) {
                     found.exceeding, found.trajectories, found.farthest.trajectory,
                     percent(found.energy_error.largest), found.farthest.step));
   }
-  if (const double later = projected(found); later > 1.0) {
+  if (const double later = projected(found, least_growth); later > 1.0) {
     return say(
         step_verdict::near_an_edge,
         fmt::format("the energy error grows: one trajectory in fifty errs by {} of the kinetic energy or "
@@ -332,7 +341,7 @@ judgement step_judge::of(const tabulated& method) const {
   // Each letter rounds H once at most, in one direction at worst.
   const double rounding = static_cast<double>(plan.steps) * static_cast<double>(word.length) *
                           std::numeric_limits<double>::epsilon();
-  summarise(courses, rounding, found);
+  const double least_growth = summarise(courses, rounding, found);
   found.frequencies = no_guard;
   if (has_rotation(word) || word.has_own_letters()) {
     try {
@@ -343,7 +352,7 @@ judgement step_judge::of(const tabulated& method) const {
   } else if (guard) {
     add_linear(*guard, method, size(system), found);
   }
-  decide(found, size(system));
+  decide(found, size(system), least_growth);
   if (found.holds() && !motion.is_followed && motion.kinetic_energy == 0.0) {
     found.verdict = step_verdict::not_tried;
     found.reason = fmt::format(
