@@ -15,12 +15,12 @@
 #include <utility>
 #include <vector>
 
+#include "../src/nysalt/learning/minimise.hpp"
 #include "../tests/support/losses.hpp"
 #include "counting.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/learning/minimise.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/stepper.hpp"
 #include "peers/roofs.hpp"

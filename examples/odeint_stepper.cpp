@@ -4,7 +4,7 @@
 // A pendulum swings for twenty units of time. First odeint drives one of our methods, with its own
 // integrate_const and an observer. Then odeint's Runge-Kutta-Fehlberg 7(8) shows how far that was from
 // the exact motion, and how the same step fares in our own loop, where kicks are merged.
-#include "nysalt/references/odeint_stepper.hpp"
+#include "nysalt/references/odeint.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,6 @@
 #include <boost/numeric/odeint/integrate/integrate_n_steps.hpp>
 
 #include "nysalt/nysalt.hpp"
-#include "nysalt/references/odeint.hpp"
 
 using namespace nysalt;
 namespace odeint = boost::numeric::odeint;

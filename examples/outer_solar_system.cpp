@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "nysalt/learn.hpp"
-#include "nysalt/methods/wisdom_holman.hpp"
 #include "nysalt/nysalt.hpp"
-#include "nysalt/systems/solar_system.hpp"
+#include "systems/planets.hpp"
 
 using namespace nysalt;
+using namespace examples;
 
 const auto planets = outer_solar_system();
 const auto start = outer_solar_system_start();

@@ -16,11 +16,12 @@
 #include <vector>
 
 #include "nysalt/learn.hpp"
-#include "nysalt/methods/r_respa.hpp"
+#include "nysalt/methods/multiple_time_steps.hpp"
 #include "nysalt/nysalt.hpp"
-#include "nysalt/systems/bonded_chain.hpp"
+#include "systems/bonded_chain.hpp"
 
 using namespace nysalt;
+using namespace examples;
 
 const bonded_chain<4> chain(stiff_bonds<4>(20.0), soft_charges<4>(2.0));
 const normal_around<4> starts({vector<double, 4>::Zero(), vector<double, 4>::Zero()}, 0.01, 0.3);

@@ -22,8 +22,8 @@
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/phi4.hpp"
+#include "nysalt/systems/textbook.hpp"
 #include "toda.hpp"
 
 namespace nysalt::bench {

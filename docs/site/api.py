@@ -18,7 +18,7 @@ from pathlib import Path
 # Every public header belongs to one group: files without .hpp, and folders.
 groups = {
     "Entry points": "nysalt core learn odeint mpi version",
-    "Scalars and states": "scalar scalars/ phase_point phase_points lanes",
+    "Scalars and states": "scalar scalars/ phase_point lanes",
     "Systems": "system local_system force energy systems/ model plugin system_declaration",
     "Baths and noise": "bath noise noises/ langevin",
     "Flows and words": "flow flows/ word run_time_word stepper",

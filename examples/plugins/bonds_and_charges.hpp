@@ -3,11 +3,11 @@
 // [system]
 #include <nysalt/flows/exact_flow.hpp>
 #include <nysalt/plugin.hpp>
-#include <nysalt/systems/bonded_chain.hpp>
+#include "../systems/bonded_chain.hpp"
 
 /// Four masses with stiff bonds, part 0, and charges, part 1.
-struct bonds_and_charges : nysalt::bonded_chain<4> {
-  bonds_and_charges() : sum_of_parts(nysalt::stiff_bonds<4>(20.0), nysalt::soft_charges<4>(2.0)) {}
+struct bonds_and_charges : examples::bonded_chain<4> {
+  bonds_and_charges() : sum_of_parts(examples::stiff_bonds<4>(20.0), examples::soft_charges<4>(2.0)) {}
 };
 
 NYSALT_SYSTEM(bonds_and_charges, "stiff bonds, and charges of one sign",

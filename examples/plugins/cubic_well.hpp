@@ -3,7 +3,7 @@
 // [system]
 #include <nysalt/flows/exact_flow.hpp>
 #include <nysalt/plugin.hpp>
-#include <nysalt/systems/henon_heiles.hpp>
+#include <nysalt/systems/textbook.hpp>
 
 #include <cmath>
 #include <string>

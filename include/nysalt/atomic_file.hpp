@@ -1,12 +1,73 @@
 // SPDX-License-Identifier: BSL-1.0
+// Files that are there whole or not at all, whatever fails and whatever signal comes.
 #pragma once
 
+#include <csignal>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
-#include "nysalt/detail/unfinished_names.hpp"
+// Steps between which no signal handler runs.
+
+namespace nysalt::detail {
+
+/// Holds signals back from this thread; a handler on another thread waits by wait_for_held_signals(). For
+/// what a handler must find whole, such as a new file and the note of the name.
+class held_signals {
+ public:
+  held_signals() noexcept;
+  ~held_signals();
+  held_signals(const held_signals&) = delete;
+  held_signals& operator=(const held_signals&) = delete;
+
+  const sigset_t& before() const { return before_; }  ///< signals that were held back before
+
+ private:
+  sigset_t before_{};
+};
+
+/// In a handler: waits while another thread holds signals back, a second at most. Async-signal-safe.
+void wait_for_held_signals() noexcept;
+
+// Files that must go if a signal ends the process.
+
+/// The name of a file that is not finished, kept where a signal handler finds it. Of more than 32 at a time
+/// the others are not kept.
+class unfinished_name {
+ public:
+  explicit unfinished_name(const std::filesystem::path& file);
+  ~unfinished_name();  ///< the file stays in any case
+  unfinished_name(const unfinished_name&) = delete;
+  unfinished_name& operator=(const unfinished_name&) = delete;
+
+ private:
+  std::size_t place_;
+};
+
+/// Removes all files whose names are kept. Async-signal-safe.
+void remove_unfinished_files() noexcept;
+
+/// A failure to write that is not due to bad input: the disk is full, or a device failed.
+class write_failure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Another process writes the file.
+class file_in_use : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Why a file that is written must not take the name, or the place of what a link of that name leads to: a
+/// folder, a device, a FIFO or a socket is there, or a link that leads back to itself. Empty if a regular
+/// file or nothing is there.
+std::string objection_to_replacing(const std::filesystem::path& file);
+
+}  // namespace nysalt::detail
 
 namespace nysalt {
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "nysalt/detail/any_reference.hpp"
-#include "nysalt/detail/energy_range.hpp"
+#include "nysalt/energy.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/phase_points.hpp"
+#include "nysalt/phase_point.hpp"
 #include "nysalt/shard.hpp"
 
 namespace nysalt {

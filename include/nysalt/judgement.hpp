@@ -13,7 +13,7 @@
 #include "nysalt/detail/divergence.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/phase_points.hpp"
+#include "nysalt/phase_point.hpp"
 
 namespace nysalt {
 

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/noise_intervals.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
+#include "nysalt/noise.hpp"
 #include "nysalt/run_time_word.hpp"
 
 namespace nysalt {

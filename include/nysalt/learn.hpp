@@ -9,8 +9,7 @@
 
 #include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/detail/requirements.hpp"
-#include "nysalt/learning/fit.hpp"
-#include "nysalt/learning/make_problem.hpp"
+#include "nysalt/learning/problem.hpp"
 #include "nysalt/method.hpp"
 
 namespace nysalt {

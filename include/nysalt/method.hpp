@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "nysalt/detail/energy_range.hpp"
 #include "nysalt/detail/requirements.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/energy.hpp"

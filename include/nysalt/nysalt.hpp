@@ -27,7 +27,6 @@
 #include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/references/exact_linear.hpp"
-#include "nysalt/references/fine_paths.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/shard.hpp"
 #include "nysalt/systems/lennard_jones_liquid.hpp"

@@ -3,4 +3,3 @@
 #pragma once
 
 #include "nysalt/references/odeint.hpp"
-#include "nysalt/references/odeint_stepper.hpp"

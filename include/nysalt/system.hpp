@@ -1,4 +1,37 @@
 // SPDX-License-Identifier: BSL-1.0
+// Systems: what a user writes, and what follows from it.
+#pragma once
+
+#include <cxxabi.h>
+#include <concepts>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <typeinfo>
+#include <vector>
+
+#include "nysalt/phase_point.hpp"
+#include "nysalt/scalars/dual.hpp"
+
+namespace nysalt::detail {
+
+/// With the namespaces that have a name.
+inline std::string name_of_type(const std::type_info& type) {
+  int failure = 0;
+  const std::unique_ptr<char, void (*)(void*)> readable(
+      abi::__cxa_demangle(type.name(), nullptr, nullptr, &failure), std::free);
+  std::string name = readable ? readable.get() : type.name();
+  constexpr std::string_view unnamed = "(anonymous namespace)::";
+  for (auto at = name.find(unnamed); at != std::string::npos; at = name.find(unnamed)) {
+    name.erase(at, unnamed.size());
+  }
+  return name;
+}
+
+}  // namespace nysalt::detail
+
 // What a Hamiltonian H(q, p) = K(p) + V(q) must offer, and what the library deduces from it.
 //
 // A user writes `dimension` and one of
@@ -24,17 +57,6 @@
 //                                          that of V less q K q/2, which modes() diagonalises
 //   double force_cost() const;             what a force costs, if not one a coordinate
 //   std::string description() const;  std::string kind() const;          the description without the size
-#pragma once
-
-#include <concepts>
-#include <string>
-#include <type_traits>
-#include <typeinfo>
-#include <vector>
-
-#include "nysalt/detail/name_of_type.hpp"
-#include "nysalt/phase_point.hpp"
-#include "nysalt/scalars/dual.hpp"
 
 namespace nysalt {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nysalt/detail/named_letters.hpp"
+#include "nysalt/detail/known_letters.hpp"
 #include "nysalt/learning/problem.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/methods/tabulated.hpp"

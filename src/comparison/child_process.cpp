@@ -17,7 +17,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "nysalt/detail/held_signals.hpp"
+#include "nysalt/atomic_file.hpp"
 
 namespace nysalt::program {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "nysalt/detail/named_letters.hpp"
+#include "nysalt/detail/known_letters.hpp"
 #include "nysalt/run_time_word.hpp"
 
 namespace nysalt::program {

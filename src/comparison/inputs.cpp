@@ -7,7 +7,6 @@
 #include <system_error>
 
 #include "nysalt/atomic_file.hpp"
-#include "nysalt/detail/objection_to_replacing.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {

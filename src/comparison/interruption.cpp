@@ -12,8 +12,7 @@
 
 #include "all_ranks.hpp"
 #include "child_process.hpp"
-#include "nysalt/detail/held_signals.hpp"
-#include "nysalt/detail/unfinished_names.hpp"
+#include "nysalt/atomic_file.hpp"
 
 namespace nysalt::program {
 

@@ -10,7 +10,6 @@
 #include "all_ranks.hpp"
 #include "nysalt/atomic_file.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/write_failure.hpp"
 #include "origin.hpp"
 #include "refusal.hpp"
 

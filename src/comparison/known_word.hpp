@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/detail/named_letters.hpp"
+#include "nysalt/detail/known_letters.hpp"
 #include "nysalt/methods/tabulated.hpp"
 
 namespace nysalt::program {

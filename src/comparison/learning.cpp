@@ -11,7 +11,7 @@
 #include "checks.hpp"
 #include "judging.hpp"
 #include "learnable.hpp"
-#include "nysalt/learning/fit.hpp"
+#include "nysalt/learning/problem.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "seeds.hpp"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "json.hpp"
-#include "nysalt/detail/named_letters.hpp"
-#include "nysalt/learning/theta_curve.hpp"
+#include "nysalt/detail/known_letters.hpp"
+#include "nysalt/learning/reach.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "prepared_problem.hpp"
 

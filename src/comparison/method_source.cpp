@@ -9,7 +9,7 @@
 
 #include "did_you_mean.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/learning/energies_outside.hpp"
+#include "nysalt/learning/reach.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "refusal.hpp"

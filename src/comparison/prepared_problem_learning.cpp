@@ -9,7 +9,7 @@
 #include "family_options.hpp"
 #include "learnable.hpp"
 #include "model_reference.hpp"
-#include "nysalt/learning/make_problem.hpp"
+#include "nysalt/learning/problem.hpp"
 #include "prepared_problem.hpp"
 #include "refusal.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "all_ranks.hpp"
-#include "nysalt/detail/held_signals.hpp"
+#include "nysalt/atomic_file.hpp"
 #include "standard_error.hpp"
 
 namespace nysalt::program {

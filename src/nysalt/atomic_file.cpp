@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
+
 #include "nysalt/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <ctime>
 #include <filesystem>
@@ -17,9 +21,71 @@
 #include <system_error>
 #include <utility>
 
-#include "nysalt/detail/held_signals.hpp"
-#include "nysalt/detail/objection_to_replacing.hpp"
-#include "nysalt/detail/write_failure.hpp"
+namespace nysalt::detail {
+
+namespace {
+
+std::atomic<int> holders = 0;
+
+}  // namespace
+
+held_signals::held_signals() noexcept {
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before_);
+  ++holders;
+}
+
+held_signals::~held_signals() {
+  --holders;
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+void wait_for_held_signals() noexcept {
+  constexpr int most_milliseconds = 1000;
+  for (int n = 0; holders > 0 && n < most_milliseconds; ++n) ::poll(nullptr, 0, 1);
+}
+
+namespace {
+
+constexpr std::size_t longest = 4096;  // PATH_MAX of Linux
+
+struct slot {
+  std::atomic<bool> is_taken = false;
+  std::atomic<bool> is_set = false;
+  std::array<char, longest> name{};
+};
+std::array<slot, 32> slots;
+
+}  // namespace
+
+unfinished_name::unfinished_name(const std::filesystem::path& file) : place_(slots.size()) {
+  std::error_code ignored;
+  const std::string name = std::filesystem::absolute(file, ignored).string();
+  if (name.size() >= longest) return;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (slots[i].is_taken.exchange(true)) continue;
+    std::copy(name.begin(), name.end(), slots[i].name.begin());
+    slots[i].name[name.size()] = '\0';
+    slots[i].is_set = true;
+    place_ = i;
+    return;
+  }
+}
+
+unfinished_name::~unfinished_name() {
+  if (place_ >= slots.size()) return;
+  slots[place_].is_set = false;
+  slots[place_].is_taken = false;
+}
+
+void remove_unfinished_files() noexcept {
+  for (slot& one : slots) {
+    if (one.is_set) ::unlink(one.name.data());
+  }
+}
+
+}  // namespace nysalt::detail
 
 namespace nysalt {
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "nysalt/detail/write_failure.hpp"
+#include "nysalt/atomic_file.hpp"
 
 namespace nysalt {
 

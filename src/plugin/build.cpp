@@ -16,7 +16,7 @@
 #include "comparison/progress.hpp"
 #include "comparison/refusal.hpp"
 #include "dependencies.hpp"
-#include "nysalt/detail/objection_to_replacing.hpp"
+#include "nysalt/atomic_file.hpp"
 #include "nysalt/plugin.hpp"
 #include "plugin.hpp"
 #include "recipe.hpp"

@@ -17,7 +17,7 @@
 #include <system_error>
 
 #include "comparison/refusal.hpp"
-#include "nysalt/detail/write_failure.hpp"
+#include "nysalt/atomic_file.hpp"
 
 namespace nysalt::program {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "nysalt/detail/unfinished_names.hpp"
+#include "nysalt/atomic_file.hpp"
 
 namespace nysalt::program {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "nysalt/detail/unfinished_names.hpp"
+#include "nysalt/atomic_file.hpp"
 
 namespace nysalt::program {
 

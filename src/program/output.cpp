@@ -24,7 +24,6 @@
 #include "mpi_session.hpp"
 #include "nysalt/atomic_file.hpp"
 #include "nysalt/detail/fingerprint.hpp"
-#include "nysalt/detail/write_failure.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/written_arrays.hpp"
 #include "report/comparison_report.hpp"

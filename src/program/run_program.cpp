@@ -20,8 +20,7 @@
 #include "commands.hpp"
 #include "comparison/interruption.hpp"
 #include "mpi_session.hpp"
-#include "nysalt/detail/unfinished_names.hpp"
-#include "nysalt/detail/write_failure.hpp"
+#include "nysalt/atomic_file.hpp"
 #include "output.hpp"
 
 namespace nysalt::program {

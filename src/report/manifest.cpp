@@ -21,7 +21,6 @@
 #include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
-#include "nysalt/detail/write_failure.hpp"
 #include "write_file.hpp"
 
 namespace nysalt::program {

@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include "nysalt/atomic_file.hpp"
-#include "nysalt/detail/write_failure.hpp"
 
 namespace nysalt {
 

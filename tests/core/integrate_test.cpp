@@ -13,7 +13,7 @@
 #include "../support/refusal.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/ensembles/distributions.hpp"
-#include "nysalt/references/odeint_stepper.hpp"
+#include "nysalt/references/odeint.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

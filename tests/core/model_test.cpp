@@ -5,7 +5,7 @@
 #include "../support/refusal.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
-#include "nysalt/phase_points.hpp"
+#include "nysalt/phase_point.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

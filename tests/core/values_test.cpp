@@ -8,7 +8,7 @@
 #include "nysalt/core.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/steps_in.hpp"
-#include "nysalt/phase_points.hpp"
+#include "nysalt/phase_point.hpp"
 
 using namespace nysalt;
 

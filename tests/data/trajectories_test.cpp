@@ -7,6 +7,7 @@
 #include <atomic>
 #include <set>
 
+#include "../../src/nysalt/learning/data_of_problem.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/core.hpp"
@@ -15,7 +16,6 @@
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/integrate_ensemble.hpp"
-#include "nysalt/learning/require_valid.hpp"
 #include "nysalt/references/exact_linear.hpp"
 
 using namespace nysalt;

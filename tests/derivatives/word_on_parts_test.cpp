@@ -9,7 +9,7 @@
 #include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/derivatives/properties.hpp"
 #include "nysalt/learning/stability_guard.hpp"
-#include "nysalt/methods/r_respa.hpp"
+#include "nysalt/methods/multiple_time_steps.hpp"
 #include "nysalt/systems/sum_of_parts.hpp"
 
 using namespace nysalt;

@@ -4,16 +4,17 @@
 // paper.
 #include <map>
 
+#include "../../examples/systems/bonded_chain.hpp"
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/derivatives/properties.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/methods/classical_methods.hpp"
+#include "nysalt/methods/multiple_time_steps.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
-#include "nysalt/methods/r_respa.hpp"
-#include "nysalt/systems/bonded_chain.hpp"
 
 using namespace nysalt;
+using namespace examples;
 using namespace nysalt::test;
 
 namespace {

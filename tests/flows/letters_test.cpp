@@ -9,7 +9,7 @@
 #include "../support/refusal.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
-#include "nysalt/detail/named_letters.hpp"
+#include "nysalt/detail/known_letters.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/learn.hpp"

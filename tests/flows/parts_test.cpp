@@ -3,6 +3,9 @@
 // whole, merge, are counted part by part, and make r-RESPA. Kepler's motion is exact, and Wisdom's and
 // Holman's method errs by the masses of the planets times h^2. In a uniform magnetic field the helix is exact
 // and symplectic, and Boris' method keeps volume and no more.
+#include "../../examples/systems/bonded_chain.hpp"
+#include "../../examples/systems/charged_particle.hpp"
+#include "../../examples/systems/planets.hpp"
 #include "../support/dense.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/check_force.hpp"
@@ -10,14 +13,10 @@
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/methods/magnetic.hpp"
-#include "nysalt/methods/r_respa.hpp"
-#include "nysalt/methods/wisdom_holman.hpp"
-#include "nysalt/systems/bonded_chain.hpp"
-#include "nysalt/systems/charged_particle.hpp"
-#include "nysalt/systems/solar_system.hpp"
+#include "nysalt/methods/multiple_time_steps.hpp"
 
 using namespace nysalt;
+using namespace examples;
 using namespace nysalt::test;
 
 namespace {
@@ -74,7 +73,7 @@ using point = std::array<double, 3>;
 std::array<point, 2> moved(double e, double t) {
   point q{1.0, 0.0, 0.0};
   point v{0.0, std::sqrt(1.0 + e), 0.0};
-  detail::move_on_orbit(1.0, t, q, v);
+  orbits::move_on_orbit(1.0, t, q, v);
   return {q, v};
 }
 

@@ -23,7 +23,7 @@
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/phase_points.hpp"
+#include "nysalt/phase_point.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/in_bath.hpp"
 

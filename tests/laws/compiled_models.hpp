@@ -7,11 +7,9 @@
 #include "../support/systems.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/linear_chain.hpp"
-#include "nysalt/systems/pendulum.hpp"
 #include "nysalt/systems/phi4.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 #ifndef NYSALT_TEST_EXTERN
 #define NYSALT_TEST_EXTERN extern

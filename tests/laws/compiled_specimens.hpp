@@ -4,10 +4,10 @@
 
 #include "compiled_models.hpp"
 #include "nysalt/systems/gaussian.hpp"
-#include "nysalt/systems/kepler.hpp"
 #include "nysalt/systems/lennard_jones.hpp"
 #include "nysalt/systems/logistic_regression.hpp"
 #include "nysalt/systems/phi4.hpp"
+#include "nysalt/systems/textbook.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
 #ifndef NYSALT_TEST_EXTERN_SPECIMEN

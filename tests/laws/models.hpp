@@ -16,9 +16,8 @@
 #include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/linear_chain.hpp"
-#include "nysalt/systems/pendulum.hpp"
+#include "nysalt/systems/textbook.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 
 namespace nysalt::test {

@@ -2,12 +2,12 @@
 // Compiled at -O0, where it runs for 4.6 s: -O1 would take longer to compile than it saves.
 // However a person writes the force, and in whatever units, the same is learned; and the summary says where
 // derivatives came from.
+#include "../../src/nysalt/learning/data_of_problem.hpp"
 #include "../support/black_box_in_units.hpp"
 #include "../support/dense.hpp"
 #include "../support/learned.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/learning/sound_force.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -6,7 +6,7 @@
 #include "../support/refusal.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
-#include "nysalt/learning/at_other_size.hpp"
+#include "nysalt/learning/reach.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

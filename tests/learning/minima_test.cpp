@@ -6,15 +6,14 @@
 #include <Eigen/LU>
 #include <cstdio>
 
+#include "../../src/nysalt/learning/minimise.hpp"
 #include "../support/draws.hpp"
 #include "../support/losses.hpp"
 #include "../support/rounding.hpp"
 #include "../support/scratch.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/learning/compressed_cost.hpp"
 #include "nysalt/learning/curvature.hpp"
-#include "nysalt/learning/minimise.hpp"
 #include "nysalt/learning/search.hpp"
 
 using namespace nysalt;

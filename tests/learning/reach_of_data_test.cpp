@@ -7,9 +7,8 @@
 
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/learning/energies_outside.hpp"
 #include "nysalt/learning/learn_enough.hpp"
-#include "nysalt/learning/theta_curve.hpp"
+#include "nysalt/learning/reach.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

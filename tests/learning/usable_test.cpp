@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 // A fit says whether it may be used, and if not, why. What cannot be learned at all is refused. Which
 // classical methods a fit is compared with, at which steps, and by which statistic.
+#include "../../src/nysalt/learning/describe.hpp"
 #include "../support/learned.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/learning/objection.hpp"
 #include "nysalt/methods/classical_methods.hpp"
 
 using namespace nysalt;

@@ -4,15 +4,15 @@
 // docs/langevin.md.
 #include "nysalt/losses/stationary_covariance.hpp"
 
+#include "../../src/nysalt/learning/minimise.hpp"
 #include "../support/draws.hpp"
 #include "../support/langevin.hpp"
 #include "../support/losses.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/learning/minimise.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/linear_chain.hpp"
-#include "nysalt/systems/pendulum.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

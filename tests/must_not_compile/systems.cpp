@@ -14,9 +14,8 @@
 #include "nysalt/plugin.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/references/fine_steps.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/pendulum.hpp"
 #include "nysalt/systems/sum_of_parts.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 // expect: nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a
 //   template or over double, const all of them; see nysalt/system.hpp

@@ -14,11 +14,11 @@
 #include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/methods/tabulated.hpp"
-#include "nysalt/references/fine_paths.hpp"
+#include "nysalt/references/fine_steps.hpp"
 #include "nysalt/run_time_word.hpp"
 #include "nysalt/systems/in_bath.hpp"
-#include "nysalt/systems/pendulum.hpp"
 #include "nysalt/systems/sum_of_parts.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 // expect: nysalt: the order of this method needs a quadratic kinetic energy, but the system has a kinetic
 //   energy of its own; take one of any K(p), as blanes_moan_s10, and as reference

@@ -235,9 +235,9 @@ mutant(58, "a kick of several parts gives all of them the first coefficient", HE
        "flows derivatives",
        ("(kick(system.template part<Part>(), c[K]), ...);",
         "(kick(system.template part<Part>(), c[MUTANT ? 0 : K]), ...);"))
-mutant(59, "the velocity of a Kepler flow is divided by the distance at the start", HEADERS + "flows/kepler_flow.hpp",
+mutant(59, "the velocity of a Kepler flow is divided by the distance at the start", "examples/systems/planets.hpp",
        "flows", ("T(-mu) * g[2] / r;", "T(-mu) * g[2] / (MUTANT ? orbit.r : r);"))
-mutant(60, "a cyclotron flow turns positions the other way", HEADERS + "flows/cyclotron.hpp", "flows",
+mutant(60, "a cyclotron flow turns positions the other way", "examples/systems/charged_particle.hpp", "flows",
        ("x.q[1] += v[1] * along - v[0] * across;", "x.q[1] += v[1] * along - v[0] * (MUTANT ? C(-across) : across);"))
 mutant(61, "noise of a letter O is divided by the root of the mass", HEADERS + "flows/ornstein_uhlenbeck.hpp",
        "flows methods",

@@ -8,7 +8,7 @@
 #include "../support/refusal.hpp"
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
-#include "nysalt/detail/held_signals.hpp"
+#include "nysalt/atomic_file.hpp"
 #include "nysalt/ensemble_run.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/judgement.hpp"

@@ -20,7 +20,6 @@
 #include "comparison/origin.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
-#include "nysalt/detail/write_failure.hpp"
 #include "program/output/checkpoint_file.hpp"
 #include "program/output/samples.hpp"
 #include "program/output/unfinished_file.hpp"

@@ -30,9 +30,9 @@
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/references/fine_steps.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/phi4.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

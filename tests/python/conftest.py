@@ -31,7 +31,7 @@ def without_times(document):
 
 
 def henon_heiles_by_functions(name="henon_heiles by functions", cubic=1.0, force=None, **more):
-    """With the operations of include/nysalt/systems/henon_heiles.hpp, in their order, and with its starts; 1.0 times
+    """With the operations of include/nysalt/systems/textbook.hpp, in their order, and with its starts; 1.0 times
     a number is that number."""
     bundled = nysalt.system("henon_heiles")
     starts = {1 + 2**51 * key: bundled.starts(100, role=role)

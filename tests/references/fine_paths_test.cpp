@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O1: 10 s at -O0, 0.2 s at -O1.
 // Paths in a bath: the states, the noise that goes with them, and the same path seen more finely.
-#include "nysalt/references/fine_paths.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"

@@ -15,7 +15,6 @@
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
 #include "nysalt/atomic_file.hpp"
-#include "nysalt/detail/write_failure.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

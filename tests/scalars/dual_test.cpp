@@ -5,18 +5,19 @@
 // do.
 #include <ceres/jet.h>
 
+#include "../../examples/systems/compensated.hpp"
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/scalars/compensated.hpp"
 #include "nysalt/scalars/dual.hpp"
 #include "nysalt/scalars/pack.hpp"
 #include "nysalt/scalars/series.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 
 using namespace nysalt;
+using namespace examples;
 using namespace nysalt::test;
 
 namespace {

@@ -3,16 +3,17 @@
 // keep what rounding takes from them; all else is as it is without.
 #include <bit>
 
+#include "../../examples/systems/compensated.hpp"
 #include "../support/draws.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/scalars/compensated.hpp"
 #include "nysalt/scalars/dual.hpp"
 #include "nysalt/scalars/pack.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
-#include "nysalt/systems/kepler.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 using namespace nysalt;
+using namespace examples;
 using namespace nysalt::test;
 
 namespace {

@@ -19,8 +19,8 @@
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/reference.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/in_bath.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 namespace nysalt::test {
 

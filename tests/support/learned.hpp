@@ -12,7 +12,6 @@
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/references/exact_linear.hpp"
-#include "nysalt/references/fine_paths.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"

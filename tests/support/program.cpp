@@ -23,10 +23,10 @@
 #define NYSALT_FAULTS ""
 #endif
 #if defined NYSALT_MPIEXEC  // for any user and any number of cores; Open MPI never frees some of its memory
-#define NYSALT_MPIRUN                                                                              \
-  "env ASAN_OPTIONS=detect_leaks=0 OMPI_ALLOW_RUN_AS_ROOT=1 "                                      \
-  "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none " NYSALT_MPIEXEC \
-  " --oversubscribe --bind-to none -n"
+#define NYSALT_MPIRUN                                                               \
+  "env ASAN_OPTIONS=detect_leaks=0 OMPI_ALLOW_RUN_AS_ROOT=1 "                       \
+  "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none " \
+  "OMPI_MCA_mpi_yield_when_idle=1 " NYSALT_MPIEXEC " --oversubscribe --bind-to none -n"
 #else
 #define NYSALT_MPIRUN ""
 #endif

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "../../examples/systems/bonded_chain.hpp"
 #include "nysalt/flows/exact_flow.hpp"
-#include "nysalt/systems/bonded_chain.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 namespace lettered {
 
@@ -79,8 +79,8 @@ struct walls {
 };
 
 /// Stiff bonds and soft charges, a part each.
-struct charges : nysalt::bonded_chain<4> {
-  charges() : nysalt::bonded_chain<4>(nysalt::stiff_bonds<4>(20.0), nysalt::soft_charges<4>(2.0)) {}
+struct charges : examples::bonded_chain<4> {
+  charges() : examples::bonded_chain<4>(examples::stiff_bonds<4>(20.0), examples::soft_charges<4>(2.0)) {}
 };
 
 /// The new q goes into the new p.

@@ -14,9 +14,9 @@
 #include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/systems/gaussian.hpp"
 #include "nysalt/systems/in_time.hpp"
-#include "nysalt/systems/kepler.hpp"
 #include "nysalt/systems/lennard_jones.hpp"
 #include "nysalt/systems/logistic_regression.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

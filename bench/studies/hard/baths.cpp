@@ -7,8 +7,8 @@
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/noises/counter_noise.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/in_bath.hpp"
+#include "nysalt/systems/textbook.hpp"
 #include "words.hpp"
 
 namespace nysalt::hard {

@@ -15,17 +15,19 @@
 #include <type_traits>
 #include <vector>
 
+#include "../../../examples/systems/bonded_chain.hpp"
+#include "../../../src/nysalt/learning/data_of_problem.hpp"
 #include "nysalt/ensembles/given_states.hpp"
-#include "nysalt/families/nested_kicks.hpp"
 #include "nysalt/judgement.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/learning/some_states.hpp"
 #include "nysalt/learning/stability_guard.hpp"
+#include "nysalt/methods/multiple_time_steps.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/references/fine_steps.hpp"
-#include "nysalt/systems/bonded_chain.hpp"
 
 namespace nysalt::hard {
+
+using namespace examples;
 
 namespace {
 

@@ -5,15 +5,17 @@
 #include <chrono>
 #include <numbers>
 
+#include "../../../examples/systems/compensated.hpp"
 #include "energy_story.hpp"
 #include "hard_case.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/scalars/compensated.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/textbook.hpp"
 #include "words.hpp"
 
 namespace nysalt::hard {
+
+using namespace examples;
 
 namespace {
 

@@ -9,8 +9,8 @@
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
 #include "nysalt/systems/phi4.hpp"
+#include "nysalt/systems/textbook.hpp"
 #include "words.hpp"
 
 namespace nysalt::hard {

@@ -6,8 +6,7 @@
 
 #include "energy_story.hpp"
 #include "hard_case.hpp"
-#include "nysalt/systems/henon_heiles.hpp"
-#include "nysalt/systems/kepler.hpp"
+#include "nysalt/systems/textbook.hpp"
 #include "words.hpp"
 
 namespace nysalt::hard {

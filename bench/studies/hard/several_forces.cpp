@@ -7,17 +7,18 @@
 #include <numbers>
 #include <vector>
 
+#include "../../../examples/systems/bonded_chain.hpp"
 #include "guard_of_parts.hpp"
 #include "hard_case.hpp"
 #include "nysalt/ensembles/given_states.hpp"
-#include "nysalt/families/nested_kicks.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/learning/stability_guard.hpp"
-#include "nysalt/methods/r_respa.hpp"
-#include "nysalt/systems/bonded_chain.hpp"
+#include "nysalt/methods/multiple_time_steps.hpp"
 
 namespace nysalt::hard {
+
+using namespace examples;
 
 namespace {
 

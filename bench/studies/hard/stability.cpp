@@ -4,7 +4,7 @@
 
 #include "energy_story.hpp"
 #include "hard_case.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/textbook.hpp"
 #include "words.hpp"
 
 namespace nysalt::hard {

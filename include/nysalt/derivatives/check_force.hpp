@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nysalt/model.hpp"
-#include "nysalt/phase_points.hpp"
+#include "nysalt/phase_point.hpp"
 
 namespace nysalt {
 

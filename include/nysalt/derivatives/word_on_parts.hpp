@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "nysalt/model.hpp"
-#include "nysalt/phase_points.hpp"
+#include "nysalt/phase_point.hpp"
 #include "nysalt/run_time_word.hpp"
 
 namespace nysalt {

@@ -14,7 +14,6 @@
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/reference.hpp"
-#include "nysalt/references/fine_paths.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/counted.hpp"
 

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSL-1.0
-// Coordinates in which the quadratic part of a Hamiltonian is a sum of harmonic oscillators.
+// Coordinates in which the quadratic part of a system is a sum of oscillators.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/system.hpp"
+
+// Coordinates in which the quadratic part of a Hamiltonian is a sum of harmonic oscillators.
 
 namespace nysalt {
 
@@ -96,5 +100,13 @@ class modal_coordinates {
   std::vector<entry> entries_;
   std::vector<double> frequencies_;
 };
+
+// The modes of a stiffness matrix.
+
+/// Normal modes of q K q/2 with K symmetric, and masses: M^{-1/2} K M^{-1/2} = U diag(omega^2) U^T. Cost:
+/// O(N^3). Throws std::invalid_argument, in the name of who asks, unless K is square, finite and symmetric,
+/// and no eigenvalue is negative beyond rounding.
+normal_modes stiffness_modes(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& inverse_masses,
+                             std::string_view who);
 
 }  // namespace nysalt

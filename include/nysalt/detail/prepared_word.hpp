@@ -13,8 +13,8 @@
 #include <tuple>
 #include <utility>
 
+#include "nysalt/detail/known_letters.hpp"
 #include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/own_letter.hpp"
 #include "nysalt/flows/drift_kick.hpp"
 #include "nysalt/flows/ornstein_uhlenbeck.hpp"
 #include "nysalt/noise.hpp"

@@ -15,9 +15,9 @@
 #include "nysalt/ensemble.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
-#include "nysalt/systems/kepler.hpp"
 #include "nysalt/systems/lennard_jones.hpp"
 #include "nysalt/systems/lennard_jones_liquid.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 namespace nysalt {
 

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/detail/kernels.hpp"
 #include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/over_scalars.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/initial_states.hpp"

@@ -8,7 +8,7 @@
 
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/phase_points.hpp"
+#include "nysalt/phase_point.hpp"
 
 namespace nysalt {
 

@@ -9,12 +9,12 @@
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/detail/palindrome.hpp"
 #include "nysalt/family.hpp"
 #include "nysalt/flows/drift_kick.hpp"
 #include "nysalt/flows/rotation.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/methods/classical.hpp"
+#include "nysalt/word.hpp"
 
 namespace nysalt {
 

@@ -15,7 +15,7 @@
 #include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/derivatives/word_on_parts.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/phase_points.hpp"
+#include "nysalt/phase_point.hpp"
 #include "nysalt/run_time_word.hpp"
 
 namespace nysalt {

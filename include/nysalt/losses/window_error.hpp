@@ -20,10 +20,10 @@
 #include <vector>
 
 #include "nysalt/detail/kernels.hpp"
-#include "nysalt/detail/noise_intervals.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/lanes.hpp"
+#include "nysalt/noise.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 
 namespace nysalt {

@@ -12,8 +12,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "nysalt/detail/palindrome.hpp"
 #include "nysalt/run_time_word.hpp"
+#include "nysalt/word.hpp"
 
 namespace nysalt {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "nysalt/detail/palindrome.hpp"
 #include "nysalt/detail/requirements.hpp"
 #include "nysalt/flows/drift_kick.hpp"
+#include "nysalt/word.hpp"
 
 namespace nysalt {
 

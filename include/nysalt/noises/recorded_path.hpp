@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/noise_intervals.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/noise.hpp"

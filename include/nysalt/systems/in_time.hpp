@@ -7,9 +7,9 @@
 #include <string>
 #include <typeinfo>
 
-#include "nysalt/detail/name_of_type.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/energy.hpp"
+#include "nysalt/system.hpp"
 
 namespace nysalt {
 

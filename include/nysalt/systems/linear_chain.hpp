@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "nysalt/detail/fingerprint.hpp"
+#include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/stiffness_modes.hpp"
 
 namespace nysalt {
 

@@ -1,18 +1,76 @@
 // SPDX-License-Identifier: BSL-1.0
-// Data of a fit: what is known of them, coarser and redistributed ones, and the losses on them.
+// Distance of one step of a word from the rotation of oscillators: a loss without data.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "../losses/data_loss.hpp"
+#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/flow_map_data.hpp"
-#include "nysalt/learning/make_problem.hpp"
+#include "nysalt/learning/problem.hpp"
 #include "nysalt/losses/after_steps.hpp"
+#include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/window_error.hpp"
+#include "nysalt/run_time_family.hpp"
+
+namespace nysalt::detail {
+
+/// The mean over frequencies of the bands of |M - R|^2 in coordinates (omega q, p), M the matrix of one step
+/// and R that of the exact flow; nothing for words with rotations, which are exact on their modes. Its minima
+/// are starts of a search where the step is so large that no trajectory from elsewhere stays finite. Cost:
+/// some microseconds.
+objective oscillator_loss(const run_time_family& family, const std::vector<frequency_band>& bands,
+                          double step);
+
+}  // namespace nysalt::detail
+
+// Data that can be learned from, as those that came from elsewhere may not be.
+
+namespace nysalt {
+
+/// Throws std::invalid_argument unless the data are of this system, hold pairs of its size, all finite, and
+/// trajectories that cover them; for data that came from elsewhere. What is not finite is named: coordinate,
+/// pair and trajectory, all but coordinates counted from 0. Collective, if ranks share the data.
+void require_valid(const flow_map_data& data, const model& system);
+
+// A few states of data, wherever they are.
+
+/// First states of some pairs of all ranks, by rising numbers; the same list on each rank.
+phase_points starts_of(const flow_map_data& data, Eigen::Index dimension,
+                       const std::vector<std::size_t>& pairs);
+/// Last states of these pairs.
+phase_points finishes_of(const flow_map_data& data, Eigen::Index dimension,
+                         const std::vector<std::size_t>& pairs);
+
+/// States of data, at all ranks.
+struct states_of_data {
+  phase_points states;  ///< typical ones, then such as are likely to be extreme
+  std::size_t typical;  ///< number of the former
+};
+
+/// Starts of some hundred pairs, spread over all; then of 32 more where the force changes most, and the
+/// further starts. Cost: two evaluations a pair.
+states_of_data some_states(const model& system, const flow_map_data& data);
+
+/// Starts to judge methods on: those of the data, or if they have none up to 512 states of held-out data.
+phase_points judged_starts_of(const model& system, const flow_map_data& data, const flow_map_data& held_out);
+
+// Checks of the force before learning: a wrong force would not be noticed otherwise.
+
+/// check_force() at four states, from the middle of each quarter of the data. A system that is a
+/// potential only has nothing to check. How far these and their finishes lie apart gives the lengths of
+/// coordinates. Throws std::invalid_argument with its report. The data must be valid.
+void require_sound_force(const model& system, const flow_map_data& data);
+
+}  // namespace nysalt
+
+// Data of a fit: what is known of them, coarser and redistributed ones, and the losses on them.
 
 namespace nysalt::detail {
 

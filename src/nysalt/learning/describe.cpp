@@ -15,7 +15,7 @@
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/learning/fit_summary.hpp"
 #include "nysalt/learning/learn_enough.hpp"
-#include "nysalt/learning/theta_curve.hpp"
+#include "nysalt/learning/reach.hpp"
 
 namespace nysalt {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 
+#include "nysalt/learning/problem.hpp"
 #include "data_of_problem.hpp"
-#include "nysalt/learning/make_problem.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Core>
@@ -29,15 +29,10 @@
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/oscillator_loss.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/served_letters.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
-#include "nysalt/learning/energies_outside.hpp"
-#include "nysalt/learning/fit.hpp"
-#include "nysalt/learning/require_valid.hpp"
-#include "nysalt/learning/some_states.hpp"
-#include "nysalt/learning/sound_force.hpp"
+#include "nysalt/learning/reach.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/methods/tabulated.hpp"
 

@@ -20,12 +20,11 @@
 #include <type_traits>
 #include <utility>
 
+#include "data_of_problem.hpp"
 #include "describe.hpp"
+#include "minimise.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/oscillator_loss.hpp"
-#include "nysalt/learning/compressed_cost.hpp"
 #include "nysalt/learning/curvature.hpp"
-#include "nysalt/learning/minimise.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "starts_of_fit.hpp"
 

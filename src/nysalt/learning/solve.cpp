@@ -15,8 +15,7 @@
 
 #include "describe.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/learning/fit.hpp"
-#include "nysalt/learning/objection.hpp"
+#include "nysalt/learning/problem.hpp"
 #include "nysalt/learning/search.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/methods/classical_methods.hpp"

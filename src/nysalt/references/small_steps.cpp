@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "nysalt/detail/any_reference.hpp"
-#include "nysalt/detail/small_steps.hpp"
+#include "nysalt/references/fine_steps.hpp"
 
 namespace nysalt::detail {
 

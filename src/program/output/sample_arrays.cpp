@@ -10,7 +10,7 @@
 
 #include "comparison/refusal.hpp"
 #include "hdf5_layout.hpp"
-#include "nysalt/detail/write_failure.hpp"
+#include "nysalt/atomic_file.hpp"
 #include "samples.hpp"
 #include "written_arrays.hpp"
 

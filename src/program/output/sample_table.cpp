@@ -13,7 +13,7 @@
 
 #include "comparison/number.hpp"
 #include "comparison/refusal.hpp"
-#include "nysalt/detail/write_failure.hpp"
+#include "nysalt/atomic_file.hpp"
 #include "program/comma_list.hpp"
 #include "samples.hpp"
 

@@ -15,9 +15,6 @@
 
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
-#include "nysalt/detail/held_signals.hpp"
-#include "nysalt/detail/objection_to_replacing.hpp"
-#include "nysalt/detail/write_failure.hpp"
 
 namespace nysalt::program {
 

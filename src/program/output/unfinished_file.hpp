@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nysalt/detail/unfinished_names.hpp"
+#include "nysalt/atomic_file.hpp"
 
 namespace nysalt::program {
 

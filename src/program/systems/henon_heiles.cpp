@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/systems/henon_heiles.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/system_declaration.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 namespace nysalt::program {
 

@@ -3,7 +3,7 @@
 
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/system_declaration.hpp"
-#include "nysalt/systems/kepler.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 namespace nysalt::program {
 

@@ -2,7 +2,7 @@
 #include "comparison/prepared_problem.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/system_declaration.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/textbook.hpp"
 #include "with_exact_flow.hpp"
 
 namespace nysalt::program {

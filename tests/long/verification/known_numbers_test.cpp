@@ -18,7 +18,7 @@
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/references/fine_steps.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -7,7 +7,7 @@
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/systems/harmonic_oscillator.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 int main() {
   using namespace nysalt;

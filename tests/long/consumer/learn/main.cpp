@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: BSL-1.0
-// The least of (theta - 2)^2, by what searches for the learner.
-#include "nysalt/learning/minimise.hpp"
+// A method for the harmonic oscillator, from the outside: the component learn alone.
+#include "nysalt/learn.hpp"
 
 #include <cstdio>
 
+#include "nysalt/nysalt.hpp"
+
 int main() {
   using namespace nysalt;
-  const objective loss = [](const Eigen::VectorXd& theta) {
-    const double r = theta[0] - 2.0;
-    return squares{r * r, Eigen::VectorXd::Constant(1, r), Eigen::MatrixXd::Ones(1, 1)};
+  const harmonic_oscillator system(1.0);
+  const vector<double, 1> zero(0.0);
+  const normal_around<1> starts({zero, zero}, 1.0, 1.0);
+  const auto data_of = [&](std::uint64_t seed) {
+    return make_flow_map_data(system, starts, fine_steps<>(1e-2),
+                              {.step = 0.5, .horizon = 5.0, .trajectories = 8, .seed = seed});
   };
-  const auto anywhere = [](const Eigen::VectorXd&) { return true; };
-  const minimum found = minimise(loss, anywhere, Eigen::VectorXd::Zero(1), {0}, 10);
-  std::printf("theta = %.4f, %s\n", found.theta[0], found.converged ? "converged" : "not converged");
+  const auto [method, fit] = learn(nystrom{}, system, data_of(1), data_of(2));
+  std::printf("%s\n", fit.usable ? "usable" : "not usable");
 }
 
 // Expected output:
-// theta = 2.0000, converged
+// usable

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/references/odeint_stepper.hpp"
-#include "nysalt/systems/pendulum.hpp"
+#include "nysalt/references/odeint.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 int main() {
   using namespace nysalt;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
+// Multiple time steps: kicks with one part of the force between kicks with another.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
+#include "nysalt/detail/sentence.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/flows/drift_kick.hpp"
 #include "nysalt/flows/exact_flow.hpp"
@@ -94,6 +97,26 @@ struct nested_kicks : composition<(Inner * Outer - 1) / 2 + Inner * Outer / 2 + 
       if (i % static_cast<std::size_t>(Inner) == 0) all[slot++] = slow[i / static_cast<std::size_t>(Inner)];
       if (i < drifts) all[slot++] = a[i];
     }
+    return all;
+  }
+};
+
+/// r-RESPA, the impulse method: a half kick of Slow, Inner steps of velocity Verlet with Fast, a half kick of
+/// Slow. Order 2, symmetric, Inner evaluations of Fast and one of Slow; where Slow times the step meets half
+/// a period of a fast mode it is unstable. Source: [tuckerman_berne_martyna_1992].
+template <std::size_t Fast, std::size_t Slow, int Inner>
+  requires(Inner >= 1)
+struct r_respa {
+  using word = nested_word<Fast, Slow, static_cast<std::size_t>(Inner)>;
+  static constexpr int order = 2;
+  static constexpr bool symmetric = true;
+  static constexpr bool requires_quadratic_kinetic = false;
+  static std::string name() { return sentence("r_respa({})", Inner); }
+  static typename word::template coefficients<double> coefficients() {
+    typename word::template coefficients<double> all{};
+    all.fill(1.0 / Inner);
+    all.front() = all[all.size() - 2] = 0.5 / Inner;
+    all[1] = all.back() = 0.5;
     return all;
   }
 };

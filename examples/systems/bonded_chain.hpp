@@ -8,7 +8,9 @@
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/systems/sum_of_parts.hpp"
 
-namespace nysalt {
+namespace examples {
+
+using namespace nysalt;
 
 /// N masses in a row, q_i from their places i, held by stiff bonds: V = omega^2/2 sum (q_{i+1} - q_i)^2. The
 /// cheap part of a bonded_chain: O(N), and frequencies up to 2 omega.
@@ -104,4 +106,4 @@ class soft_charges {
 template <int N>
 using bonded_chain = sum_of_parts<stiff_bonds<N>, soft_charges<N>>;
 
-}  // namespace nysalt
+}  // namespace examples

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSL-1.0
+// A charged particle in a Penning trap: the flow in the magnetic field, and methods of it.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/energy.hpp"
+#include "nysalt/flows/exact_flow.hpp"
 
-namespace nysalt {
+namespace examples {
+
+using namespace nysalt;
 
 /// A particle of unit mass and charge in a uniform magnetic field along the third axis and an electric
 /// potential, a system of three degrees of freedom with a force:
@@ -123,4 +128,107 @@ class penning_potential {
 /// A Penning trap: charged_particle(penning_potential(omega_z), cyclotron_frequency).
 using penning_trap = charged_particle<penning_potential>;
 
-}  // namespace nysalt
+// Motion in a uniform magnetic field, exactly and by Boris' steps.
+
+/// A particle in a uniform magnetic field, see systems/charged_particle.hpp: velocities and canonical
+/// momenta.
+template <class S>
+concept HasMagneticField = System<S> && S::dimension == 3 && requires(const S& s) {
+  { s.cyclotron_frequency() } -> std::convertible_to<double>;
+};
+
+/// m: the exact flow of |v|^2/2 with v = p - A(q): v turns around the field, and q goes along the helix.
+/// Symplectic in q and p. With -p it would turn the other way, so that R(q, p) = (q, -p) does not reverse it.
+struct cyclotron_flow : exact_flow<'m'> {
+  static constexpr bool reversible = false;  ///< false: the field would have to be reversed with p
+
+  template <System S, Scalar T>
+  static constexpr bool serves = HasMagneticField<S>;
+
+  template <System S, class State, class C>
+  static void apply(const S& system, const C& t, State& x, auto&) {
+    using std::cos;
+    using std::sin;
+    const double omega = system.cyclotron_frequency();
+    const C c = cos(t * omega);
+    const C s = sin(t * omega);
+    const C half = sin(t * (0.5 * omega));
+    const C along = s * (1.0 / omega);
+    const C across = half * half * (2.0 / omega);  // (1 - cos)/omega without cancellation
+    auto v = system.velocity_of(x);
+    x.q[0] += v[0] * along + v[1] * across;
+    x.q[1] += v[1] * along - v[0] * across;
+    x.q[2] += v[2] * t;
+    const auto first = v[0];
+    v[0] = first * c + v[1] * s;
+    v[1] = v[1] * c - first * s;
+    system.set_velocity(x, v);
+  }
+};
+
+/// v: q goes straight on with v, which stays. Keeps volume, but is not symplectic: p = v + A(q) changes with
+/// q.
+struct velocity_drift : exact_flow<'v'> {
+  static constexpr bool symplectic = false;
+  static constexpr bool reversible = false;  ///< false: R(q, p) = (q, -p) is no reversal,
+                                             ///< as v is not p
+
+  template <System S, Scalar T>
+  static constexpr bool serves = HasMagneticField<S>;
+
+  template <System S, class State, class C>
+  static void apply(const S& system, const C& t, State& x, auto&) {
+    const auto v = system.velocity_of(x);
+    for (Eigen::Index i = 0; i < 3; ++i) x.q[i] += v[i] * t;
+    system.set_velocity(x, v);
+  }
+};
+
+/// w: v turns around the field by Boris' angle 2 arctan(omega t/2), and q stays: four products and no sine.
+/// Keeps volume and |v|, but is not symplectic. Source: [boris_1970].
+struct boris_turn : exact_flow<'w'> {
+  static constexpr bool moves_q = false;
+  static constexpr bool additive = false;
+  static constexpr bool symplectic = false;
+  static constexpr bool reversible = false;  ///< false: the field would have to be reversed with p
+
+  template <System S, Scalar T>
+  static constexpr bool serves = HasMagneticField<S>;
+
+  template <System S, class State, class C>
+  static void apply(const S& system, const C& t, State& x, auto&) {
+    const C half = t * (0.5 * system.cyclotron_frequency());
+    const C s = half * 2.0 / (C(1.0) + half * half);
+    auto v = system.velocity_of(x);
+    const auto first = v[0] + v[1] * half;
+    v[1] = v[1] - first * s;
+    v[0] = first + v[1] * half;
+    system.set_velocity(x, v);
+  }
+};
+
+// Methods for a charged particle in a uniform magnetic field.
+
+/// Half a step straight on, half an electric kick, Boris' turn, half a kick, half a step straight on. Order
+/// 2, one electric force; it keeps volume, but is not symplectic. Source: [boris_1970; qin_and_others_2013].
+struct boris {
+  using word = nysalt::word<velocity_drift, kick_of_part<0>, boris_turn, kick_of_part<0>, velocity_drift>;
+  static constexpr int order = 2;
+  static constexpr bool symmetric = true;
+  static constexpr bool requires_quadratic_kinetic = false;
+  static std::string name() { return "boris"; }
+  static std::array<double, 5> coefficients() { return {0.5, 0.5, 1.0, 0.5, 0.5}; }
+};
+
+/// Half a helix, an electric kick, half a helix: symplectic, of order 2, one electric force, and exact
+/// without an electric field.
+struct cyclotron_verlet {
+  using word = nysalt::word<cyclotron_flow, kick_of_part<0>, cyclotron_flow>;
+  static constexpr int order = 2;
+  static constexpr bool symmetric = true;
+  static constexpr bool requires_quadratic_kinetic = false;
+  static std::string name() { return "cyclotron_verlet"; }
+  static std::array<double, 3> coefficients() { return {0.5, 1.0, 0.5}; }
+};
+
+}  // namespace examples

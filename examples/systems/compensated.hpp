@@ -3,13 +3,15 @@
 #pragma once
 
 #include <Eigen/Core>
-
 #include <cmath>
 #include <concepts>
 
 #include "nysalt/scalar.hpp"
 
-namespace nysalt {
+namespace examples {
+
+using namespace nysalt;
+using nysalt::mod, nysalt::select;  // of their values
 
 /// value + carry. += and -= keep what rounding takes from the sum in the carry, and give it back with the
 /// next summand [kahan_1965], by a sum of two that asks for no order of them [moller_1965]. All else reads
@@ -60,8 +62,15 @@ struct compensated {
   friend auto operator!=(const compensated& a, const compensated& b) { return a.value != b.value; }
 };
 
+}  // namespace examples
+
+namespace nysalt {
+/// Its elementary functions are those below.
 template <class T>
-inline constexpr bool has_functions<compensated<T>> = true;  ///< below
+inline constexpr bool has_functions<examples::compensated<T>> = true;
+}  // namespace nysalt
+
+namespace examples {
 
 /// a where the condition holds, else b, carries included.
 template <class T>
@@ -193,25 +202,25 @@ compensated<T> pow(const compensated<T>& a, double exponent) {
   return T(pow(a.value, exponent));
 }
 
-}  // namespace nysalt
+}  // namespace examples
 
 namespace Eigen {
 /// Lets Eigen store compensated numbers in vectors.
 template <class T>
-struct NumTraits<nysalt::compensated<T>> : NumTraits<double> {
-  using Real = nysalt::compensated<T>;
-  using NonInteger = nysalt::compensated<T>;
-  using Nested = nysalt::compensated<T>;
+struct NumTraits<examples::compensated<T>> : NumTraits<double> {
+  using Real = examples::compensated<T>;
+  using NonInteger = examples::compensated<T>;
+  using Nested = examples::compensated<T>;
   using Literal = double;
   enum { RequireInitialization = 1, ReadCost = 2, AddCost = 1, MulCost = 1 };
 };
 /// Lets a user write `f = -2.0 * q`.
 template <class T, class Operation>
-struct ScalarBinaryOpTraits<double, nysalt::compensated<T>, Operation> {
-  using ReturnType = nysalt::compensated<T>;
+struct ScalarBinaryOpTraits<double, examples::compensated<T>, Operation> {
+  using ReturnType = examples::compensated<T>;
 };
 template <class T, class Operation>
-struct ScalarBinaryOpTraits<nysalt::compensated<T>, double, Operation> {
-  using ReturnType = nysalt::compensated<T>;
+struct ScalarBinaryOpTraits<examples::compensated<T>, double, Operation> {
+  using ReturnType = examples::compensated<T>;
 };
 }  // namespace Eigen

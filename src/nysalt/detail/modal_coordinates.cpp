@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/detail/stiffness_modes.hpp"
 
 #include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <stdexcept>
 
+#include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
