@@ -13,11 +13,7 @@ std::vector<stability_window> stability_of(const tabulated& method) { return cha
 double limit_of(const tabulated& method) { return stability_limit(method); }
 
 double half_trace_of(const tabulated& method, double z) {
-  const auto times_all = [z](double x) { return z * z * x; };
-  double qq = 1.0, pq = 0.0, qp = 0.0, pp = 1.0;
-  step_on_oscillator(method.letters(), method.coefficients(), 0.0, times_all, qq, pq);
-  step_on_oscillator(method.letters(), method.coefficients(), 0.0, times_all, qp, pp);
-  return 0.5 * (qq + pp);
+  return matrix_on_oscillator(method.letters(), method.coefficients(), z * z).half_trace();
 }
 
 }  // namespace nysalt::program

@@ -44,6 +44,37 @@ void step_on_oscillator(const run_time_word& word, const std::vector<double>& co
   }
 }
 
+/// The 2 x 2 matrix of step_on_oscillator() in (q, p), with entries in the ring of T: numbers, dual numbers,
+/// series or polynomials. The word has no processor.
+template <class T>
+struct oscillator_matrix {
+  T qq;  ///< q after the step from q = 1, p = 0
+  T pq;  ///< p from there
+  T qp;  ///< q after the step from q = 0, p = 1
+  T pp;  ///< p from there
+
+  oscillator_matrix(const run_time_word& word, const std::vector<double>& coefficients, double theta,
+                    const T& zero, const T& one, const auto& times_k)
+      : qq(one), pq(zero), qp(zero), pp(one) {
+    step_on_oscillator(word, coefficients, theta, times_k, qq, pq);
+    step_on_oscillator(word, coefficients, theta, times_k, qp, pp);
+  }
+
+  /// trace/2
+  T half_trace() const {
+    T sum = qq;
+    sum += pp;
+    return 0.5 * sum;
+  }
+};
+
+/// The matrix at one frequency: of a step 1, all of k = z^2, or of k and an angle theta of rotations.
+inline oscillator_matrix<double> matrix_on_oscillator(const run_time_word& word,
+                                                      const std::vector<double>& coefficients, double k,
+                                                      double theta = 0.0) {
+  return {word, coefficients, theta, 0.0, 1.0, [k](double x) { return k * x; }};
+}
+
 // trace/2 of a word on the harmonic oscillator, as a polynomial.
 
 /// trace/2 of step_on_oscillator() as a polynomial in k, low <= k <= high. The step is stable where it is

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Noise that is a function of a seed, a trajectory, a step and a letter: Philox' bits, and normal numbers of
-// them.
+// Counter-based noise: a function of a seed, a trajectory, a step and a letter, by the bits of Philox.
 #pragma once
 
 #include <algorithm>

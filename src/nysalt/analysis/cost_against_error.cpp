@@ -16,7 +16,6 @@
 
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/detail/conservative_part.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt::detail {
@@ -24,7 +23,7 @@ namespace nysalt::detail {
 std::int64_t evaluations_of_run(const model& system, const tabulated& method, double step, std::int64_t steps,
                                 const phase_point<double, Eigen::Dynamic>& start) {
   if (steps < 0)
-    throw std::invalid_argument(sentence("evaluations_of_run: steps must not be negative, got {}", steps));
+    throw std::invalid_argument(fmt::format("evaluations_of_run: steps must not be negative, got {}", steps));
   make_stepper(system, method, step, counter_noise(0));  // refuses what cannot be stepped
   if (!is_black_box(system)) {
     run_time_word word = method.letters();

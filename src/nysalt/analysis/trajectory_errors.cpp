@@ -16,7 +16,6 @@
 #include "nysalt/communicator.hpp"
 #include "nysalt/detail/divergence.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/langevin.hpp"
 #include "trajectory_runs.hpp"
@@ -110,12 +109,12 @@ void require_comparable(const model& system, const reference_value& reference,
                         std::span<const tabulated> methods, int parts, const trajectory_options& options) {
   if (parts > 0 && !reference.gives_noise()) {
     throw std::invalid_argument(
-        sentence("trajectory_errors: the reference must have noise to share, got {}; take fine_paths",
-                 reference.description()));
+        fmt::format("trajectory_errors: the reference must have noise to share, got {}; take fine_paths",
+                    reference.description()));
   }
   const double perturbation = options.perturbation.value_or(1.0);
   if (!(perturbation > 0.0) || !std::isfinite(perturbation)) {
-    throw std::invalid_argument(sentence(
+    throw std::invalid_argument(fmt::format(
         "trajectory_errors: the perturbation of starts must be positive and finite, got {}", perturbation));
   }
   for (const tabulated& method : methods) make_stepper(system, method, options.step, counter_noise(0));
@@ -125,9 +124,9 @@ void require_measurable(const model& system, std::span<const error_measure> meas
   for (const error_measure& measure : measures) {
     if (measure.dimension == 0 || measure.dimension == system.size()) continue;
     throw std::invalid_argument(
-        sentence("trajectory_errors: the {} error must be of systems of {} degrees of freedom, as {} has, "
-                 "got {}; make the measure of the system that is stepped",
-                 measure.name, system.size(), describe(system), measure.dimension));
+        fmt::format("trajectory_errors: the {} error must be of systems of {} degrees of freedom, as {} has, "
+                    "got {}; make the measure of the system that is stepped",
+                    measure.name, system.size(), describe(system), measure.dimension));
   }
 }
 

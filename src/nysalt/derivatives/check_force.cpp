@@ -13,7 +13,6 @@
 #include "force_source.hpp"
 #include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/rounding.hpp"
-#include "nysalt/detail/sentence.hpp"
 
 namespace nysalt {
 
@@ -300,21 +299,21 @@ force_check check_force(const model& system, const std::vector<Eigen::VectorXd>&
   if (points.empty()) throw std::invalid_argument("check_force: points must be one or more, got none");
   if (momenta.size() != points.size()) {
     throw std::invalid_argument(
-        sentence("check_force: momenta must be one for each point, got {} points with {} momenta",
-                 points.size(), momenta.size()));
+        fmt::format("check_force: momenta must be one for each point, got {} points with {} momenta",
+                    points.size(), momenta.size()));
   }
   for (std::size_t m = 0; m < points.size(); ++m) {
     for (const auto* x : {&points[m], &momenta[m]}) {
       if (x->size() == size(system)) continue;
       throw std::invalid_argument(
-          sentence("check_force: point {} must have {} coordinates, as the system has, got {}", m + 1,
-                   size(system), x->size()));
+          fmt::format("check_force: point {} must have {} coordinates, as the system has, got {}", m + 1,
+                      size(system), x->size()));
     }
   }
   if (!seen.empty() && seen.dimension() != size(system)) {
     throw std::invalid_argument(
-        sentence("check_force: a state must have {} coordinates, as the system has, got {}", size(system),
-                 seen.dimension()));
+        fmt::format("check_force: a state must have {} coordinates, as the system has, got {}", size(system),
+                    seen.dimension()));
   }
   const usual_rounding rounding;
   std::vector<Eigen::VectorXd> places = points;

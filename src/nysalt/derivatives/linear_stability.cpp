@@ -35,27 +35,14 @@ struct oscillator {
   }
 };
 
-/// The 2 x 2 matrix of one step in (q, z p), with entries in the ring of T; times_x multiplies by x = z^2.
-template <class T>
-struct oscillator_matrix {
-  T qq, pq, qp, pp;
-
-  oscillator_matrix(const run_time_word& word, const std::vector<double>& c, const T& zero, const T& one,
-                    const auto& times_x)
-      : qq(one), pq(zero), qp(zero), pp(one) {
-    step_on_oscillator(word, c, 0.0, times_x, qq, pq);
-    step_on_oscillator(word, c, 0.0, times_x, qp, pp);
-  }
-};
-
 /// trace/2 of a word on the oscillator as a function of x = z^2.
 class trace_of_word {
  public:
   trace_of_word(const run_time_word& word, const std::vector<double>& c) : word_(word), c_(c) {
     const auto sum_of = [&](const std::vector<double>& coefficients, double sign) {
       const auto times = [&](const dense_polynomial& a) { return sign * a.times_x(); };
-      oscillator_matrix<dense_polynomial> m(word, coefficients, {{0.0}}, {{1.0}}, times);
-      return 0.5 * (m.qq += m.pp);
+      return oscillator_matrix<dense_polynomial>(word, coefficients, 0.0, {{0.0}}, {{1.0}}, times)
+          .half_trace();
     };
     auto magnitudes = c;
     for (double& x : magnitudes) x = std::abs(x);
@@ -77,26 +64,21 @@ class trace_of_word {
     return result;
   }
 
-  oscillator_matrix<double> matrix(double x) const {
-    return {word_, c_, 0.0, 1.0, [x](double y) { return x * y; }};
-  }
-  double operator()(double x) const {
-    const auto m = matrix(x);
-    return (m.qq + m.pp) * 0.5;
-  }
+  oscillator_matrix<double> matrix(double x) const { return matrix_on_oscillator(word_, c_, x); }
+  double operator()(double x) const { return matrix(x).half_trace(); }
   bool rises_at(double x) const {
     using D = dual<double, 1>;
     const D variable = D::variable(x, 0);
-    const oscillator_matrix<D> m(word_, c_, D(0.0), D(1.0), [&](const D& y) { return variable * y; });
-    return (m.qq + m.pp).derivative[0] > 0.0;
+    const oscillator_matrix<D> m(word_, c_, 0.0, D(0.0), D(1.0), [&](const D& y) { return variable * y; });
+    return m.half_trace().derivative[0] > 0.0;
   }
   /// Values and derivatives at x: the k-th coefficient is the k-th derivative over k!.
   series<3> expansion_at(double x) const {
     using T = series<3>;
     T moving(x);
     moving += T::variable();
-    const oscillator_matrix<T> m(word_, c_, T(0.0), T(1.0), [&](const T& y) { return moving * y; });
-    return (m.qq + m.pp) * 0.5;
+    return oscillator_matrix<T>(word_, c_, 0.0, T(0.0), T(1.0), [&](const T& y) { return moving * y; })
+        .half_trace();
   }
   bernstein_polynomial on(double low, double high) const { return half_trace(word_, c_, 0.0, low, high); }
 

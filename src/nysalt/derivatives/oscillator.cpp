@@ -14,8 +14,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
-
 namespace nysalt {
 
 bernstein_polynomial half_trace(const run_time_word& word, const std::vector<double>& coefficients,
@@ -23,10 +21,7 @@ bernstein_polynomial half_trace(const run_time_word& word, const std::vector<dou
   const auto times_k = [](const bernstein_polynomial& x) { return x.times_x(); };
   const bernstein_polynomial one(low, high, 1.0);
   const bernstein_polynomial zero(low, high, 0.0);
-  auto qq = one, pq = zero, qp = zero, pp = one;
-  step_on_oscillator(word, coefficients, theta, times_k, qq, pq);
-  step_on_oscillator(word, coefficients, theta, times_k, qp, pp);
-  return 0.5 * (qq += pp);
+  return oscillator_matrix(word, coefficients, theta, zero, one, times_k).half_trace();
 }
 
 namespace {
@@ -38,16 +33,13 @@ struct turn_of_step {
 };
 
 turn_of_step turn(const run_time_word& word, const std::vector<double>& coefficients, double z) {
-  const auto times_square = [x = z * z](double q) { return x * q; };
-  double qq = 1.0, pq = 0.0, qp = 0.0, pp = 1.0;  // p in units of q/h
-  step_on_oscillator(word, coefficients, 0.0, times_square, qq, pq);
-  step_on_oscillator(word, coefficients, 0.0, times_square, qp, pp);
-  return {0.5 * (qq + pp), qp * z + pq / z};
+  const auto m = matrix_on_oscillator(word, coefficients, z * z);
+  return {m.half_trace(), m.qp * z + m.pq / z};
 }
 
 void require_plain(const run_time_word& word) {
   if (!word.rotates() && !word.is_processed() && word.stochastic_letters == 0) return;
-  throw std::invalid_argument(sentence(
+  throw std::invalid_argument(fmt::format(
       "energy_error_on_oscillator: the word must have no rotation, no letter O and no processor, got {}",
       word.letters()));
 }
@@ -92,18 +84,6 @@ double energy_error_on_oscillator(const run_time_word& word, const std::vector<d
   return 0.5 * defect * defect / rotation;
 }
 
-namespace {
-
-double half_trace_at(const run_time_word& word, const std::vector<double>& coefficients, double z) {
-  const auto times_k = [k = z * z](double x) { return k * x; };
-  double qq = 1.0, pq = 0.0, qp = 0.0, pp = 1.0;
-  step_on_oscillator(word, coefficients, 0.0, times_k, qq, pq);
-  step_on_oscillator(word, coefficients, 0.0, times_k, qp, pp);
-  return 0.5 * (qq + pp);
-}
-
-}  // namespace
-
 std::optional<resonance> near_resonance(const run_time_word& word, const std::vector<double>& coefficients,
                                         const std::vector<frequency_band>& bands, double step) {
   if (word.rotates()) return std::nullopt;
@@ -115,7 +95,7 @@ std::optional<resonance> near_resonance(const run_time_word& word, const std::ve
       const double half_turns = std::max(1.0, std::round(z / std::numbers::pi));
       const double width = resonance_distance * half_turns * std::numbers::pi;
       if (!(std::abs(z - half_turns * std::numbers::pi) < width)) continue;
-      const double trace = std::abs(half_trace_at(word, coefficients, z));
+      const double trace = std::abs(matrix_on_oscillator(word, coefficients, z * z).half_trace());
       if (trace > std::cos(std::min(width, 0.5 * std::numbers::pi))) {
         return resonance{band, static_cast<int>(half_turns)};
       }
@@ -170,17 +150,13 @@ double spectral_norm(double a, double b, double c, double d) {
 
 double transient_growth(const run_time_word& word, const std::vector<double>& coefficients, double theta,
                         double k, std::int64_t steps) {
-  const auto times_k = [k](double x) { return k * x; };
-  double qq = 1.0, pq = 0.0, qp = 0.0, pp = 1.0;
-  step_on_oscillator(word, coefficients, theta, times_k, qq, pq);
-  step_on_oscillator(word, coefficients, theta, times_k, qp, pp);
-
+  const auto m = matrix_on_oscillator(word, coefficients, k, theta);
   // M - trace/2 = (a, b; c, -a) in (omega q, p); its determinant is sin^2 t.
   const double omega = std::sqrt(theta * theta + k);
-  const double sign = qq + pp < 0.0 ? -1.0 : 1.0;
-  const double a = sign * 0.5 * (qq - pp);
-  const double b = sign * omega * qp;
-  const double c = sign * pq / omega;
+  const double sign = m.qq + m.pp < 0.0 ? -1.0 : 1.0;
+  const double a = sign * 0.5 * (m.qq - m.pp);
+  const double b = sign * omega * m.qp;
+  const double c = sign * m.pq / omega;
   const double square = -a * a - b * c;
   const double sine = std::sqrt(std::abs(square));
 
@@ -235,9 +211,9 @@ double spectral_norm(const Eigen::MatrixXd& m) {
 symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step) {
   if (step.rows() != step.cols() || step.rows() % 2 != 0) {
     throw std::invalid_argument(
-        sentence("spectrum_of: the matrix must be square with an even number of rows, "
-                 "got {} rows and {} columns",
-                 step.rows(), step.cols()));
+        fmt::format("spectrum_of: the matrix must be square with an even number of rows, "
+                    "got {} rows and {} columns",
+                    step.rows(), step.cols()));
   }
   symplectic_spectrum result;
   if (step.rows() == 0) return result;

@@ -22,7 +22,6 @@
 #include <vector>
 
 #include "nysalt/detail/rounding.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "with_threads.hpp"
 
 namespace nysalt::detail {
@@ -84,7 +83,7 @@ void require_threads(int threads) {
 
 void refuse_threads(int threads, std::string_view reason) {
   throw std::runtime_error(
-      sentence("threads must be as many as the system starts, got {} ({}); take fewer", threads, reason));
+      fmt::format("threads must be as many as the system starts, got {} ({}); take fewer", threads, reason));
 }
 
 }  // namespace nysalt::detail

@@ -47,10 +47,10 @@ phase_point<T, Eigen::Dynamic> gibbs_chains::block(std::uint64_t seed, std::int6
   run.go_on(report_.steps);
   for (int k = 0; k < count; ++k) {
     if (!run.diverged_at(k)) continue;
-    throw std::runtime_error(
-        sentence("gibbs: the motion of {} must be confined, got chain {} of seed {} that diverged at time {}",
-                 describe(base_), first + k, seed,
-                 in_digits(static_cast<double>(*run.diverged_at(k)) * report_.step, 6)));
+    throw std::runtime_error(fmt::format(
+        "gibbs: the motion of {} must be confined, got chain {} of seed {} that diverged at time {}",
+        describe(base_), first + k, seed,
+        in_digits(static_cast<double>(*run.diverged_at(k)) * report_.step, 6)));
   }
   auto x = run.synchronous();
   chains.draw_momenta(x, first, report_.steps);
@@ -63,9 +63,9 @@ template phase_point<lanes, Eigen::Dynamic> gibbs_chains::block<lanes>(std::uint
                                                                        int) const;
 
 std::string gibbs_chains::description() const {
-  return sentence("gibbs(temperature={}, from {}, burned in for {} with friction {} and step {})",
-                  in_digits(temperature_, 6), from_.description(), in_digits(report_.length, 4),
-                  in_digits(report_.friction, 4), in_digits(report_.step, 4));
+  return fmt::format("gibbs(temperature={}, from {}, burned in for {} with friction {} and step {})",
+                     in_digits(temperature_, 6), from_.description(), in_digits(report_.length, 4),
+                     in_digits(report_.friction, 4), in_digits(report_.step, 4));
 }
 
 namespace {
@@ -99,16 +99,16 @@ long_trajectory::long_trajectory(const model& in_bath, const initial_states& fro
       make_stepper(in_bath, tabulated(baoab{}), step_, counter_noise(options.seed, noise_purpose::burn_in));
   const auto end = integrate(stepper, sound_start(in_bath, from, options.seed, 0), steps, keep, every);
   if (end.diverged_at) {
-    throw std::runtime_error(sentence(
+    throw std::runtime_error(fmt::format(
         "one_long_trajectory: the motion of {} must be confined and the step small enough, got a trajectory "
         "that diverged at time {} with the step {}",
         describe(in_bath), in_digits(static_cast<double>(*end.diverged_at) * step_, 6), in_digits(step_, 6)));
   }
   if (states_.empty()) {
-    throw std::invalid_argument(
-        sentence("one_long_trajectory: the length must leave a state to keep after a burn-in of {}, got {}; "
-                 "take more states or less burn-in",
-                 options.burn_in, options.length));
+    throw std::invalid_argument(fmt::format(
+        "one_long_trajectory: the length must leave a state to keep after a burn-in of {}, got {}; "
+        "take more states or less burn-in",
+        options.burn_in, options.length));
   }
 }
 
@@ -122,8 +122,8 @@ const phase_point<double, Eigen::Dynamic>& long_trajectory::operator()(std::uint
 }
 
 std::string long_trajectory::description() const {
-  return sentence("one_long_trajectory(length={}, burn_in={}, step={}, seed={}, from {})", options_.length,
-                  options_.burn_in, in_digits(step_, 6), options_.seed, from_);
+  return fmt::format("one_long_trajectory(length={}, burn_in={}, step={}, seed={}, from {})", options_.length,
+                     options_.burn_in, in_digits(step_, 6), options_.seed, from_);
 }
 
 }  // namespace nysalt::detail

@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/learning/fit_summary.hpp"
 #include "nysalt/learning/learn_enough.hpp"
 #include "nysalt/learning/reach.hpp"
@@ -327,8 +326,8 @@ bool theta_curve::has(double step) const {
 
 Eigen::VectorXd theta_curve::at(double step) const {
   if (!covers(step)) {
-    throw std::invalid_argument(sentence("the step must be from {} to {}, the steps of learning, got {}",
-                                         steps_.front(), steps_.back(), step));
+    throw std::invalid_argument(fmt::format("the step must be from {} to {}, the steps of learning, got {}",
+                                            steps_.front(), steps_.back(), step));
   }
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     if (std::abs(step - steps_[k]) <= same_step * steps_[k]) return thetas_[k];

@@ -29,7 +29,6 @@
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/served_letters.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
 #include "nysalt/learning/reach.hpp"
@@ -597,7 +596,7 @@ learning_problem make_learning_problem(const run_time_family& family, const mode
   const loss_choice chosen = options.loss.value_or(usual_loss(system.bath()));
   const loss_kind& kind = *chosen.kind;
   if (other == nullptr && !family.letters.is_symplectic && !kind.is_for_sampling) {
-    throw std::invalid_argument(sentence(
+    throw std::invalid_argument(fmt::format(
         "learn: the family must be symplectic except for sampling, got {} with {}; take the loss acceptance "
         "or energy:K, or the family fg_chin",
         family.name, family.letters.has_own_letters() ? "a letter of its own that is not" : "the letter D"));
@@ -625,7 +624,7 @@ fit learn(const run_time_family& family, const model& system, const flow_map_dat
 namespace {
 
 [[noreturn]] void refuse_size(const char* what, std::size_t n, Eigen::Index found, Eigen::Index wanted) {
-  throw std::invalid_argument(sentence(
+  throw std::invalid_argument(fmt::format(
       "{} {} of the data must have the dimension of the system, got {} for {}", what, n, found, wanted));
 }
 
@@ -635,26 +634,26 @@ void require_valid_here(const flow_map_data& data, const model& system) {
     return static_cast<std::size_t>(data.share().first()) + data.trajectory_of(pair);
   };
   if (data.system != describe(system)) {
-    throw std::invalid_argument(sentence("learn: the data must be of the system, got data of {} for {}",
-                                         data.system, describe(system)));
+    throw std::invalid_argument(fmt::format("learn: the data must be of the system, got data of {} for {}",
+                                            data.system, describe(system)));
   }
   const bool covers = !data.first_of.empty() && data.first_of.front() == 0 &&
                       data.first_of.back() == data.pairs() &&
                       std::is_sorted(data.first_of.begin(), data.first_of.end());
   if (data.all_pairs() == 0 || data.finish.size() != data.pairs() || !covers) {
     throw std::invalid_argument(
-        sentence("learn: the data must be whole, got {} starts, {} finishes, {} trajectories", data.pairs(),
-                 data.finish.size(), data.trajectories()));
+        fmt::format("learn: the data must be whole, got {} starts, {} finishes, {} trajectories",
+                    data.pairs(), data.finish.size(), data.trajectories()));
   }
   if (data.noise_parts < 0 ||
       data.noise.size() != data.pairs() * static_cast<std::size_t>(data.noise_parts)) {
     throw std::invalid_argument(
-        sentence("learn: the data must be whole, got {} pairs with noise in {} parts that hold {}",
-                 data.pairs(), data.noise_parts, data.noise.size()));
+        fmt::format("learn: the data must be whole, got {} pairs with noise in {} parts that hold {}",
+                    data.pairs(), data.noise_parts, data.noise.size()));
   }
   if (data.step == 0.0 || !std::isfinite(data.step)) {
     throw std::invalid_argument(
-        sentence("learn: the step of the data must be positive and finite, got {}", data.step));
+        fmt::format("learn: the step of the data must be positive and finite, got {}", data.step));
   }
   for (std::size_t n = 0; n < data.noise.size(); ++n) {
     const auto noise = data.noise[n];
@@ -662,7 +661,7 @@ void require_valid_here(const flow_map_data& data, const model& system) {
     for (Eigen::Index i = 0; i < noise.size(); ++i) {
       if (std::isfinite(noise[i])) continue;
       const std::size_t pair = n / static_cast<std::size_t>(data.noise_parts);
-      throw std::invalid_argument(sentence(
+      throw std::invalid_argument(fmt::format(
           "learn: the data must be finite, got coordinate {} of noise {} = {}, in pair {} of trajectory {}",
           i + 1, n, noise[i], number_of(pair), trajectory_of(pair)));
     }
@@ -671,7 +670,7 @@ void require_valid_here(const flow_map_data& data, const model& system) {
     if (x.q.size() != size(system)) refuse_size(what, pair, x.q.size(), size(system));
     if (x.p.size() != size(system)) refuse_size(what, pair, x.p.size(), size(system));
     if (is_finite(x)) return;
-    throw std::invalid_argument(sentence(
+    throw std::invalid_argument(fmt::format(
         "learn: the {} of pair {} of the data, in trajectory {}, must be finite: {}", what, number_of(pair),
         trajectory_of(pair), detail::not_finite_in(phase_point<double, Eigen::Dynamic>(x))));
   };
@@ -681,8 +680,8 @@ void require_valid_here(const flow_map_data& data, const model& system) {
   }
   for (const auto& [pair, finish] : data.finer) {
     if (pair >= data.pairs()) {
-      throw std::invalid_argument(
-          sentence("learn: the data must be whole, got a finer finish of pair {} of {}", pair, data.pairs()));
+      throw std::invalid_argument(fmt::format(
+          "learn: the data must be whole, got a finer finish of pair {} of {}", pair, data.pairs()));
     }
     require_sound("finer finish", pair, finish);
   }
@@ -810,8 +809,8 @@ void require_sound_force(const model& system, const flow_map_data& data) {
       detail::check_force(system, points, momenta, finishes_of(data, size(system), pairs));
   if (found.passed()) return;
   throw std::invalid_argument(
-      sentence("cannot learn on {}: {}; mend the system, or learn with check_force = false", describe(system),
-               found.report()));
+      fmt::format("cannot learn on {}: {}; mend the system, or learn with check_force = false",
+                  describe(system), found.report()));
 }
 
 // A test whether starts are outside of the energies that were learned on, or outside by chance.

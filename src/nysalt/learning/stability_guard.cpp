@@ -15,7 +15,6 @@
 #include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/detail/conservative_part.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/served_letters.hpp"
 
 namespace nysalt {
@@ -337,10 +336,10 @@ std::string stability_guard::objection(const run_time_word& word, const std::vec
   if (!is_of_oscillators(word)) {
     if (!parts_) return {};
     if (word.letters() != parts_->word()) {
-      throw std::invalid_argument(
-          sentence("stability_guard: word must be {}, for which the guard was made, got {}; make a guard for "
-                   "this word",
-                   parts_->word(), word.letters()));
+      throw std::invalid_argument(fmt::format(
+          "stability_guard: word must be {}, for which the guard was made, got {}; make a guard for "
+          "this word",
+          parts_->word(), word.letters()));
     }
     return grown_on_parts(coefficients, step);
   }

@@ -12,7 +12,6 @@
 
 #include "data_loss.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/losses/stationary_covariance.hpp"
 #include "nysalt/losses/window_error.hpp"
@@ -50,8 +49,8 @@ constinit const loss_kind state_loss{
 double scale_of_energies(const model& system, const flow_map_data& data) {
   if (!system.facts().has_energy_over_slopes) {
     throw std::invalid_argument(
-        sentence("an energy loss: the potential must be a template over any scalar, got that of {}",
-                 describe(system)));
+        fmt::format("an energy loss: the potential must be a template over any scalar, got that of {}",
+                    describe(system)));
   }
   std::vector<double> squares(data.trajectories(), 0.0);
   for (std::size_t m = 0; m < data.trajectories(); ++m) {
@@ -114,7 +113,7 @@ constinit const loss_kind trajectory_loss{.name = "trajectory",
 namespace {
 objective of_law(const model& system, const run_time_family& family, double step) {
   if (!has_modes(system) || !system.bath().acts()) {
-    throw std::invalid_argument(sentence(
+    throw std::invalid_argument(fmt::format(
         "covariance loss: the system must be in a bath and declare modes(), got {}", describe(system)));
   }
   return objective_of(stationary_covariance(system, family.letters, step), family);
@@ -181,10 +180,10 @@ std::map<double, double> spectrum_of(const model& system) {
     }
   }
   if (count_of.empty()) {
-    throw std::invalid_argument(
-        sentence("the loss gaussian_acceptance: the system must declare frequencies, got {}; take the loss "
-                 "acceptance, which asks states",
-                 describe(system)));
+    throw std::invalid_argument(fmt::format(
+        "the loss gaussian_acceptance: the system must declare frequencies, got {}; take the loss "
+        "acceptance, which asks states",
+        describe(system)));
   }
   return count_of;
 }
@@ -193,10 +192,10 @@ std::map<double, double> spectrum_of(const model& system) {
 objective of_spectrum(const model& system, const run_time_family& family, double step) {
   if (!family.symmetric || family.letters.rotates() || family.letters.is_processed()) {
     throw std::invalid_argument(
-        sentence("gaussian_acceptance: the family must be symmetric, without rotations and "
-                 "processors, got {}; "
-                 "take the loss acceptance, or a family such as bab3",
-                 family.name));
+        fmt::format("gaussian_acceptance: the family must be symmetric, without rotations and "
+                    "processors, got {}; "
+                    "take the loss acceptance, or a family such as bab3",
+                    family.name));
   }
   return [family, step, count_of = spectrum_of(system)](const Eigen::VectorXd& theta) {
     const Eigen::Index parameters = theta.size();

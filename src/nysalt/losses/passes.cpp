@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/losses/after_steps.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/stationary_covariance.hpp"
@@ -59,8 +58,8 @@ metric::metric(const model& system, const flow_map_data& data, coordinates which
 void metric::change_coordinates(const model& system, coordinates which) {
   if (!has_modes(system)) {
     throw std::invalid_argument(
-        sentence("a loss in {} coordinates: the system must have modes(), got {}; use qp", to_string(which),
-                 describe(system)));
+        fmt::format("a loss in {} coordinates: the system must have modes(), got {}; use qp",
+                    to_string(which), describe(system)));
   }
   const auto modes = modal_coordinates::of(system);
   sums_of_q_.resize(static_cast<std::size_t>(size_));
@@ -107,7 +106,7 @@ void metric::weigh(const flow_map_data& data) {
   active_.clear();
   for (Eigen::Index row = 0; row < 2 * size_; ++row) {
     if (!std::isfinite(sigma[row]) || !std::isfinite(magnitudes[row])) {
-      throw std::invalid_argument(sentence(
+      throw std::invalid_argument(fmt::format(
           "the weight of {} must be finite, got increments in the data that are too large to be squared",
           name_of(row)));
     }
@@ -148,7 +147,7 @@ Eigen::MatrixXd metric::weight_deviations(const flow_map_data& others) const {
 
 std::string metric::name_of(Eigen::Index row) const {
   const std::string_view names = which_ == coordinates::qp ? "qp" : "xy";
-  return sentence("{}{}", names[row < size_ ? 0 : 1], row % size_ + 1);
+  return fmt::format("{}{}", names[row < size_ ? 0 : 1], row % size_ + 1);
 }
 
 // A loss as the sum of squares that it is.

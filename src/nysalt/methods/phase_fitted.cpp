@@ -36,18 +36,14 @@ double stumpff(int k, double x) {
 Eigen::VectorXd defect_of_rotation(const run_time_word& word, const std::vector<double>& coefficients,
                                    bool symmetric, double x) {
   const auto times_x = [](const dense_polynomial& a) { return a.times_x(); };
-  dense_polynomial qq{{1.0}}, pq{{0.0}}, qp{{0.0}}, pp{{1.0}};
-  step_on_oscillator(word, coefficients, 0.0, times_x, qq, pq);
-  step_on_oscillator(word, coefficients, 0.0, times_x, qp, pp);
-  dense_polynomial half_trace = 0.5 * qq;
-  half_trace += 0.5 * pp;
+  const oscillator_matrix<dense_polynomial> m(word, coefficients, 0.0, {{0.0}}, {{1.0}}, times_x);
   Eigen::VectorXd defects(symmetric ? 3 : 4);
-  defects[0] = half_trace.tail(2, x) - stumpff(4, x);
-  defects[1] = qp.tail(1, x) + stumpff(3, x);
-  defects[2] = pq.tail(2, x) - stumpff(3, x);
+  defects[0] = m.half_trace().tail(2, x) - stumpff(4, x);
+  defects[1] = m.qp.tail(1, x) + stumpff(3, x);
+  defects[2] = m.pq.tail(2, x) - stumpff(3, x);
   if (!symmetric) {
-    dense_polynomial half_difference = 0.5 * qq;
-    half_difference += -0.5 * pp;
+    dense_polynomial half_difference = 0.5 * m.qq;
+    half_difference += -0.5 * m.pp;
     defects[3] = half_difference.tail(1, x);
   }
   return defects;

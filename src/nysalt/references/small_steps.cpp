@@ -69,7 +69,7 @@ class steps_reference final : public any_reference {
     const auto steps = whole_steps(t, step_);
     if (!steps) {
       throw std::invalid_argument(
-          sentence("fine_steps: the time must be a multiple of the fine step, got {} and {}", t, step_));
+          fmt::format("fine_steps: the time must be a multiple of the fine step, got {} and {}", t, step_));
     }
     return std::make_unique<steps_run<T>>(system, method_, t, *steps);
   }
