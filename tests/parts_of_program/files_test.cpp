@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(rows_are_sorted_in_any_room) {
   const auto sort = [&](std::int64_t trajectories, const sorting_room& room) {
     put_by_trajectory(folder / "o.csv.part", folder / "o.csv", trajectories, room);
   };
-  for (const std::size_t text : {1, 20, 1000}) {
+  for (const std::size_t text : {1UL, 20UL, 1000UL}) {
     for (const std::int64_t trajectories : {1, 3, 8, 100}) {
       std::ofstream(folder / "o.csv") << "an older one";
       sort(8, {text, trajectories});

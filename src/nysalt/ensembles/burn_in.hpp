@@ -179,8 +179,9 @@ class burn_in_pilot {
   }
 
  private:
-  /// What is watched, and then the square of each force.
-  void read(const burn_in_chains& chains, const state& x, std::span<T> out) const {
+  /// What is watched; adds the square of each force to a sum.
+  void read(const burn_in_chains& chains, const state& x, std::span<T> out,
+            vector<T, Eigen::Dynamic>& squares_of_forces) const {
     const model& system = chains.system();
     auto f = make_vector<T>(system);
     auto p = x.p;
@@ -188,7 +189,7 @@ class burn_in_pilot {
     T virial(0.0);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       virial -= x.q[i] * f[i];
-      out[watched_numbers + static_cast<std::size_t>(i)] = f[i] * f[i];
+      squares_of_forces[i] += f[i] * f[i];
       p[i] += f[i] * (0.5 * chains_->step());
     }
     velocity<T>(system, p, f);
@@ -210,19 +211,26 @@ class burn_in_pilot {
 
   void follow(block& here, std::int64_t first, std::int64_t end, std::int64_t every,
               watched_interval& result) {
-    const std::size_t width_read = watched_numbers + static_cast<std::size_t>(here.start.size());
-    std::vector<T> begin(width_read);
-    std::vector<T> sum(width_read, T(0.0));
+    of_watched<T> begin;
+    of_watched<T> sum;
     of_watched<T> squares;
+    sum.fill(T(0.0));
     squares.fill(T(0.0));
-    read(*here.chains, here.run.synchronous(), begin);
+    // Not among the numbers that are observed: these are kept for some steps, of which forces would take
+    // much.
+    auto of_forces = make_vector<T>(here.chains->system());
+    const auto observe = [&](const state& x, std::span<T> out) { read(*here.chains, x, out, of_forces); };
+    observe(here.run.synchronous(), begin);
+    for (Eigen::Index i = 0; i < of_forces.size(); ++i) of_forces[i] = T(0.0);
     std::int64_t observations = 0;
-    const auto observe = [&](const state& x, std::span<T> out) { read(*here.chains, x, out); };
-    here.run.go_on(end, every, width_read, observe, [&](std::int64_t, std::span<const T> seen, const auto&) {
-      ++observations;
-      for (std::size_t i = 0; i < width_read; ++i) sum[i] += seen[i];
-      for (std::size_t i = 0; i < watched_numbers; ++i) squares[i] += seen[i] * seen[i];
-    });
+    here.run.go_on(end, every, watched_numbers, observe,
+                   [&](std::int64_t, std::span<const T> seen, const auto&) {
+                     ++observations;
+                     for (std::size_t i = 0; i < watched_numbers; ++i) {
+                       sum[i] += seen[i];
+                       squares[i] += seen[i] * seen[i];
+                     }
+                   });
     for (int k = 0; k < here.count; ++k) {
       const auto chain = static_cast<std::size_t>(first + k);
       const auto mean = [&](const T& of) { return lane(of, k) / static_cast<double>(observations); };
@@ -232,9 +240,8 @@ class burn_in_pilot {
         result.square[i][chain] = mean(squares[i]);
       }
       auto& forces = result.force_square[chain];
-      forces.resize(here.start.size());
-      for (Eigen::Index i = 0; i < forces.size(); ++i)
-        forces[i] = mean(sum[watched_numbers + static_cast<std::size_t>(i)]);
+      forces.resize(of_forces.size());
+      for (Eigen::Index i = 0; i < forces.size(); ++i) forces[i] = mean(of_forces[i]);
     }
   }
 
@@ -406,9 +413,14 @@ class burn_in_search {
     } catch (const chain_diverged& one) {
       // Starts may be much colder than the bath, and their frequency much too low: then chains diverge at
       // once, and halving costs little. A motion that is not confined takes its time, however small the step.
+      // What is met now and then, as where a valley is narrow far out, takes some thousand steps to show, and
+      // few halvings.
       constexpr std::int64_t at_once = 10'000;
+      constexpr std::int64_t now_and_then = 100'000;
+      constexpr int few = 3;
       constexpr int most_halvings = 60;
-      if (one.step > at_once || report.halvings == most_halvings) throw;
+      const bool is_late = one.step > at_once && (one.step > now_and_then || late_++ == few);
+      if (is_late || report.halvings == most_halvings) throw;
       return false;
     }
     if (biased_++ < most_biased) return false;
@@ -448,6 +460,7 @@ class burn_in_search {
   Eigen::VectorXd slowest_;
   std::int64_t pilots_ = 0;
   int biased_ = 0;        // steps that showed a bias
+  int late_ = 0;          // steps at which a chain diverged late
   double hottest_ = 0.0;  // kT for each coordinate: the highest energy at a start
 };
 
