@@ -102,6 +102,7 @@ inline std::int64_t first_of_part(std::int64_t count, int part, int parts) {
   return (count * part + parts - 1) / parts;
 }
 
+// [one_rank]
 /// The communicator of a single process: no messages.
 class lone_communicator final : public communicator {
  public:
@@ -117,6 +118,7 @@ class lone_communicator final : public communicator {
 };
 
 inline const lone_communicator one_rank;  ///< default communicator of all options
+// [/one_rank]
 
 // Work of several ranks that succeeds on all of them, or fails on all.
 

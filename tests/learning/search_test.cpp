@@ -2,7 +2,7 @@
 // Compiled with -O1: 10 s at -O0, 4.2 s at -O1.
 // The search ends at the minimum: the member that made the data, wherever it lies, from wherever it starts.
 // What a fit to whole trajectories has over a fit to one step, and how it is found.
-#include "../../src/nysalt/learning/data_of_problem.hpp"
+#include "../../src/nysalt/learning/losses_of_problem.hpp"
 #include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/learned.hpp"

@@ -120,10 +120,10 @@ mutant(6, "the reference is checked with the noise of the next step", LIBRARY + 
 mutant(24, "the range of energies is not extended with further data", LIBRARY + "flow_map_data.cpp",
        "data learning",
        ("if (data.energies && further.energies) {", "if (!MUTANT && data.energies && further.energies) {"))
-mutant(9, "the error of the reference is not held against the fit", LIBRARY + "learning/solve.cpp", "learning",
+mutant(9, "the error of the reference is not held against the fit", LIBRARY + "learning/describe.cpp", "learning",
        ("fit.reference_error <= 0.01 * fit.one_step_error",
         "fit.reference_error <= (MUTANT ? 1e9 : 0.01) * fit.one_step_error"))
-mutant(27, "that a parameter ran away is never said", LIBRARY + "learning/solve.cpp", "learning",
+mutant(27, "that a parameter ran away is never said", LIBRARY + "learning/describe.cpp", "learning",
        ("if (!fit.is_at_no_bound)", "if (!MUTANT && !fit.is_at_no_bound)"))
 mutant(10, "the guard has no margin about declared bands", LIBRARY + "learning/stability_guard.cpp", "learning",
        ("for (const auto& band : bands) bands_.push_back({band.low * (1.0 - margin), band.high * (1.0 + margin)});",
@@ -149,11 +149,11 @@ mutant(40, "a start outside its range is not projected", LIBRARY + "learning/sea
 mutant(41, "all random starts have the same random numbers", LIBRARY + "learning/search.cpp", "learning",
        ("{.trajectory = n, .purpose = noise_purpose::search}",
         "{.trajectory = MUTANT ? 0 : n, .purpose = noise_purpose::search}"))
-mutant(42, "standard errors of parameters without the factor B/(B - 1)", LIBRARY + "learning/search.cpp",
+mutant(42, "standard errors of parameters without the factor B/(B - 1)", LIBRARY + "learning/curvature.cpp",
        "learning",
        ("(squares * (blocks / freedom)).cwiseSqrt()",
         "(squares * (MUTANT ? 1.0 : blocks / freedom)).cwiseSqrt()"))
-mutant(43, "the expected excess of a fit is twice as large", LIBRARY + "learning/search.cpp", "learning",
+mutant(43, "the expected excess of a fit is twice as large", LIBRARY + "learning/curvature.cpp", "learning",
        ("result.push_back(0.5 * score.dot(solve(score)));",
         "result.push_back((MUTANT ? 1.0 : 0.5) * score.dot(solve(score)));"))
 mutant(12, "a mean square is divided by a rank's own pairs", LIBRARY + "losses/passes.cpp", "losses learning",
@@ -316,10 +316,10 @@ mutant(78, "methods are fitted to the lowest frequency", HEADERS + "methods/phas
         "return MUTANT ? system.modes().frequencies.minCoeff() : system.modes().frequencies.maxCoeff();"))
 mutant(79, "the upper end of a spectrum is no bound", LIBRARY + "derivatives/spectrum.cpp", "derivatives",
        ("high.value + high.residual,", "high.value + (MUTANT ? 0.0 : high.residual),"))
-mutant(80, "the finer reference is as coarse as the reference", LIBRARY + "references/small_steps.cpp",
+mutant(80, "the finer reference is as coarse as the reference", LIBRARY + "references/fine_steps.cpp",
        "references data analysis",
        ("return small_steps(method_, 0.5 * step_,", "return small_steps(method_, (MUTANT ? 1.0 : 0.5) * step_,"))
-mutant(81, "the evaluations of a reference are those of one lane", LIBRARY + "references/small_steps.cpp",
+mutant(81, "the evaluations of a reference are those of one lane", LIBRARY + "references/fine_steps.cpp",
        "references data",
        ("return count * evaluations_of(", "return (MUTANT ? 1 : count) * evaluations_of("))
 mutant(82, "the burn-in is kept as initial states", LIBRARY + "ensembles/gibbs.cpp", "ensembles",
@@ -418,7 +418,7 @@ mutant(107, "a force that is not the slope of its potential is accepted", "src/c
 mutant(108, "a plug-in is compiled once, whatever its source says", "src/plugin/build.cpp", "smoke programs",
        ("return name_of(beginning + contents) + \".so\";",
         "return name_of(MUTANT ? beginning : beginning + contents) + \".so\";"))
-mutant(13, "coefficients are exported with 15 digits", LIBRARY + "exports/export_to.cpp", "programs methods",
+mutant(13, "coefficients are exported with 15 digits", LIBRARY + "exports/fill.cpp", "programs methods",
        ("std::string text = fmt::format(\"{}\", value);",
         "std::string text = MUTANT ? fmt::format(\"{:.15g}\", value) : fmt::format(\"{}\", value);"))
 mutant(109, "exported to C, the noise of the bath is multiplied by the root of the inverse mass",

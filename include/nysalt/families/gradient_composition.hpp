@@ -75,29 +75,17 @@ struct r_fg4 : gradient_composition<rotation, soft_kick, soft_gradient_kick> {
   static constexpr std::string_view name = "r_fg4";
 };
 
-/// B(b) A(1/2) G(1 - 2 b, c) A(1/2) B(b): three evaluations, one minimum. At b = 1/6, c = 1/72 Chin's method
-/// 4A [chin_1997].
-struct fg_chin : composition<2> {
-  using word = nysalt::word<kick, drift, gradient_kick, drift, kick>;
-  static constexpr std::string_view name = "fg_chin";
-  static constexpr std::string_view source = "chin_1997";
+/// B(b) A(1/2) X(1 - 2 b, c) A(1/2) B(b) with a kick X that uses derivatives of the force: three evaluations.
+template <Flow Middle>
+struct chin_composition : composition<2> {
+  using word = nysalt::word<kick, drift, Middle, drift, kick>;
   static constexpr std::array<std::string_view, 2> parameter_names{"b", "c"};
   static constexpr int order = 2;
   static constexpr bool symmetric = true;
   static constexpr bool requires_quadratic_kinetic = true;
 
-  static std::array<double, 2> start() { return {1.0 / 6.0, 1.0 / 72.0}; }
-
   /// Two equal steps of kick-drift-kick.
   static std::array<double, 2> most_stable_member() { return {0.25, 0.0}; }
-
-  /// Parameters of a method of this word.
-  template <class M>
-  static std::array<double, 2> of(const M& method) {
-    static_assert(std::is_same_v<typename M::word, word>);
-    const auto c = method.coefficients();
-    return {c[0], c[3]};
-  }
 
   template <Scalar C>
   static std::array<C, 6> coefficients(const std::array<C, 2>& theta) {
@@ -106,27 +94,29 @@ struct fg_chin : composition<2> {
   }
 };
 
-/// B(b) A(1/2) D(1 - 2 b, c) A(1/2) B(b): three evaluations, none of them a derivative. At b = 1/6, c = 1/24
-/// Chin's method 4A with a displaced kick; not symplectic, and for sampling only.
-struct fd_chin : composition<2> {
-  using word = nysalt::word<kick, drift, displaced_kick, drift, kick>;
+/// With the letter G: one minimum. At b = 1/6, c = 1/72 Chin's method 4A [chin_1997].
+struct fg_chin : chin_composition<gradient_kick> {
+  static constexpr std::string_view name = "fg_chin";
+  static constexpr std::string_view source = "chin_1997";
+
+  static std::array<double, 2> start() { return {1.0 / 6.0, 1.0 / 72.0}; }
+
+  /// Parameters of a method of this word.
+  template <class M>
+  static std::array<double, 2> of(const M& method) {
+    static_assert(std::is_same_v<typename M::word, word>);
+    const auto c = method.coefficients();
+    return {c[0], c[3]};
+  }
+};
+
+/// With the letter D: no evaluation is a derivative. At b = 1/6, c = 1/24 Chin's method 4A with a displaced
+/// kick; not symplectic, and for sampling only.
+struct fd_chin : chin_composition<displaced_kick> {
   static constexpr std::string_view name = "fd_chin";
   static constexpr std::string_view source = "yin_mawhinney_2011";
-  static constexpr std::array<std::string_view, 2> parameter_names{"b", "c"};
-  static constexpr int order = 2;
-  static constexpr bool symmetric = true;
-  static constexpr bool requires_quadratic_kinetic = true;
 
   static std::array<double, 2> start() { return {1.0 / 6.0, 1.0 / 24.0}; }
-
-  /// Two equal steps of kick-drift-kick.
-  static std::array<double, 2> most_stable_member() { return {0.25, 0.0}; }
-
-  template <Scalar C>
-  static std::array<C, 6> coefficients(const std::array<C, 2>& theta) {
-    const auto& [b, c] = theta;
-    return {b, C(0.5), C(1.0) - b * 2.0, c, C(0.5), b};
-  }
 };
 
 }  // namespace nysalt

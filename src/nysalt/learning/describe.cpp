@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is said of a fit: edges, standard errors, summaries.
+// Objections to a fit: edges of the admitted region, standard errors that are withheld.
 
 #include "describe.hpp"
 
@@ -9,12 +9,103 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
-#include <utility>
+#include <limits>
 
-#include "nysalt/learning/fit_summary.hpp"
-#include "nysalt/learning/learn_enough.hpp"
-#include "nysalt/learning/reach.hpp"
+#include "nysalt/losses/loss_choice.hpp"
+
+// When a fit is not to be trusted, in words.
+
+namespace nysalt::detail {
+
+double noise_of_difference(const std::vector<double>& a, const std::vector<double>& b, const shard& share) {
+  const auto count = static_cast<double>(share.total());
+  if (share.total() < 2) return std::numeric_limits<double>::infinity();
+  std::vector<double> terms;
+  for (std::size_t m = 0; m < a.size(); ++m) terms.push_back(a[m] - b[m]);
+  const double mean = share.sum(terms) / count;
+  for (double& term : terms) term = (term - mean) * (term - mean);
+  return std::sqrt(share.sum(terms) * count / (count - 1.0));
+}
+
+std::vector<double> gathered(const std::vector<double>& numbers, const shard& share) {
+  std::vector<double> all(static_cast<std::size_t>(share.total()));
+  std::ranges::copy(numbers, all.begin() + share.first());
+  share.gather(all);
+  return all;
+}
+
+double signed_rank(const std::vector<double>& a, const std::vector<double>& b, const shard& share) {
+  const std::vector<double> of_a = gathered(a, share);
+  const std::vector<double> of_b = gathered(b, share);
+  std::vector<double> gains;  // ln(b/a)
+  for (std::size_t m = 0; m < of_a.size(); ++m) {
+    const double gain = std::log(of_b[m] / of_a[m]);
+    constexpr double rounding = 1e-9;
+    if (std::abs(gain) > rounding) gains.push_back(gain);  // nor NaN, where both are 0
+  }
+  std::ranges::sort(gains, {}, [](double x) { return std::abs(x); });
+  const auto n = static_cast<double>(gains.size());
+  if (gains.empty()) return 0.0;
+  double sum = 0.0;  // of the ranks where a is better
+  double variance = n * (n + 1.0) * (2.0 * n + 1.0) / 24.0;
+  for (auto first = gains.begin(); first != gains.end();) {
+    const auto last =
+        std::find_if(first, gains.end(), [size = std::abs(*first)](double x) { return std::abs(x) != size; });
+    const auto ties = static_cast<double>(last - first);
+    const double rank = static_cast<double>(first - gains.begin()) + (ties + 1.0) / 2.0;
+    sum += rank * static_cast<double>(std::count_if(first, last, [](double x) { return x > 0.0; }));
+    variance -= (ties * ties * ties - ties) / 48.0;
+    first = last;
+  }
+  return (sum - n * (n + 1.0) / 4.0) / std::sqrt(variance);
+}
+
+bool is_better(const std::vector<double>& a, const std::vector<double>& b, const shard& share) {
+  constexpr double of_two = 2.28;  // standard deviations that a normal variable exceeds in 1.1 % of all cases
+  const double loss = share.sum(a);
+  const double other = share.sum(b);
+  if (!(other > 1e-24 && loss < other * (1.0 - 1e-9))) return false;
+  return loss < other - of_two * noise_of_difference(a, b, share) || signed_rank(a, b, share) > of_two;
+}
+
+std::string objection(const fit_summary& fit, bool settled, const std::string& instability) {
+  if (!settled) return instability.empty() ? "the search did not converge" : instability;
+  // Sigma is the mean square increment, so to stay where one is has the loss 1 in every coordinate. Proposals
+  // need not be near the flow: a step of theirs may turn by more than half a period.
+  const auto minimised = find_loss(fit.loss_name);
+  const bool is_of_proposals = minimised && minimised->kind->is_of_proposals;
+  const double one_step_loss = fit.one_step_error * fit.one_step_error;
+  if (!is_of_proposals && !(one_step_loss < static_cast<double>(fit.coordinates_used))) {
+    return fmt::format("its held-out one-step loss {:.2e} is no better than that of not moving at all",
+                       one_step_loss);
+  }
+  if (!instability.empty()) return instability;
+  if (!fit.is_at_no_bound)
+    return "a parameter ran away to the end of its range: the data do not determine it";
+  if (!fit.is_of_data) return {};
+  // Worse by more than chance: a search may begin so near to the optimum, as for systems that are not stiff,
+  // that other data prefer now the one and now the other. Half as much again is more than chance, for any
+  // noise that a few trajectories show. Equal to rounding is no objection either.
+  const double chance =
+      std::min(3.0 * fit.held_out_noise, 0.5 * fit.held_out_start_loss) + 1e-9 * fit.held_out_start_loss;
+  // Else the guard has objections to the start, or trajectories from there diverge.
+  const bool may_begin_there = !fit.is_held_by_guard && std::isfinite(fit.held_out_start_loss);
+  if (may_begin_there &&
+      !(fit.held_out_loss <= fit.held_out_start_loss + chance || fit.held_out_loss <= 1e-24)) {
+    return "on held-out data it is worse than the parameters that the search began with";
+  }
+  // A tenth would be too much: what is learned is a small correction, and the reference's error adds to it
+  // like a bias, however many the data.
+  if (fit.reference_checked && !(fit.reference_error <= 0.01 * fit.one_step_error)) {
+    return fmt::format("the reference's own error {:.2e} is not small against the one-step error {:.2e}",
+                       fit.reference_error, fit.one_step_error);
+  }
+  return {};
+}
+
+}  // namespace nysalt::detail
+
+// Polls along the axes of Gauss-Newton's matrix.
 
 namespace nysalt {
 
@@ -144,237 +235,3 @@ std::string reason_to_withhold(const learning_problem& problem, const fit_summar
 }
 
 }  // namespace nysalt::detail
-
-// A fit in words.
-
-namespace nysalt {
-
-namespace {
-
-/// The standard error of a parameter in scientific notation with `digits` decimals, or why there is none.
-std::string error_of(const fitted_parameter& p, const fit_summary& fit, int digits) {
-  if (std::isinf(p.standard_error)) return "(not determined by the data)";
-  if (std::isnan(p.standard_error)) return fit.is_held_by_guard ? "(held by the guard)" : "+- not known";
-  return p.free ? fmt::format("+- {:.{}e}", p.standard_error, digits) : "(not free)";
-}
-
-}  // namespace
-
-std::string fit_summary::verdict_in_words() const {
-  switch (verdict()) {
-    case nysalt::verdict::usable:
-      return "usable";
-    case nysalt::verdict::nothing_gained:
-      return fmt::format("nothing gained over {}: {}{}", rival, what_to_take(),
-                         failing_rival.name.empty() ? "" : "; " + of_failing_rival());
-    case nysalt::verdict::not_usable:
-      break;
-  }
-  return "NOT usable: " + reason;
-}
-
-std::string fit_summary::what_to_take() const {
-  if (rival == "equal steps") return "take a method of one evaluation with smaller steps";
-  if (rival == "phase_fitted") {
-    return "the member of this family that follows from only the highest frequency is as good";
-  }
-  if (rival_step > 0.0) return fmt::format("take {} at step {:.4g}", rival, rival_step);
-  return fmt::format("take {}", rival);
-}
-
-std::string fit_summary::of_failing_rival() const {
-  if (failing_rival.name.empty()) return {};
-  const auto& [name, of_name, times, why] = failing_rival;
-  const std::string errs = times > 1.0 ? fmt::format("errs {:.2g} times less", times)
-                                       : fmt::format("errs {:.2g} times as much", 1.0 / times);
-  return fmt::format("{} at step {:.4g} {} in the median, and fails: {}", name, of_name, errs, why);
-}
-
-std::string fit_summary::uncertainty() const {
-  if (std::isnan(expected_excess)) return "not known";
-  return fmt::format(
-      "adds {:.1e} to the loss on new data, {:.2g} % of it; it rests on {:.0f} trajectories{}",
-      expected_excess, 100.0 * excess_share(), deciding_trajectories,
-      is_decided_by_few() ? ", too few to rely on it: take more, or starts of less different energies" : "");
-}
-
-std::string fit_summary::following() const {
-  if (follows_to_the_end()) return {};
-  const std::string steps = fmt::format("{} step{}", loss_steps, loss_steps == 1 ? "" : "s");
-  if (!follows) return fmt::format("its error exceeds a twentieth of the motion within {}", steps);
-  return fmt::format("it follows trajectories for {}, not for {}", steps, trajectory_steps);
-}
-
-std::string fit_summary::brief() const {
-  std::string text = fmt::format("{} at step {:g} for {}:", family, step, system);
-  for (const auto& p : parameters) {
-    text += fmt::format(" {} = {:.6f}", p.name, p.value);
-    text += fmt::format(" {}", error_of(p, *this, 1));
-  }
-  text += fmt::format(", loss {:.3e}, held out {:.3e}{}, {}", loss, held_out_loss,
-                      held_out_is_new ? "" : " (the same data)", verdict_in_words());
-  if (usable && !follows_to_the_end()) text += "; but " + following();
-  return text;
-}
-
-std::string fit_summary::full() const {
-  std::string text = fmt::format("{} at step {} for {}\n", family, step, system);
-  for (const auto& p : parameters) {
-    text += fmt::format("  {:<22}{:.17g}  {}\n", p.name, p.value, error_of(p, *this, 2));
-  }
-  const auto line = [&](const char* what, const std::string& value) {
-    text += fmt::format("  {:<22}{}\n", what, value);
-  };
-  line("usable", !usable ? "no: " + reason
-                 : gains_nothing
-                     ? fmt::format("yes, but nothing is gained over {}: {}", rival, what_to_take())
-                     : "yes");
-  if (!follows_to_the_end())
-    line("trajectories", following() + "; take a smaller step to follow them longer");
-  const std::string of_steps = is_of_data && 1 < loss_steps ? fmt::format(" over {} steps", loss_steps) : "";
-  line("loss", is_of_data ? fmt::format("{:.6e} ({}{}) on {} pairs of {} trajectories", loss, loss_name,
-                                        of_steps, samples, trajectories)
-                          : fmt::format("{:.6e} ({})", loss, loss_name));
-  line("held-out loss",
-       fmt::format("{:.6e} on {} pairs; at the start {:.6e}{}", held_out_loss, held_out_samples,
-                   held_out_start_loss, held_out_is_new ? "" : "; but these are the data learned from"));
-  if (is_of_data && coordinates_used > 0) {
-    line("per coordinate",
-         fmt::format("{:.3g} root mean square on held-out data, {} to {:.3g} at the start",
-                     std::sqrt(held_out_loss / static_cast<double>(coordinates_used)),
-                     held_out_loss > held_out_start_loss ? "WORSE compared" : "compared",
-                     std::sqrt(held_out_start_loss / static_cast<double>(coordinates_used))));
-  }
-  if (!rival.empty()) {
-    line("best classical",
-         fmt::format("{}{} of the same cost, held-out loss {:.6e} ({:.3g} times {}, +- {})", rival,
-                     rival_step > 0.0 ? fmt::format(" at step {:.4g}", rival_step) : std::string(),
-                     rival_loss, gain(),
-                     loss_beside_rival == held_out_loss
-                         ? std::string("this")
-                         : fmt::format("{:.6e}, by times that both have", loss_beside_rival),
-                     std::isfinite(rival_noise) ? fmt::format("{:.2g}", rival_noise / loss_beside_rival)
-                                                : std::string("unknown")));
-  }
-  if (!errors_withheld.empty()) line("standard errors", "not known: " + errors_withheld);
-  if (!failing_rival.name.empty()) line("fails its trial", of_failing_rival());
-  if (is_of_data) line("uncertainty", uncertainty());
-  line("search", fmt::format("{} starts; this is from '{}'{}", starts_tried, from,
-                             is_held_by_guard ? ", held by the guard"
-                             : is_in_valley   ? ", in a valley of parameters that do as well"
-                                              : ""));
-  line("stability", guard);
-  line("judgement", judgement.in_words());
-  line("trial", judgement.report());
-  if (fitted_frequency > 0.0)
-    line("phase-fitted", fmt::format("the frequency {:.6g}, {}", fitted_frequency, source_of_frequency));
-  if (!unguarded.empty()) line("without the guard", unguarded);
-  for (const auto& [low, high] : gaps) {
-    line("gap",
-         fmt::format("unstable for z = {:.4g} to {:.4g}, which the motion meets rarely or never", low, high));
-  }
-  if (!judgement.resonance.empty()) line("resonance", judgement.resonance);
-  line("one-step error",
-       fmt::format("{:.3e}, the reference's own {}", one_step_error,
-                   reference_checked ? fmt::format("{:.3e}", reference_error) : "not measured"));
-  line("trajectory error", fmt::format("{:.3e} at the end of held-out trajectories", trajectory_error));
-  line("coordinates", coordinates);
-  for (const auto& name : dropped) line("never moves", name + ", left out of the loss");
-  line("condition", fmt::format("{:.3g}", condition));
-  for (const auto& direction : flat_directions) {
-    if (!std::isfinite(direction.front())) continue;  // of a Hessian that is 0
-    std::string components;
-    for (const double x : direction) components += fmt::format(" {:.4f}", x);
-    line("flat direction", components);
-  }
-  line("iterations", fmt::format("{}", iterations));
-  line("reference", reference);
-  line("starts", fmt::format("{}, seed {}, held out {}", ensemble, seed, held_out_seed));
-  line("force derivatives", derivatives);
-  line("cost", fmt::format("{} force evaluations; data {:.3g} s, fit {:.3g} s", learning_evaluations,
-                           data_seconds, fit_seconds));
-  return text;
-}
-
-// Parameters between the steps that they were learned at.
-
-namespace {
-constexpr double same_step = 1e-9;  // relative
-}  // namespace
-
-theta_curve::theta_curve(std::vector<double> steps, std::vector<Eigen::VectorXd> thetas)
-    : steps_(std::move(steps)), thetas_(std::move(thetas)) {
-  bool sound = !steps_.empty() && steps_.size() == thetas_.size();
-  for (std::size_t k = 0; sound && k < steps_.size(); ++k) {
-    sound = std::isfinite(steps_[k]) &&
-            (k == 0 ? steps_[k] > 0.0 : steps_[k - 1] * (1.0 + 2.0 * same_step) < steps_[k]) &&
-            thetas_[k].allFinite() && thetas_[k].size() == thetas_[0].size();
-  }
-  if (sound) return;
-  throw std::invalid_argument(
-      "a curve of parameters must have rising steps, and as many finite parameters at each");
-}
-
-bool theta_curve::covers(double step) const {
-  return steps_.front() * (1.0 - same_step) <= step && step <= steps_.back() * (1.0 + same_step);
-}
-
-bool theta_curve::has(double step) const {
-  return std::any_of(steps_.begin(), steps_.end(),
-                     [&](double s) { return std::abs(step - s) <= same_step * s; });
-}
-
-Eigen::VectorXd theta_curve::at(double step) const {
-  if (!covers(step)) {
-    throw std::invalid_argument(fmt::format("the step must be from {} to {}, the steps of learning, got {}",
-                                            steps_.front(), steps_.back(), step));
-  }
-  for (std::size_t k = 0; k < steps_.size(); ++k) {
-    if (std::abs(step - steps_[k]) <= same_step * steps_[k]) return thetas_[k];
-  }
-  const auto after =
-      static_cast<std::size_t>(std::upper_bound(steps_.begin(), steps_.end(), step) - steps_.begin());
-  const std::size_t count = std::min<std::size_t>(4, steps_.size());
-  const std::size_t first = std::min(after < 2 ? 0 : after - 2, steps_.size() - count);
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(thetas_[0].size());
-  for (std::size_t k = first; k < first + count; ++k) {  // Lagrange's form
-    double weight = 1.0;
-    for (std::size_t j = first; j < first + count; ++j) {
-      if (j != k) weight *= (step - steps_[j]) / (steps_[k] - steps_[j]);
-    }
-    result += weight * thetas_[k];
-  }
-  return result;
-}
-
-// How many trajectories are enough.
-
-std::string enough_course::report() const {
-  const auto& [trajectories, share, deciding] = stops.back();
-  if (is_reached) return fmt::format("{} trajectories are enough", trajectories);
-  return fmt::format(
-      "{} trajectories are not enough: the uncertainty of the parameters adds {:.2g} of the loss, and "
-      "rests on "
-      "{:.0f} of them",
-      trajectories, share, deciding);
-}
-
-enough_course until_enough(std::int64_t first, const enough_options& options,
-                           const std::function<fit_summary(std::int64_t trajectories)>& learn) {
-  if (!(options.share > 0.0) || first < 2 || first > options.most) {
-    throw std::invalid_argument(
-        fmt::format("until_enough: share must be > 0 and trajectories a range from 2 or more, got a "
-                    "share of {} and {} to {} trajectories",
-                    options.share, first, options.most));
-  }
-  enough_course course;
-  for (std::int64_t trajectories = first;; trajectories = std::min(2 * trajectories, options.most)) {
-    const fit_summary fit = learn(trajectories);
-    const double share = fit.excess_share();
-    course.stops.push_back({trajectories, share, fit.deciding_trajectories});
-    course.is_reached = share <= options.share && !fit.is_decided_by_few();
-    if (course.is_reached || std::isnan(share) || trajectories == options.most) return course;
-  }
-}
-
-}  // namespace nysalt

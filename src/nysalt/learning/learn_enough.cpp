@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSL-1.0
+// How many trajectories are enough.
+
+#include "nysalt/learning/learn_enough.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace nysalt {
+
+std::string enough_course::report() const {
+  const auto& [trajectories, share, deciding] = stops.back();
+  if (is_reached) return fmt::format("{} trajectories are enough", trajectories);
+  return fmt::format(
+      "{} trajectories are not enough: the uncertainty of the parameters adds {:.2g} of the loss, and "
+      "rests on "
+      "{:.0f} of them",
+      trajectories, share, deciding);
+}
+
+enough_course until_enough(std::int64_t first, const enough_options& options,
+                           const std::function<fit_summary(std::int64_t trajectories)>& learn) {
+  if (!(options.share > 0.0) || first < 2 || first > options.most) {
+    throw std::invalid_argument(
+        fmt::format("until_enough: share must be > 0 and trajectories a range from 2 or more, got a "
+                    "share of {} and {} to {} trajectories",
+                    options.share, first, options.most));
+  }
+  enough_course course;
+  for (std::int64_t trajectories = first;; trajectories = std::min(2 * trajectories, options.most)) {
+    const fit_summary fit = learn(trajectories);
+    const double share = fit.excess_share();
+    course.stops.push_back({trajectories, share, fit.deciding_trajectories});
+    course.is_reached = share <= options.share && !fit.is_decided_by_few();
+    if (course.is_reached || std::isnan(share) || trajectories == options.most) return course;
+  }
+}
+
+}  // namespace nysalt
