@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../losses/data_loss.hpp"
+#include "data_of_problem.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/learning/problem.hpp"
 
