@@ -7,7 +7,7 @@
 
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 

@@ -16,7 +16,7 @@
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "peers/roofs.hpp"
 #include "peers/two_stage.hpp"

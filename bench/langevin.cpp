@@ -15,7 +15,7 @@
 
 #include "ensemble_run.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/in_bath.hpp"

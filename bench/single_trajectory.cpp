@@ -9,7 +9,7 @@
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "peers/two_stage.hpp"
 #include "races.hpp"

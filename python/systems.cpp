@@ -164,7 +164,7 @@ py::dict facts(const held_system& system) {
   all["dimension"] = described_system.dimension();
   all["observables"] = observables;
   py::list letters;
-  for (const auto& one : described_system.letters()) letters.append(std::string(1, one.letter->facts.letter));
+  for (const auto& one : described_system.letters()) letters.append(std::string(1, one.letter));
   all["letters"] = letters;
   all["default_observable"] = described_system.default_observable();
   all["frequency_bands"] = bands;

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "own_hamiltonian.hpp"
 
 namespace nysalt::python {

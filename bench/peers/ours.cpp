@@ -2,7 +2,7 @@
 // Ours, compiled as the peers are: fused is what NYSALT_FP_CONTRACT gives.
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "two_stage.hpp"
 

@@ -11,7 +11,6 @@ struct bonds_and_charges : examples::bonded_chain<4> {
 };
 
 NYSALT_SYSTEM(bonds_and_charges, "stiff bonds, and charges of one sign",
-              letters<kick_of_part<0>, kick_of_part<1>, kick_of_parts<0, 1>>(),
               starts([](const bonds_and_charges&, double spread) {
                 const Eigen::Vector4d rest = Eigen::Vector4d::Zero();
                 return normal_around<4>({rest, rest}, 0.01 * spread, 0.3 * spread);

@@ -15,6 +15,10 @@ namespace examples {
 
 using namespace nysalt;
 
+struct cyclotron_flow;
+struct velocity_drift;
+struct boris_turn;
+
 /// A particle of unit mass and charge in a uniform magnetic field along the third axis and an electric
 /// potential, a system of three degrees of freedom with a force:
 ///   H = |v|^2/2 + V(q),  v = p - A(q),  A = frequency/2 (-q_2, q_1, 0),
@@ -27,6 +31,7 @@ class charged_particle {
  public:
   static constexpr int dimension = 3;
   static constexpr std::size_t parts = 1;  ///< the electric potential, for kick_of_part<0>
+  using letters = std::tuple<cyclotron_flow, velocity_drift, boris_turn, kick_of_part<0>>;
 
   /// Throws std::invalid_argument unless the cyclotron frequency is finite and not zero.
   charged_particle(const Potential& electric, double cyclotron_frequency)
@@ -211,24 +216,18 @@ struct boris_turn : exact_flow<'w'> {
 
 /// Half a step straight on, half an electric kick, Boris' turn, half a kick, half a step straight on. Order
 /// 2, one electric force; it keeps volume, but is not symplectic. Source: [boris_1970; qin_and_others_2013].
-struct boris {
-  using word = nysalt::word<velocity_drift, kick_of_part<0>, boris_turn, kick_of_part<0>, velocity_drift>;
-  static constexpr int order = 2;
-  static constexpr bool symmetric = true;
-  static constexpr bool requires_quadratic_kinetic = false;
-  static std::string name() { return "boris"; }
-  static std::array<double, 5> coefficients() { return {0.5, 0.5, 1.0, 0.5, 0.5}; }
-};
+inline tabulated boris() {
+  return {"boris",
+          spelled<velocity_drift, kick_of_part<0>, boris_turn, kick_of_part<0>, velocity_drift>(),
+          {0.5, 0.5, 1.0, 0.5, 0.5},
+          {2, true, false}};
+}
 
 /// Half a helix, an electric kick, half a helix: symplectic, of order 2, one electric force, and exact
 /// without an electric field.
-struct cyclotron_verlet {
-  using word = nysalt::word<cyclotron_flow, kick_of_part<0>, cyclotron_flow>;
-  static constexpr int order = 2;
-  static constexpr bool symmetric = true;
-  static constexpr bool requires_quadratic_kinetic = false;
-  static std::string name() { return "cyclotron_verlet"; }
-  static std::array<double, 3> coefficients() { return {0.5, 1.0, 0.5}; }
-};
+inline tabulated cyclotron_verlet() {
+  return {"cyclotron_verlet", spelled<cyclotron_flow, kick_of_part<0>, cyclotron_flow>(), {0.5, 1.0, 0.5},
+          {2, true, false}};
+}
 
 }  // namespace examples

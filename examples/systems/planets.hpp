@@ -201,6 +201,8 @@ class planet_interaction {
   kepler_motions<Planets> kepler_;
 };
 
+struct kepler_flow;
+
 /// A star with planets in Jacobi's coordinates, the centre of mass at rest: part 0 kepler_motions, part 1
 /// planet_interaction. Source: [wisdom_holman_1991].
 template <int Planets>
@@ -208,6 +210,8 @@ class solar_system : public sum_of_parts<kepler_motions<Planets>, planet_interac
   using base = sum_of_parts<kepler_motions<Planets>, planet_interaction<Planets>>;
 
  public:
+  using letters = std::tuple<kepler_flow, kick_of_part<0>, kick_of_part<1>>;
+
   /// A solar system from the masses, the star's first, and G. Throws std::invalid_argument unless all are
   /// positive and finite.
   solar_system(const std::array<double, Planets + 1>& masses, double gravity)
@@ -394,14 +398,10 @@ struct kepler_flow : exact_flow<'K'> {
 /// Half a kick by the other planets, all planets along their ellipses, half a kick: order 2, symmetric, with
 /// an error of the size of the masses of the planets times h^2. One evaluation of the interaction and one
 /// Kepler motion of each planet a step, of a solar_system. Source: [wisdom_holman_1991].
-struct wisdom_holman {
-  using word = nysalt::word<kick_of_part<1>, kepler_flow, kick_of_part<1>>;
-  static constexpr int order = 2;
-  static constexpr bool symmetric = true;
-  static constexpr bool requires_quadratic_kinetic = false;
-  static std::string name() { return "wisdom_holman"; }
-  static std::array<double, 3> coefficients() { return {0.5, 1.0, 0.5}; }
-};
+inline tabulated wisdom_holman() {
+  return {"wisdom_holman", spelled<kick_of_part<1>, kepler_flow, kick_of_part<1>>(), {0.5, 1.0, 0.5},
+          {2, true, false}};
+}
 
 /// The words of Kepler motions and kicks by the other planets in turn that read the same from both ends, with
 /// `Kicks` kicks, to learn: Kepler motions first.

@@ -11,7 +11,7 @@
 #include "nysalt/integrate.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/scalars/pack.hpp"

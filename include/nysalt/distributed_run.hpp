@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "nysalt/communicator.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 
 namespace nysalt {
@@ -36,11 +36,6 @@ class distributed_run {
   /// ranks than the sites can be shared by.
   distributed_run(const model& system, const tabulated& method, double step, const start& at,
                   const communicator& ranks = one_rank);
-  /// A run of any other method.
-  template <Method M>
-  distributed_run(const model& system, const M& method, double step, const start& at,
-                  const communicator& ranks = one_rank)
-      : distributed_run(system, detail::table_for(method, system, step), step, at, ranks) {}
   ~distributed_run();
   distributed_run(distributed_run&&) noexcept;             ///< leaves the other one without a state
   distributed_run& operator=(distributed_run&&) noexcept;  ///< likewise

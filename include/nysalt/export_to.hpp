@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 
 namespace nysalt {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/run_time_word.hpp"
 #include "nysalt/scalars/dual.hpp"
+#include "nysalt/word.hpp"
 
 namespace nysalt {
 
@@ -46,19 +46,20 @@ template <class F>
 using theta_dual = dual<double, F::parameters>;
 
 /// theta -> coefficients of a word, over double and over derivatives with respect to theta:
-///   word, name, parameters, parameter_names
+///   letters, name, parameters, parameter_names
 ///   order, symmetric, requires_quadratic_kinetic   what holds for every theta
 ///   ranges(), start()                              where theta may lie, and where a search begins
-///   coefficients(theta)                            over any scalar
-///   letters()                                      where the word is a run_time_word
-/// All but the last two are static; these may be, or depend on the constructor arguments of the family.
-/// And, if wanted, further points from which a search begins: classical_members(), and further_starts(),
-/// thetas without a name; most_stable_member(), the member with the longest stability interval, for steps
-/// at which the others are unstable; and source, the key in docs/bibliography.bib of where it comes from.
+///   coefficients(theta)                            over any scalar, one for each slot of the letters
+/// All but the last are static; letters and coefficients() may depend on the constructor arguments of the
+/// family. And, if wanted, further points from which a search begins: classical_members(), and
+/// further_starts(), thetas without a name; most_stable_member(), the member with the longest stability
+/// interval, for steps at which the others are unstable; and source, the key in docs/bibliography.bib of where
+/// it comes from.
 template <class F>
-concept Family = std::copyable<F> && Word<typename F::word> &&
+concept Family = std::copyable<F> &&
                  requires(const F& family, const parameters_of<F>& theta,
                           const std::array<theta_dual<F>, static_cast<std::size_t>(F::parameters)>& lifted) {
+                   { family.letters } -> std::convertible_to<const word&>;
                    { F::name } -> std::convertible_to<std::string_view>;
                    { F::parameter_names[0] } -> std::convertible_to<std::string_view>;
                    { F::order } -> std::convertible_to<int>;
@@ -68,26 +69,9 @@ concept Family = std::copyable<F> && Word<typename F::word> &&
                      F::ranges()
                    } -> std::same_as<std::array<parameter_range, static_cast<std::size_t>(F::parameters)>>;
                    { F::start() } -> std::same_as<parameters_of<F>>;
-                   {
-                     family.coefficients(theta)
-                   } -> std::same_as<typename F::word::template coefficients<double>>;
-                   {
-                     family.coefficients(lifted)
-                   } -> std::same_as<typename F::word::template coefficients<theta_dual<F>>>;
-                 } &&
-                 (TypeLevelWord<typename F::word> || requires(const F& family) {
-                   { family.letters() } -> std::convertible_to<run_time_word>;
-                 });
-
-/// The word of a family or a method, as an object.
-template <class F>
-typename F::word word_of(const F& family) {
-  if constexpr (TypeLevelWord<typename F::word>) {
-    return {};
-  } else {
-    return family.letters();
-  }
-}
+                   { family.coefficients(theta)[0] } -> std::convertible_to<double>;
+                   { family.coefficients(lifted)[0] } -> std::convertible_to<theta_dual<F>>;
+                 };
 
 namespace detail {
 inline void require_in_range(std::string_view family, std::string_view parameter,
@@ -98,14 +82,5 @@ inline void require_in_range(std::string_view family, std::string_view parameter
                                        parameter, open ? '(' : '[', low, high, open ? ')' : ']', theta));
 }
 }  // namespace detail
-
-/// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.
-template <Family F>
-void require_in_range(const parameters_of<F>& theta) {
-  const auto ranges = F::ranges();
-  for (std::size_t k = 0; k < theta.size(); ++k) {
-    detail::require_in_range(F::name, F::parameter_names[k], ranges[k], theta[k]);
-  }
-}
 
 }  // namespace nysalt

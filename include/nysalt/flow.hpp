@@ -97,13 +97,6 @@ inline constexpr const char* needs_quadratic_part =
     "the letters R, S, H need a system that declares a quadratic part: modes() and soft_force(q, f), see "
     "nysalt/system.hpp, or with_quadratic_part(system, stiffness); as templates over any scalar, where they "
     "are learned or H is among them";
-template <bool is_served>
-constexpr void require_quadratic_part() {
-  static_assert(is_served,
-                "nysalt: the letters R, S, H need a system that declares a quadratic part: modes() and "
-                "soft_force(q, f), see nysalt/system.hpp");
-}
-
 /// The least of systems, on which a letter can be tried.
 struct free_particle {
   static constexpr int dimension = 1;
@@ -140,10 +133,10 @@ concept AppliedFlow = requires(flow_state<double, 1>& x, flow_room<double, 1>& r
 /// The flow of the bath is ornstein_uhlenbeck, whose `stochastic` is true. A letter of one's own derives from
 /// exact_flow, which states most of this.
 ///
-/// A letter among known_letters states besides, for what is said of words as data:
+/// A letter of the library states besides:
 ///   splits             what its words split H into (`any` if a letter does not say)
-///   needs              the sentence for who does not serve it, and require_served<S, T>(), the same while
-///                      compiling; both of letters that not every system serves
+///   needs              the sentence for who does not serve it, of letters that not every system serves
+///   power_of_second    the power of h that goes with its second coefficient, if it has two
 ///   invertible         with all coefficients negated it is its inverse
 ///   displaced_forces   how many forces it evaluates itself, at displaced points or of a part, if any
 ///   symplectic         false of one that is not

@@ -13,7 +13,7 @@
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/communicator.hpp"
 #include "nysalt/initial_states.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 
 namespace nysalt {

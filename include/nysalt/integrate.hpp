@@ -79,15 +79,15 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
 }
 
 /// Integrates by a method at a step. For many trajectories make the stepper once.
-template <System S, Method M, class Observer>
-outcome<S::dimension> integrate(const S& system, const M& method, double step,
+template <System S, class Observer>
+outcome<S::dimension> integrate(const S& system, const tabulated& method, double step,
                                 const phase_point<double, S::dimension>& start, std::int64_t steps,
                                 Observer&& observer, std::int64_t every = 1) {
   return integrate(make_stepper(system, method, step), start, steps, std::forward<Observer>(observer), every);
 }
 /// Integrates by a method at a step, without observer.
-template <System S, Method M>
-outcome<S::dimension> integrate(const S& system, const M& method, double step,
+template <System S>
+outcome<S::dimension> integrate(const S& system, const tabulated& method, double step,
                                 const phase_point<double, S::dimension>& start, std::int64_t steps) {
   return integrate(make_stepper(system, method, step), start, steps);
 }

@@ -139,8 +139,8 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
 /// Integrates an ensemble with one observable: take(m, n, observable(x)). The observable is called for one
 /// trajectory after the other, or for all lanes at a time if it is marked by over_lanes; of trajectories that
 /// have diverged too, so it must bear any state.
-template <System S, Method M, Ensemble<S> E, class Observable, class Take>
-std::vector<std::optional<std::int64_t>> integrate_ensemble(const S& system, const M& method, double step,
+template <System S, Ensemble<S> E, class Observable, class Take>
+std::vector<std::optional<std::int64_t>> integrate_ensemble(const S& system, const tabulated& method, double step,
                                                             const E& ensemble,
                                                             const ensemble_options& options,
                                                             const Observable& observable, const Take& take) {

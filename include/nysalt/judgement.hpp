@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "nysalt/detail/divergence.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_point.hpp"
 

@@ -82,6 +82,8 @@ class model {
     return result;
   }
   int threads() const { return threads_; }  ///< number of threads that share a step of one trajectory
+  /// The system, as the letters that it declares find it.
+  const void* held() const { return system_->held(); }
   /// Functions of the sites of a LocalSystem, else null.
   const detail::site_kernels* sites() const { return system_->sites(); }
   /// A model with an own copy of the system, for a thread whose system may change while it computes.

@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/detail/requirements.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensembles/given_states.hpp"
@@ -53,7 +52,16 @@ struct frequency_of_system {
   F highest;
 };
 template <Flow... L>
-struct letters_of_system {};
+struct declared_letters {};
+
+/// S with the letters of each piece that declares some.
+template <class S, class... Pieces>
+struct with_letters_of : std::type_identity<S> {};
+template <class S, Flow... L, class... Pieces>
+struct with_letters_of<S, declared_letters<L...>, Pieces...>
+    : with_letters_of<with_letters<S, L...>, Pieces...> {};
+template <class S, class First, class... Pieces>
+struct with_letters_of<S, First, Pieces...> : with_letters_of<S, Pieces...> {};
 
 /// S with a description that names the parameters, and a kind that names those that are no size, where S
 /// itself does not give them.
@@ -94,41 +102,15 @@ inline constexpr bool is_frequency = false;
 template <class F>
 inline constexpr bool is_frequency<frequency_of_system<F>> = true;
 
-template <Flow L, class S>
-declared_letter letter_on(const S& system, const std::string& description) {
-  static_assert(!names_known_letter<L>,
-                "nysalt: a letter of one's own takes a character that no known letter has");
-  static_assert(
-      requires {
-        requires L::invertible;
-        requires L::reversible;
-      },
-      "nysalt: a letter that a system declares must be invertible and reversible, as exact_flow states; step "
-      "the word by its type");
-  require_letter<L, S, double>();
-  const auto check = [system](const std::vector<phase_point<double, Eigen::Dynamic>>& states, double h) {
-    std::vector<phase_point<double, S::dimension>> points;
-    for (const auto& x : states) points.push_back({x.q, x.p});
-    return check_letter<L>(system, points, h);
-  };
-  return {{std::make_shared<const bound_letter<L, S>>(system, description), times_of<L>(), parts_of<L>()},
-          check};
+template <class L>
+concept DeclarableLetter = requires {
+  requires L::invertible;
+  requires L::reversible;
+};
+template <class... L>
+consteval bool can_be_declared(const std::tuple<L...>*) {
+  return (DeclarableLetter<L> && ...);
 }
-
-template <class S, Flow... L>
-void take_letters(const letters_of_system<L...>&, const S& system, const std::string& description,
-                  std::vector<declared_letter>& to) {
-  (to.push_back(letter_on<L>(system, description)), ...);
-}
-template <class S, class Piece>
-void take_letters(const Piece&, const S&, const std::string&, std::vector<declared_letter>&) {}
-
-template <Flow... L>
-void add_names(const letters_of_system<L...>&, std::string& to) {
-  ((to += L::letter), ...);
-}
-template <class Piece>
-void add_names(const Piece&, std::string&) {}
 
 template <class S, class F>
 initial_states starts_by(const starts_of_system<F>& piece, const S& system, double spread) {
@@ -194,25 +176,29 @@ detail::frequency_of_system<F> frequency(F highest) {
 /// Letters of the user's own, of the form of exact_flow, whose names spell words: word:tct. The
 /// program tries what they state by check_letter() where a word with them is first taken.
 template <Flow... L>
-detail::letters_of_system<L...> letters() {
+detail::declared_letters<L...> letters() {
   return {};
 }
 
 /// The declaration of S: of its parameters, its starts, and what else there is, in any order.
 template <class S, class... Pieces>
 system_declaration declare_system(std::string name, std::string title, Pieces... pieces) {
-  require_suited<system_declaration, S>();
+  require_suited<S>();
+  using declared = typename detail::with_letters_of<S, Pieces...>::type;
   static_assert(!std::is_final_v<S>,
                 "nysalt: a declared system must not be final: it is counted by deriving");
   static_assert(std::is_default_constructible_v<S>,
                 "nysalt: a declared system needs a default constructor: give each member a value");
+  static_assert(detail::can_be_declared(static_cast<const detail::letters_of<declared>*>(nullptr)),
+                "nysalt: a letter that a system declares must be invertible and reversible, as exact_flow "
+                "states; step the word by the system's type");
   static_assert((0 + ... + detail::is_starts<Pieces>) == 1, "nysalt: NYSALT_SYSTEM needs starts(...), once");
   static_assert((0 + ... + detail::is_frequency<Pieces>) <= 1, "nysalt: frequency(...) may be given once");
   std::vector<detail::member_parameter<S>> members;
   (detail::take_piece<S>(pieces, members), ...);
   system_declaration result{.name = std::move(name), .title = std::move(title)};
   for (const auto& member : members) result.parameters.push_back(member.declared);
-  (detail::add_names(pieces, result.letters), ...);
+  for (const letter_facts& own : detail::letters_declared_by(declared())) result.letters += own.letter;
   const auto spread_of = []<class Piece>(const Piece*) {
     if constexpr (detail::is_starts<Piece>)
       return detail::takes_spread<S>(static_cast<const Piece*>(nullptr));
@@ -221,7 +207,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
   result.has_spread = (spread_of(static_cast<const Pieces*>(nullptr)) || ...);
   result.make = [members, name = result.name, all = std::tuple(std::move(pieces)...)](
                     const parameter_values& values, const bath& in, double spread) {
-    S system;
+    declared system;
     std::string listed;
     std::string listed_of_kind;
     bool has_size = false;
@@ -256,12 +242,9 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
       const std::string text = detail::TellsDescription<S> ? describe(system) : name + "(" + listed + ")";
       std::string kind = has_size ? name + "(" + listed_of_kind + ")" : text;
       if constexpr (declares_kind) kind = system.kind();
-      return detail::made_of(detail::described<S>(system, text, kind), in, law.front(), highest);
+      return detail::made_of(detail::described<declared>(system, text, kind), in, law.front(), highest);
     }();
     made.observables = std::move(observables);
-    const std::string bare = made.system.base().description();
-    std::apply([&](const auto&... piece) { (detail::take_letters(piece, system, bare, made.letters), ...); },
-               all);
     if (made.springs.pairs > 0) made.default_observable = "stiff_energy";
     return made;
   };

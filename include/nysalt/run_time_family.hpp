@@ -15,6 +15,7 @@
 
 #include "nysalt/family.hpp"
 #include "nysalt/langevin.hpp"
+#include "nysalt/method.hpp"
 
 namespace nysalt {
 
@@ -29,25 +30,17 @@ struct contained_family;
 /// The names, bounds and promises of a family, its word, and theta -> coefficients with their Jacobian.
 class run_time_family {
  public:
-  /// A run-time family from any family; only the members below are used.
+  /// The family that a user's struct describes; it converts by itself. Throws std::logic_error if the family
+  /// does not contain the one that it declares as `contained`.
   template <class F>
     requires(!std::same_as<F, run_time_family> && Family<F>)
-  explicit run_time_family(const F& family) : run_time_family(family, run_time_word(word_of(family))) {}
-  /// A run-time family of a word with letters of the user's own, as they act on this system.
-  template <Family F, System S>
-    requires(TypeLevelWord<typename F::word> && !std::same_as<S, run_time_word>)
-  run_time_family(const F& family, const S& system)
-      : run_time_family(family, run_time_word(word_of(family), system)) {}
-
- private:
-  template <Family F>
-  run_time_family(const F& family, const run_time_word& word)
+  run_time_family(const F& family)  // NOLINT(google-explicit-constructor)
       : name(F::name),
         parameter_names(F::parameter_names.begin(), F::parameter_names.end()),
         order(F::order),
         symmetric(F::symmetric),
         requires_quadratic_kinetic(F::requires_quadratic_kinetic),
-        letters(word),
+        letters(family.letters),
         coefficients_([family](const Eigen::VectorXd& theta) {
           const auto c = family.coefficients(array_from<F>(theta));
           return std::vector<double>(c.begin(), c.end());
@@ -77,10 +70,8 @@ class run_time_family {
     }
     if constexpr (requires { typename F::contained; }) contain(run_time_family(typename F::contained{}));
   }
-
- public:
   /// A method as a family of one member, without parameters.
-  run_time_family(std::string method_name, run_time_word word, std::vector<double> coefficients);
+  run_time_family(std::string method_name, const word& letters, std::vector<double> coefficients);
 
   std::string name;
   std::string source;                                 ///< key in docs/bibliography.bib; empty: not published
@@ -93,7 +84,7 @@ class run_time_family {
   int order;
   bool symmetric;
   bool requires_quadratic_kinetic;
-  run_time_word letters;
+  word letters;
 
   Eigen::Index parameters() const { return static_cast<Eigen::Index>(parameter_names.size()); }
   std::vector<double> coefficients(const Eigen::VectorXd& theta) const { return coefficients_(theta); }
@@ -118,7 +109,7 @@ class run_time_family {
   /// observed: a force evaluation for each pair.
   friend run_time_family processed(const run_time_family& kernel, int pairs);
 
-  friend run_time_family symmetric_word(std::string name, const run_time_word& word,
+  friend run_time_family symmetric_word(std::string name, const word& letters,
                                         const std::string& times);
 
  private:
@@ -169,10 +160,14 @@ struct contained_family {
 /// order 2; of drifts and kicks with a fast and a slow part it is r-RESPA.
 /// Throws std::invalid_argument if the word does not read the same from both ends, has a processor, or two
 /// equal neighbours, or unless there is one character for each slot.
-run_time_family symmetric_word(std::string name, const run_time_word& word, const std::string& times);
+run_time_family symmetric_word(std::string name, const word& letters, const std::string& times);
 
 /// Pairs of letters of a processor: more gain little, and cost evaluations each time that a run is observed.
 inline constexpr int most_processor_pairs = 8;
+
+/// The member of a family at theta, usable at any step. Throws std::invalid_argument unless there is a value
+/// for each parameter, in its range.
+tabulated member(const run_time_family& family, const std::vector<double>& theta);
 
 /// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.
 void require_in_range(const run_time_family& family, const Eigen::VectorXd& theta);

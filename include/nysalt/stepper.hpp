@@ -11,10 +11,9 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <variant>
+#include <vector>
 
-#include "nysalt/detail/conservative_part.hpp"
-#include "nysalt/detail/prepared_run_time_word.hpp"
+#include "nysalt/detail/prepared_word.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/served_letters.hpp"
 #include "nysalt/noise.hpp"
@@ -36,48 +35,35 @@ struct open_run {
 ///
 /// The letters O act if the system is in a bath; in none, or in one that does not act, they are deleted from
 /// the word, and a step has the bits of the word that is left.
-template <System S, Word W, Scalar C = double, NoiseSource Noise = no_noise>
+template <System S, Scalar C = double, NoiseSource Noise = no_noise>
 class stepper {
-  static constexpr bool may_be_noisy = [] {
-    if constexpr (!HasBath<S>) return false;
-    if constexpr (TypeLevelWord<W>) return W::stochastic_letters > 0;
-    return true;
-  }();
+  static constexpr bool may_be_noisy = HasBath<S>;
 
  public:
   using system_type = S;                          ///< type of the system
   using noise_type = Noise;                       ///< type of the noise source
   static constexpr int dimension = S::dimension;  ///< degrees of freedom
 
-  /// Coefficients, one for each slot of the word.
-  using coefficients_type = typename W::template coefficients<C>;
-
   /// Prepares the letters for the step, once for all runs. Throws std::invalid_argument if the step is zero
-  /// or not finite; if a run-time word has another number of slots than of coefficients, or a letter that the
+  /// or not finite; if the word has another number of slots than of coefficients, or a letter that the
   /// system does not serve; if a bath acts and the word has no letter O; or if it is noisy and there is no
   /// noise. A negative step goes back in time.
-  stepper(const S& system, const W& word, const coefficients_type& coefficients, double step,
+  stepper(const S& system, const word& letters, const std::vector<C>& coefficients, double step,
           const Noise& noise = {})
       : system_(&system),
         step_(step),
         noise_(noise),
         acts_(acts_on(system)),
-        stochastic_letters_(word.stochastic_letters),
-        is_processed_(is_processed(word)),
-        takes_room_(word.force_derivatives + word.displaced_forces > 0 || has_rotation(word)),
-        letters_(letters_of(system, word, coefficients, step)),
-        quiet_(quiet_letters_of(system, word, coefficients, step)) {
+        stochastic_letters_(letters.stochastic_letters),
+        is_processed_(letters.is_processed()),
+        takes_room_(letters.force_derivatives + letters.displaced_forces > 0 || letters.reads_modes),
+        letters_(letters_of(system, letters, coefficients, step)) {
     if (!std::isfinite(step) || step == 0.0) {
       throw std::invalid_argument(sentence("the step must be finite and not zero, got {}", step));
     }
-    if (acts_) require_thermostat(word.letters());
+    if (acts_) require_thermostat(letters.view());
   }
-  /// A stepper of a word that is known by type.
-  stepper(const S& system, const coefficients_type& coefficients, double step, const Noise& noise = {})
-    requires TypeLevelWord<W>
-      : stepper(system, W{}, coefficients, step, noise) {}
-  stepper(const S&&, const W&, const coefficients_type&, double, const Noise& = {}) = delete;  // a temporary
-  stepper(const S&&, const coefficients_type&, double, const Noise& = {}) = delete;
+  stepper(const S&&, const word&, const std::vector<C>&, double, const Noise& = {}) = delete;  // a temporary
 
   double step_size() const { return step_; }     ///< h; back in time it is negative
   const S& system() const { return *system_; }   ///< reference to the stepped system
@@ -94,7 +80,7 @@ class stepper {
       run.state.f[i] = T(0.0);      // a checkpoint has no noise
     if (is_processed_) return run;  // which advance() opens
     auto cursor = cursor_at<T>(trajectory, 0);
-    with_letters([&](const auto& letters) { letters.open(*system_, run.state, cursor); });
+    letters_.open(*system_, run.state, cursor);
     return run;
   }
 
@@ -107,11 +93,8 @@ class stepper {
     if (steps < 0) throw std::invalid_argument(sentence("stepper: steps must be >= 0, got {}", steps));
     flow_state<T, dimension> x = std::move(run.state);  // local: it cannot alias the system
     auto cursor = cursor_at<T>(run.trajectory, run.step);
-    with_letters([&](const auto& all) __attribute__((always_inline)) {
-      decltype(auto) letters = all.in_loop();
-      if (opens_now(run, steps)) all.open(*system_, x, cursor);
-      letters.advance(*system_, x, steps, cursor);
-    });
+    if (opens_now(run, steps)) letters_.open(*system_, x, cursor);
+    letters_.advance(*system_, x, steps, cursor);
     run.state = std::move(x);
     run.step += steps;
   }
@@ -135,27 +118,25 @@ class stepper {
     const S& system = *system_;
     const std::int64_t end = run.step + steps;
     auto cursor = cursor_at<T>(run.trajectory, run.step);
-    with_letters([&](const auto& all) __attribute__((always_inline)) {
-      decltype(auto) letters = all.in_loop();
-      if (opens_now(run, steps)) all.open(system, x, cursor);
-      std::int64_t step = run.step;
-      if constexpr (ErasedSystem<S>) {
-        std::int64_t next = (step / every + 1) * every;
-        return letters.advance(system, x, y, steps, next - step, every, cursor, [&] {
-          observe(next, static_cast<const phase_point<T, dimension>&>(y));
-          next += every;
-        });
-      }
+    if (opens_now(run, steps)) letters_.open(system, x, cursor);
+    std::int64_t step = run.step;
+    if constexpr (ErasedSystem<S>) {
+      std::int64_t next = (step / every + 1) * every;
+      letters_.advance(system, x, y, steps, next - step, every, cursor, [&] {
+        observe(next, static_cast<const phase_point<T, dimension>&>(y));
+        next += every;
+      });
+    } else {
       while (step < end) {
         const std::int64_t next = std::min(end, (step / every + 1) * every);
-        letters.advance(system, x, next - step, cursor);
+        letters_.advance(system, x, next - step, cursor);
         step = next;
         if (step % every != 0) continue;
         y = x;
-        all.close(system, y, cursor);
+        letters_.close(system, y, cursor);
         observe(step, static_cast<const phase_point<T, dimension>&>(y));
       }
-    });
+    }
     run.state = std::move(x);
     run.step = end;
   }
@@ -167,7 +148,7 @@ class stepper {
     if (is_processed_ && run.step == 0) return {run.state.q, run.state.p};
     flow_state<T, dimension> x = run.state;
     auto cursor = cursor_at<T>(run.trajectory, run.step);
-    with_letters([&](const auto& letters) { letters.close(*system_, x, cursor); });
+    letters_.close(*system_, x, cursor);
     return {std::move(x.q), std::move(x.p)};
   }
 
@@ -178,11 +159,8 @@ class stepper {
     x = run.state;
     if (is_processed_ && run.step == 0) return;
     auto cursor = cursor_at<T>(run.trajectory, run.step);
-    if (is_processed_) {
-      if constexpr (!TypeLevelWord<W>) letters_.close_kernel(*system_, x, cursor);
-      return;
-    }
-    with_letters([&](const auto& letters) { letters.close(*system_, x, cursor); });
+    if (is_processed_) return letters_.close_kernel(*system_, x, cursor);
+    letters_.close(*system_, x, cursor);
   }
 
   /// One plain step, letter by letter, from only q and p (f is scratch): what learning and the
@@ -191,7 +169,7 @@ class stepper {
   template <SteppedBy<C> T>
   void step(flow_state<T, dimension>& x, std::uint64_t trajectory = 0, std::int64_t n = 0) const {
     auto cursor = cursor_at<T>(trajectory, n);
-    with_letters([&](const auto& letters) { letters.step(*system_, x, cursor); });
+    letters_.step(*system_, x, cursor);
   }
   template <SteppedBy<C> T>
   void step(phase_point<T, dimension>& x, std::uint64_t trajectory = 0, std::int64_t n = 0) const {
@@ -216,31 +194,20 @@ class stepper {
   void run(flow_state<T, dimension>& x, flow_state<T, dimension>& y, std::span<const int> after,
            std::uint64_t trajectory, Observe&& observe) const {
     auto cursor = cursor_at<T>(trajectory, 0);
-    with_letters([&](const auto& letters) {
-      letters.open(*system_, x, cursor);
-      int done = 0;
-      for (std::size_t k = 0; k < after.size(); ++k) {
-        letters.advance(*system_, x, after[k] - done, cursor);
-        done = after[k];
-        y = x;
-        letters.close(*system_, y, cursor);
-        observe(k);
-      }
-    });
+    letters_.open(*system_, x, cursor);
+    int done = 0;
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      letters_.advance(*system_, x, after[k] - done, cursor);
+      done = after[k];
+      y = x;
+      letters_.close(*system_, y, cursor);
+      observe(k);
+    }
   }
 
  private:
-  static constexpr bool chooses = may_be_noisy && TypeLevelWord<W>;  // at run time, not at compile time
-  using letters_type = prepared_word<std::conditional_t<may_be_noisy, W, conservative_word<W>>, C, dimension>;
-  using quiet_type =
-      std::conditional_t<chooses, prepared_word<conservative_word<W>, C, dimension>, std::monostate>;
+  using letters_type = prepared_word<C, dimension>;
 
-  static constexpr bool is_processed(const W& word) {
-    if constexpr (TypeLevelWord<W>)
-      return false;
-    else
-      return word.is_processed();
-  }
   /// Whether the run of a processed word is at its start, and leaves it.
   bool opens_now(const auto& run, std::int64_t steps) const {
     return is_processed_ && run.step == 0 && steps > 0;
@@ -249,51 +216,27 @@ class stepper {
     if constexpr (HasBath<S>) return static_cast<const bath&>(system.bath()).acts();
     return false;
   }
-  static letters_type letters_of(const S& system, const W& word, const coefficients_type& c, double step) {
-    const surroundings_of_word around = surroundings(system, word);
-    if constexpr (may_be_noisy) {
-      if (system.bath().acts() || TypeLevelWord<W>) return letters_type(word, c, step, around);
-    }
-    if constexpr (!chooses) {
-      return letters_type(conservative_part(word), conservative_part(word, c), step, around);
-    } else {
-      throw std::logic_error("stepper: not reached");
-    }
-  }
-  static quiet_type quiet_letters_of(const S& system, const W& word, const coefficients_type& c,
-                                     double step) {
-    if constexpr (chooses) {
-      return quiet_type(conservative_part(word), conservative_part(word, c), step,
-                        surroundings(system, word));
-    } else {
-      return {};
-    }
+  static letters_type letters_of(const S& system, const word& letters, const std::vector<C>& c, double step) {
+    const surroundings_of_word around = surroundings(system, letters);
+    if (acts_on(system)) return letters_type(system, letters, c, step, around);
+    return letters_type(system, conservative_part(letters), conservative_part(letters, c), step, around);
   }
 
-  /// Throws std::invalid_argument if the system does not serve a letter; of a type-level word that is refused
-  /// when it is compiled.
-  static surroundings_of_word surroundings(const S& system, const W& word) {
+  /// Throws std::invalid_argument if the system does not serve a letter.
+  static surroundings_of_word surroundings(const S& system, const word& letters) {
     surroundings_of_word result;
     if constexpr (ErasedSystem<S>) result.threads = system.threads();
     if constexpr (HasBath<S>) result.heat_bath = static_cast<const bath&>(system.bath());
-    require_served<S, C>(word, system);
+    require_served<S, C>(letters, system);
     if constexpr (HasQuadraticPart<S>) {
-      if (has_rotation(word)) result.part = modal_coordinates::of(system);
+      if (letters.reads_modes) result.part = modal_coordinates::of(system);
     }
     return result;
   }
 
-  /// f(letters that act)
-  [[gnu::always_inline]] void with_letters(const auto& f) const {
-    if constexpr (chooses) {
-      if (!acts_) return f(quiet_);
-    }
-    f(letters_);
-  }
-
   template <Scalar T>
   auto cursor_at(std::uint64_t trajectory, std::int64_t step) const {
-    using room = std::conditional_t<letters_type::needs_room, flow_room<T, dimension>, no_room>;
+    using room = flow_room<T, dimension>;
     if constexpr (may_be_noisy) {
       const bath& heat_bath = system_->bath();
       const Eigen::Index numbers = acts_ || dimension != Eigen::Dynamic ? size(*system_) : 0;
@@ -303,21 +246,12 @@ class stepper {
                                                      stochastic_letters_,
                                                      heat_bath.sigma() > 0.0,
                                                      vector<T, dimension>(numbers),
-                                                     make_room<room>()};
+                                                     room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
     } else {
-      return quiet_cursor<room>{make_room<room>()};
+      return quiet_cursor<room>{room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
     }
   }
-  template <class Room>
-  Room make_room() const {
-    if constexpr (std::is_same_v<Room, no_room>) {
-      return {};
-    } else {
-      return Room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0);
-    }
-  }
-
-  void require_thermostat(const std::string& letters) const {
+  void require_thermostat(std::string_view letters) const {
     if constexpr (HasBath<S>) {
       if (stochastic_letters_ == 0) {
         throw std::invalid_argument(
@@ -350,8 +284,7 @@ class stepper {
   int stochastic_letters_;
   bool is_processed_;
   bool takes_room_;
-  letters_type letters_;
-  [[no_unique_address]] quiet_type quiet_;  // in a bath that does not act
+  letters_type letters_;  // without letters O in a bath that does not act
 };
 
 }  // namespace nysalt

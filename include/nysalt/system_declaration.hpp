@@ -15,10 +15,8 @@
 
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/bath.hpp"
-#include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/detail/any_reference.hpp"
 #include "nysalt/detail/kernels.hpp"
-#include "nysalt/detail/known_letters.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/systems/in_bath.hpp"
@@ -71,13 +69,6 @@ class parameter_values {
 struct named_observable {
   std::string name;                              ///< name in --observables
   detail::over_scalars<detail::of_state> value;  ///< function of one state, or of those in the lanes of packs
-};
-
-/// A letter of the user's own by name, bound to a system.
-struct declared_letter {
-  detail::named_letter named;  ///< bound to the system
-  /// check_letter() of the letter at some states, over the step h.
-  std::function<letter_check(const std::vector<phase_point<double, Eigen::Dynamic>>&, double h)> check;
 };
 
 namespace detail {
@@ -133,7 +124,6 @@ struct initial_value_problem {
   initial_states starts;   ///< the initial distribution
   double frequency = 0.0;  ///< the highest of the motion, rare starts included; 0: not known
   std::vector<named_observable> observables{};  ///< observables beyond those of every system
-  std::vector<declared_letter> letters{};       ///< letters beyond those of the library
   std::string default_observable = "energy";    ///< observable where none is named
   double fine_angle =
       5e-3;  ///< step of a reference times the frequency: there a reference of order 6 errs by rounding

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
-// A method's letters in the order in which they act, and what follows from that order.
+// A word: the letters of a method in the order in which they act, and what follows from that order.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <concepts>
 #include <cstddef>
-#include <numeric>
+#include <span>
 #include <string>
-#include <tuple>
+#include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
-#include "nysalt/flow.hpp"
+#include "nysalt/letters.hpp"
 
 namespace nysalt {
 
@@ -23,52 +22,232 @@ enum class evaluation { none, unshared, shared };
 
 namespace detail {
 
-/// The evaluations of all letters, known at compile time or at run time: an array or a vector of evaluations.
-template <class Evaluations>
-struct evaluation_plan {
-  Evaluations in_step;              // a plain step, which starts from only q and p
-  Evaluations in_loop;              // a step of an open run, if another one follows; from letter `first` on
-  Evaluations in_last;              // the same, if the run may be observed then
-  bool is_known_when_open = false;  // the force, whenever a run may be observed
+// Refusals of words: a word that is a constant does not compile where it would call one of them.
+[[noreturn]] void refuse_word_without_letters();
+[[noreturn]] void refuse_too_long_word(std::string_view letters, std::size_t most);
+[[noreturn]] void refuse_unknown_letter(std::string_view letters, char letter);
+[[noreturn]] void refuse_two_splittings(std::string_view letters);
+[[noreturn]] void refuse_word_of_bath_only(std::string_view letters);
+[[noreturn]] void refuse_letters_of_processor(std::string_view letters, std::string_view processor);
+[[noreturn]] void refuse_processor_in_bath(std::string_view letters);
+[[noreturn]] void refuse_processor_of_rotations(std::string_view letters);
+[[noreturn]] void refuse_too_many_own_letters(std::string_view letters, std::size_t most);
+[[noreturn]] void refuse_coefficients(std::string_view letters, std::size_t length, std::size_t slots,
+                                      std::size_t got);
 
-  constexpr evaluation_plan() = default;
-  /// reads[i]: letter i reads the force; moves[i]: it is stale afterwards.
-  constexpr evaluation_plan(const auto& reads, const auto& moves, std::size_t first, const Evaluations& none)
-      : in_step(none), in_loop(none) {
-    find_known(reads, moves, in_step, 0, false);
-    find_needed(reads, in_step, 0, false);
-    const bool after_one_step = find_known(reads, moves, in_loop, first, false);
-    find_known(reads, moves, in_loop, first, after_one_step);
-    const bool by_next = find_needed(reads, in_loop, first, false);
-    in_last = in_loop;
-    is_known_when_open = by_next || (first > 0 && reads[0]);  // the first letter may be taken back
-    find_needed(reads, in_loop, first, by_next);
-    find_needed(reads, in_last, first, is_known_when_open);
+}  // namespace detail
+
+/// A method's letters, which act from left to right: word("BAB") is velocity Verlet. A word is a value: a
+/// constant of a family, a template argument, or data of a file. A word that is a constant is checked while
+/// it is compiled.
+///
+/// A run over many steps is held open: the first letter is already applied. Where the last letter is the
+/// first one again (and additive), the two become one; and a force is reused while q has not moved.
+class word {
+ public:
+  static constexpr std::size_t most_letters = 512;  ///< largest number of letters, with the processor
+  static constexpr std::size_t most_own = 8;        ///< largest number of letters that are not the library's
+  /// Separates the letters of a kernel from those of its processor.
+  static constexpr char processor_mark = '|';
+
+  /// Letters as in docs/notation.md, acting from left to right: "BAB" is velocity Verlet, and "ABA|BABA" the
+  /// kernel ABA with the processor P = BABA. A run of a processed word begins with P(h)^-1, its steps are
+  /// those of the kernel, and what is observed is a copy on which P(-h) has acted. Letters of a system, such
+  /// as facts_of_letter() or own_letters_of() describe, are added by their facts.
+  /// Throws std::invalid_argument if there is no letter but O, or one that is not known, if some letters
+  /// split H in one way and some in the other, if a processor is not made of letters A and B in turn, or
+  /// belongs to a kernel with letters O or R, or if there are more than most_letters.
+  constexpr explicit word(std::string_view letters, std::span<const letter_facts> own = {}) {
+    take_text(letters, own);
+    take_letters();
+    take_plan();
+    if (is_processed()) take_processor();
   }
 
-  static constexpr int count(const Evaluations& found) {
-    int result = 0;
-    for (const evaluation e : found) result += e != evaluation::none;
+  /// A word with other letters; letters of a system are those of this word.
+  constexpr word with_letters(std::string_view other) const { return word(other, own()); }
+
+  constexpr std::string_view view() const { return {text.data(), text_size}; }  ///< letters as given
+  std::string letters() const { return std::string(view()); }                   ///< letters as given
+  constexpr char letter(std::size_t i) const { return text[i]; }                ///< name of letter i
+  constexpr bool is_processed() const { return length < text_size; }  ///< whether the word has a processor
+  /// The letters of the processor P; empty of a word that has none.
+  constexpr std::string_view processor() const {
+    return is_processed() ? view().substr(length + 1) : std::string_view();
+  }
+
+  /// Throws std::invalid_argument unless there are as many coefficients as slots.
+  void require_one_for_each_slot(const auto& coefficients) const {
+    if (coefficients.size() != slots) detail::refuse_coefficients(view(), length, slots, coefficients.size());
+  }
+
+  /// Properties of letter i.
+  constexpr const letter_facts& facts(std::size_t i) const {
+    if (const letter_facts* found = own_letter(text[i])) return *found;
+    for (const letter_facts& known : letter_table) {
+      if (known.letter == text[i]) return known;
+    }
+    detail::refuse_unknown_letter(view(), text[i]);
+  }
+  /// Number of coefficients of letter i.
+  constexpr std::size_t slots_of(std::size_t i) const { return facts(i).slots; }
+  /// Index of the first coefficient of letter i; those of all letters are in one list, letter after letter.
+  constexpr std::size_t first_slot(std::size_t i) const {
+    std::size_t result = 0;
+    for (std::size_t k = 0; k < i; ++k) result += slots_of(k);
     return result;
   }
 
+  constexpr bool has_own_letters() const { return own_count > 0; }  ///< whether letters are of a system
+  /// The letters that are of a system, each once.
+  constexpr std::span<const letter_facts> own() const { return {own_facts.data(), own_count}; }
+  /// A letter of a system; null where the letter is another one.
+  constexpr const letter_facts* own_letter(char letter) const {
+    for (std::size_t k = 0; k < own_count; ++k) {
+      if (own_facts[k].letter == letter) return &own_facts[k];
+    }
+    return nullptr;
+  }
+  /// Whether the letters are those of a quadratic part and the rest, R, S or H.
+  constexpr bool rotates() const { return is_rotating; }
+  /// First letter of a step of an open run: 1 if letter 0 merges with the last.
+  constexpr std::size_t first_in_loop() const { return merges ? 1 : 0; }
+
+  /// The evaluations of all letters.
+  struct evaluation_plan {
+    std::array<evaluation, most_letters> in_step{};  ///< of a plain step, which starts from only q and p
+    /// Of a step of an open run, if another one follows; from letter first_in_loop() on.
+    std::array<evaluation, most_letters> in_loop{};
+    std::array<evaluation, most_letters> in_last{};  ///< the same, if the run may be observed then
+    bool is_known_when_open = false;                 ///< the force, whenever a run may be observed
+  };
+  /// Plan of force evaluations, in a plain step and in an open run.
+  constexpr evaluation_plan plan() const {
+    evaluation_plan result;
+    const std::size_t first = first_in_loop();
+    find_known(result.in_step, 0, false);
+    find_needed(result.in_step, 0, false);
+    const bool after_one_step = find_known(result.in_loop, first, false);
+    find_known(result.in_loop, first, after_one_step);
+    const bool by_next = find_needed(result.in_loop, first, false);
+    result.in_last = result.in_loop;
+    // The first letter may be taken back.
+    result.is_known_when_open = by_next || (first > 0 && facts(0).reads != field::none);
+    find_needed(result.in_loop, first, by_next);
+    find_needed(result.in_last, first, result.is_known_when_open);
+    return result;
+  }
+
+  bool operator==(const word&) const = default;  ///< the same letters
+
+  std::array<char, most_letters> text{};             ///< letters, then zeros
+  std::size_t text_size = 0;                         ///< number of characters of the text
+  std::array<letter_facts, most_own> own_facts{};    ///< of own()
+  std::size_t own_count = 0;                         ///< number of letters of a system
+  std::size_t length = 0;        ///< number of letters, those of a processor left out
+  std::size_t slots = 0;         ///< number of coefficients: those of the kernel, then those of the processor
+  std::size_t kernel_slots = 0;  ///< number of coefficients without the processor
+  field reads = field::none;     ///< the force that the letters read
+  int force_derivatives = 0;     ///< f'(q) v in a step, one evaluation each
+  int displaced_forces = 0;      ///< forces at displaced points in a step
+  bool is_symplectic = true;     ///< whether every letter is symplectic
+  bool is_rotating = false;      ///< rotates()
+  bool reads_modes = false;      ///< whether the word has a letter R
+  bool merges = false;           ///< last and first letter are applied as one
+  bool merges_half_steps = false;     ///< first and last letter are of the bath
+  int stochastic_letters = 0;         ///< number of letters O
+  int evaluations_per_step = 0;       ///< force evaluations of a step of an open run
+  int evaluations_to_open = 0;        ///< force evaluations to open a run, those of P(h)^-1 among them
+  /// Force evaluations of each observation of a run: those of P(-h), or of a first letter that is taken
+  /// back and evaluates forces itself.
+  int evaluations_to_observe = 0;
+  int evaluations_of_plain_step = 0;  ///< force evaluations of a step from only q and p
+
  private:
+  constexpr void take_text(std::string_view letters, std::span<const letter_facts> own) {
+    if (letters.size() > most_letters) detail::refuse_too_long_word(letters, most_letters);
+    text_size = letters.size();
+    std::copy(letters.begin(), letters.end(), text.begin());
+    length = std::min(letters.find(processor_mark), letters.size());
+    if (length == 0) detail::refuse_word_without_letters();
+    for (const letter_facts& one : own) {
+      if (letters.find(one.letter) == std::string_view::npos || own_letter(one.letter)) continue;
+      if (detail::is_known_letter(one.letter)) continue;
+      if (own_count == most_own) detail::refuse_too_many_own_letters(letters, most_own);
+      own_facts[own_count++] = one;
+    }
+  }
+
+  constexpr void take_letters() {
+    bool is_of_k_and_v = false;
+    for (std::size_t i = 0; i < length; ++i) {
+      const letter_facts& one = facts(i);
+      slots += one.slots;
+      force_derivatives += one.force_derivatives;
+      displaced_forces += one.displaced_forces;
+      is_symplectic = is_symplectic && one.symplectic;
+      if (one.reads != field::none) reads = one.reads;
+      stochastic_letters += one.is_of_bath ? 1 : 0;
+      is_of_k_and_v = is_of_k_and_v || one.splits == splitting::kinetic_and_potential;
+      is_rotating = is_rotating || one.splits == splitting::quadratic_part_and_rest;
+      reads_modes = reads_modes || one.reads_modes;
+    }
+    kernel_slots = slots;
+    if (is_of_k_and_v && is_rotating) detail::refuse_two_splittings(view());
+    if (stochastic_letters == static_cast<int>(length)) detail::refuse_word_of_bath_only(view());
+    merges = length > 1 && text[0] == text[length - 1] && facts(0).additive;
+    merges_half_steps = length > 1 && facts(0).is_of_bath && facts(length - 1).is_of_bath;
+  }
+
+  constexpr void take_plan() {
+    const evaluation_plan found = plan();
+    const auto count = [](const auto& all) {
+      int result = 0;
+      for (const evaluation one : all) result += one != evaluation::none ? 1 : 0;
+      return result;
+    };
+    if (merges) evaluations_to_observe = facts(0).displaced_forces;  // once a run and observation
+    const int by_letters = force_derivatives + displaced_forces;
+    evaluations_per_step = count(found.in_loop) + by_letters - evaluations_to_observe;
+    evaluations_to_open = (found.is_known_when_open ? 1 : 0) + evaluations_to_observe;
+    evaluations_of_plain_step = count(found.in_step) + by_letters;
+  }
+
+  constexpr void take_processor() {
+    const std::string_view letters = processor();
+    const auto is_other = [](char a, char b) { return (a == 'A' && b == 'B') || (a == 'B' && b == 'A'); };
+    bool are_in_turn = letters.starts_with('A') || letters.starts_with('B');
+    int forces = 0;
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+      are_in_turn = are_in_turn && (i == 0 || is_other(letters[i - 1], letters[i]));
+      forces += letters[i] == 'B' ? 1 : 0;
+    }
+    if (!are_in_turn) detail::refuse_letters_of_processor(view(), letters);
+    if (stochastic_letters > 0) detail::refuse_processor_in_bath(view());
+    if (is_rotating) detail::refuse_processor_of_rotations(view());
+    slots += letters.size();
+    evaluations_to_observe = forces;
+    evaluations_to_open += forces;
+    evaluations_of_plain_step += 2 * forces;
+  }
+
   /// A letter that does not find the force known evaluates it. Returns whether it is known after the last
   /// letter.
-  static constexpr bool find_known(const auto& reads, const auto& moves, Evaluations& found,
-                                   std::size_t first, bool known) {
-    for (std::size_t i = first; i < reads.size(); ++i) {
-      found[i] = reads[i] && !known ? evaluation::shared : evaluation::none;
-      known = (known || reads[i]) && !moves[i];
+  constexpr bool find_known(std::array<evaluation, most_letters>& found, std::size_t first, bool known) const {
+    for (std::size_t i = first; i < length; ++i) {
+      const letter_facts& one = facts(i);
+      const bool reads_force = one.reads != field::none;
+      found[i] = reads_force && !known ? evaluation::shared : evaluation::none;
+      known = (known || reads_force) && !one.moves_q;
     }
     return known;
   }
-
   /// Who evaluates it for others, if it is needed after the last letter or not. Returns whether it is needed
   /// before the first.
-  static constexpr bool find_needed(const auto& reads, Evaluations& found, std::size_t first, bool needed) {
-    for (std::size_t i = reads.size(); i-- > first;) {
-      if (!reads[i]) continue;
+  constexpr bool find_needed(std::array<evaluation, most_letters>& found, std::size_t first,
+                             bool needed) const {
+    for (std::size_t i = length; i-- > first;) {
+      if (facts(i).reads == field::none) continue;
       if (found[i] != evaluation::none) found[i] = needed ? evaluation::shared : evaluation::unshared;
       needed = found[i] == evaluation::none;
     }
@@ -76,116 +255,30 @@ struct evaluation_plan {
   }
 };
 
-}  // namespace detail
-
-/// A method by its letters, as a type. They act from left to right: word<kick, drift, kick> is velocity
-/// Verlet.
-///
-/// A run over many steps is held open: the first letter is already applied. Where the last letter is the
-/// first one again (and additive), the two become one; and a force is reused while q has not moved.
-/// Both are known here, at compile time, and so is the number of force evaluations.
+/// The word of these flows, from left to right: those of the library, and those of a system.
 template <Flow... L>
   requires(sizeof...(L) > 0)
-struct word {
-  static constexpr std::size_t length = sizeof...(L);  ///< number of letters
-  /// The flow of letter I, from 0 on.
-  template <std::size_t I>
-  using letter = std::tuple_element_t<I, std::tuple<L...>>;
-  /// Coefficients, one for each slot; C is double or the scalar of the states.
-  template <class C>
-  using coefficients = std::array<C, (0 + ... + L::slots)>;
+constexpr word spelled() {
+  constexpr auto are_told_apart = []<class One>(std::type_identity<One>) {
+    return ((One::letter != L::letter || std::is_same_v<One, L>) && ...);
+  };
+  static_assert((are_told_apart(std::type_identity<L>()) && ...),
+                "nysalt: letters of one's own must have different names; name one of them otherwise");
+  static_assert(((detail::is_among<L, known_letters> || !detail::is_known_letter(L::letter)) && ...),
+                "nysalt: a letter of one's own takes a character that no known letter has");
+  constexpr std::array letters{L::letter...};
+  constexpr std::array facts{facts_of_letter<L>()...};
+  return word(std::string_view(letters.data(), letters.size()), facts);
+}
 
-  /// Index of the first coefficient of letter i; those of all letters are in one list, letter after letter.
-  static constexpr std::size_t first_slot(std::size_t i) {
-    constexpr std::array<std::size_t, length> slots{L::slots...};
-    return std::accumulate(slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(i), std::size_t{0});
-  }
-  static constexpr std::size_t slots = first_slot(length);  ///< number of coefficients
-
-  /// The force that its letters read.
-  static constexpr field reads = std::max({L::reads...});
-  /// Whether a letter belongs to this splitting of H only.
-  static constexpr bool holds(splitting of_h) { return ((detail::splitting_of<L>() == of_h) || ...); }
-  /// Whether the letters are those of a quadratic part and the rest, R, S or H.
-  static constexpr bool rotates() { return holds(splitting::quadratic_part_and_rest); }
-  /// Whether all letters are of one splitting of H. Others do not compile.
-  static constexpr bool has_one_splitting = !(holds(splitting::kinetic_and_potential) && rotates());
-  static_assert(
-      has_one_splitting,
-      "nysalt: the letters A, B, D, G split H into K and V, and R, S, H into its quadratic part and the "
-      "rest: a word has those of one splitting");
-
-  static constexpr bool reads_modes = (QuadraticFlow<L> || ...);  ///< whether the word has a letter R
-
-  /// Last and first letter of successive steps are applied as one.
-  static constexpr bool merges = [] {
-    return length > 1 && std::is_same_v<letter<0>, letter<length - 1>> && letter<0>::additive;
-  }();
-
-  /// Number of letters O.
-  static constexpr int stochastic_letters = (0 + ... + (StochasticFlow<L> ? 1 : 0));
-  /// Number of letter i among the letters O, from 0 on.
-  static constexpr int stochastic_number(std::size_t i) {
-    constexpr std::array<bool, length> is{StochasticFlow<L>...};
-    return static_cast<int>(std::count(is.begin(), is.begin() + static_cast<std::ptrdiff_t>(i), true));
-  }
-  /// A letter of the bath ends one step, and another begins the next.
-  static constexpr bool merges_half_steps =
-      length > 1 && StochasticFlow<letter<0>>&& StochasticFlow<letter<length - 1>>;
-
-  static std::string letters() {
-    return {L::letter...};
-  }  ///< letters of docs/notation.md, from left to right
-
-  /// First letter of a step of an open run: 1 if letter 0 merges with the last.
-  static constexpr std::size_t first_in_loop = merges ? 1 : 0;
-  /// Plan of force evaluations, in a plain step and in an open run.
-  static constexpr detail::evaluation_plan<std::array<evaluation, length>> plan{
-      std::array{(L::reads != field::none)...}, std::array{L::moves_q...}, first_in_loop, {}};
-
-  /// Number of f'(q) v in a step, each of which counts as one force evaluation.
-  static constexpr int force_derivatives =
-      (0 + ... + L::force_derivatives);  // none is in a letter that merges
-  /// Number of forces that letters evaluate themselves in a plain step, at displaced points or of parts.
-  static constexpr int displaced_forces = (0 + ... + detail::displaced_forces_of<L>());
-  /// Forces of the first letter where it merges: once a run, not in each step.
-  static constexpr int displaced_forces_to_open = merges ? detail::displaced_forces_of<letter<0>>() : 0;
-  /// Whether every letter is symplectic, and so the step.
-  static constexpr bool is_symplectic = (detail::is_symplectic<L>() && ...);
-  /// Force evaluations of a step of an open run.
-  static constexpr int evaluations_per_step =
-      plan.count(plan.in_loop) + force_derivatives + displaced_forces - displaced_forces_to_open;
-  /// Force evaluations to open a run.
-  static constexpr int evaluations_to_open = (plan.is_known_when_open ? 1 : 0) + displaced_forces_to_open;
-  /// Force evaluations of an observation: those of the first letter, which is taken back on a copy.
-  static constexpr int evaluations_to_observe = displaced_forces_to_open;
-  /// Force evaluations of a plain step, which begins with only q and p.
-  static constexpr int evaluations_of_plain_step =
-      plan.count(plan.in_step) + force_derivatives + displaced_forces;
-};
-
-namespace detail {
-template <class W>
-inline constexpr bool is_word = false;
-template <class... L>
-inline constexpr bool is_word<word<L...>> = true;
-}  // namespace detail
-
-/// Letters known at compile time: the word of a family as a type. The word as data is run_time_word.
-template <class W>
-concept TypeLevelWord = detail::is_word<W>;
-
-// Words of two letters in turn that read the same from both ends.
-
-namespace detail {
-template <Flow First, Flow Second, std::size_t... I>
-auto alternate(std::index_sequence<I...>) -> word<std::conditional_t<I % 2 == 0, First, Second>...>;
-}  // namespace detail
-
-/// First Second First ... of the given odd length.
+/// First Second First ... of the given odd length: a word that reads the same from both ends.
 template <Flow First, Flow Second, std::size_t Length>
   requires(Length % 2 == 1)
-using alternating_word = decltype(detail::alternate<First, Second>(std::make_index_sequence<Length>{}));
+constexpr word alternating() {
+  return []<std::size_t... I>(std::index_sequence<I...>) {
+    return spelled<std::conditional_t<I % 2 == 0, First, Second>...>();
+  }(std::make_index_sequence<Length>{});
+}
 
 /// The coefficients x_1 y_1 x_2 y_2 ... y_2 x_2 y_1 x_1 of such a word from its first ones: the middle one
 /// and its neighbour follow from consistency, sum x = sum y = 1. Symmetric, hence of even order.
@@ -209,5 +302,73 @@ constexpr std::array<C, Length> palindrome(const std::array<C, (Length - 3) / 2>
   for (std::size_t i = 0; i < middle; ++i) all[Length - 1 - i] = all[i];
   return all;
 }
+
+/// Evaluations of the force of a part of V in a step of an open run, which a declared price multiplies. Letters
+/// that do not say, such as drifts, evaluate none.
+constexpr int evaluations_of_part(const word& letters, std::size_t part) {
+  int all = 0;
+  for (std::size_t i = letters.first_in_loop(); i < letters.length; ++i) {
+    const std::string_view parts = letters.facts(i).parts.view();
+    all += parts.find(static_cast<char>('0' + part)) != std::string_view::npos ? 1 : 0;
+  }
+  return all;
+}
+
+/// The declared cost of a step of an open run: the sum over parts of price times evaluations.
+constexpr double declared_cost(const word& letters, std::span<const double> prices) {
+  double all = 0.0;
+  for (std::size_t part = 0; part < prices.size(); ++part) {
+    all += prices[part] * evaluations_of_part(letters, part);
+  }
+  return all;
+}
+
+/// Whether the kernel of a method, which is all of it without a processor, reads the same from both ends,
+/// letters and coefficients. A step back undoes a step then, with any processor.
+bool is_palindrome(const word& letters, const std::vector<double>& coefficients);
+
+/// The word without its letters O: what it is in a bath that does not act. Throws std::invalid_argument if
+/// nothing is left.
+word conservative_part(const word& letters);
+/// The coefficients of the letters that are left. Throws std::invalid_argument unless there is one for each
+/// slot.
+template <class C>
+std::vector<C> conservative_part(const word& letters, const std::vector<C>& all) {
+  letters.require_one_for_each_slot(all);
+  if (letters.stochastic_letters == 0) return all;
+  std::vector<C> result;
+  std::size_t slot = 0;
+  for (std::size_t i = 0; i < letters.length; ++i) {
+    for (std::size_t k = 0; k < letters.slots_of(i); ++k, ++slot) {
+      if (letters.letter(i) != bath_letter) result.push_back(all[slot]);
+    }
+  }
+  return result;
+}
+
+namespace detail {
+
+/// The word before the first step of a processed word, P(h)^-1: the letters of P from the last to the first.
+word pre_processor(const word& letters);
+/// The coefficients of P(h)^-1 from those of the whole word.
+template <class C>
+std::vector<C> pre_processor_coefficients(const word& letters, const std::vector<C>& all) {
+  std::vector<C> result;
+  for (std::size_t i = letters.slots; i-- > letters.kernel_slots;) result.push_back(C(-all[i]));
+  return result;
+}
+/// The word on a copy that is observed, P(-h).
+word post_processor(const word& letters);
+/// The coefficients of P(-h) from those of the whole word.
+template <class C>
+std::vector<C> post_processor_coefficients(const word& letters, const std::vector<C>& all) {
+  std::vector<C> result;
+  for (std::size_t i = letters.kernel_slots; i < letters.slots; ++i) result.push_back(C(-all[i]));
+  return result;
+}
+
+}  // namespace detail
+
+using run_time_word = word;
 
 }  // namespace nysalt

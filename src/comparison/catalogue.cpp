@@ -11,7 +11,6 @@
 #include "nysalt/families/gradient_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/classical_methods.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "prepared_problem.hpp"
@@ -49,10 +48,10 @@ std::optional<int> pairs_in(std::string_view digits) {
 }
 
 /// Throws refusal for a letter that has no place in word:LETTERS.
-void require_letters(std::string_view name, std::string_view letters, const detail::named_letters& known) {
+void require_letters(std::string_view name, std::string_view letters, const std::vector<letter_facts>& known) {
   for (const char letter : letters) {
     if (std::string_view("ABRS").find(letter) != std::string_view::npos) continue;
-    if (std::ranges::any_of(known, [&](const auto& one) { return one.letter->facts.letter == letter; }))
+    if (std::ranges::any_of(known, [&](const auto& one) { return one.letter == letter; }))
       continue;
     const bool is_of_tables = std::string_view("OGHD|").find(letter) != std::string_view::npos;
     refuse("{}: each letter must be A, B, R, S or one that the system declares, here {}, got {}; {}", name,
@@ -63,32 +62,29 @@ void require_letters(std::string_view name, std::string_view letters, const deta
 
 }  // namespace
 
-std::string names_of(const detail::named_letters& of_system) {
+std::string names_of(const std::vector<letter_facts>& of_system) {
   std::vector<std::string> names;
-  for (const auto& one : of_system) names.emplace_back(1, one.letter->facts.letter);
+  for (const auto& one : of_system) names.emplace_back(1, one.letter);
   return names.empty() ? "no letters of its own" : "the letters " + listed(names);
 }
 
-std::string times_of_slots(const run_time_word& word, const detail::named_letters& of_system) {
+std::string times_of_slots(const word& letters) {
   std::string result;
-  for (std::size_t i = 0; i < word.length; ++i) {
-    const char letter = word.letters()[i];
-    const auto own =
-        std::ranges::find_if(of_system, [&](const auto& one) { return one.letter->facts.letter == letter; });
-    const std::string times = own == of_system.end() ? std::string(1, letter) : own->times;
-    if (times.size() != word.slots_of(i)) {
+  for (std::size_t i = 0; i < letters.length; ++i) {
+    const letter_facts& one = letters.facts(i);
+    if (one.times.size != one.slots) {
       refuse(
           "the word {}: the letter {} must state of which parts of H its {} coefficients are the times; add "
           "a member `times`, a character for each",
-          word.letters(), letter, word.slots_of(i));
+          letters.letters(), one.letter, one.slots);
     }
-    result += times;
+    result += one.times.view();
   }
   return result;
 }
 
 namespace {
-run_time_family word_named(std::string_view name, const detail::named_letters& of_system) {
+run_time_family word_named(std::string_view name, const std::vector<letter_facts>& of_system) {
   const std::string letters(name.substr(word_prefix.size()));
   require_letters(name, letters, of_system);
   constexpr std::size_t most = 64;  // letters: their coefficients are learned
@@ -96,8 +92,8 @@ run_time_family word_named(std::string_view name, const detail::named_letters& o
     refuse("{}: a word must have at most {} letters, got {}", name, most, letters.size());
   }
   try {
-    const run_time_word word(letters, detail::letters_in(of_system));
-    return symmetric_word(std::string(name), word, times_of_slots(word, of_system));
+    const word all(letters, of_system);
+    return symmetric_word(std::string(name), all, times_of_slots(all));
   } catch (const std::invalid_argument& problem) {
     const std::string_view why = problem.what();
     if (why.starts_with(name)) refuse("{}", why);
@@ -106,15 +102,13 @@ run_time_family word_named(std::string_view name, const detail::named_letters& o
 }
 }  // namespace
 
-tabulated method_of_word(std::string_view name, const detail::named_letters& of_system) {
+tabulated method_of_word(std::string_view name, const std::vector<letter_facts>& of_system) {
   const auto family = word_named(name, of_system);
-  return {family.name,
-          family.letters,
-          family.coefficients(family.starts.front().theta),
-          {family.order, family.symmetric, family.requires_quadratic_kinetic}};
+  const Eigen::VectorXd& theta = family.starts.front().theta;
+  return member(family, {theta.begin(), theta.end()});
 }
 
-run_time_family family_named(std::string_view name, const detail::named_letters& of_system) {
+run_time_family family_named(std::string_view name, const std::vector<letter_facts>& of_system) {
   if (is_word(name)) return word_named(name, of_system);
   const auto mark = name.rfind("+p");
   const std::string_view kernel = name.substr(0, mark);
@@ -134,7 +128,7 @@ run_time_family family_named(std::string_view name, const detail::named_letters&
 }
 
 run_time_family placed(std::string_view name, std::optional<placement> where,
-                       const detail::named_letters& of_system) {
+                       const std::vector<letter_facts>& of_system) {
   const auto plain = family_named(name, of_system);
   return where ? thermostatted(plain, *where) : plain;
 }
@@ -144,16 +138,13 @@ std::string source_of_family(std::string_view name) {
 }
 
 tabulated family_member(const std::string& name, const std::vector<double>& parameters,
-                        const detail::named_letters& of_system) {
+                        const std::vector<letter_facts>& of_system) {
   const auto family = family_named(name, of_system);
   if (std::ssize(parameters) != family.parameters()) {
     refuse("the family {} must have {} parameters ({}), got {}", name, family.parameters(),
            listed(family.parameter_names), parameters.size());
   }
-  const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(parameters.data(), family.parameters());
-  require_in_range(family, theta);
-  return tabulated(family.name, family.letters, family.coefficients(theta),
-                   {family.order, family.symmetric, family.requires_quadratic_kinetic});
+  return member(family, parameters);
 }
 
 const std::vector<classical_method>& classical_methods() {
@@ -191,27 +182,26 @@ std::optional<fitted_frequency> to_cover(const prepared_problem& system) {
 }
 
 template <class M>
-adaptive_method adaptive(std::optional<fitted_frequency> (*frequency)(const prepared_problem&)) {
-  return {M::name(),
-          M::source,
-          run_time_word(typename M::word{}),
-          {M::order, M::symmetric, M::requires_quadratic_kinetic},
-          frequency,
-          [](double z) { return tabulated(M(z)); }};
+adaptive_method adaptive(const char* name) {
+  return {name, M::source, M::letters_of_all, M::promises, to_cover, [](double z) { return M(z); }};
 }
 
-template <Family F, Method M>
-adaptive_method fitted() {
-  return adaptive<phase_fitted<F, M>>(to_fit);
+adaptive_method fitted(const run_time_family& family, const tabulated& classical) {
+  return {"phase_fitted_" + classical.name(),
+          phase_fitted_source,
+          classical.letters(),
+          {classical.order, true, classical.requires_quadratic_kinetic || family.requires_quadratic_kinetic},
+          to_fit,
+          [=](double z) { return phase_fitted(family, classical, z); }};
 }
 
 }  // namespace
 
 const std::vector<adaptive_method>& adaptive_methods() {
   static const std::vector<adaptive_method> all{
-      adaptive<s_aia2>(to_cover),   adaptive<s_aia3>(to_cover),  fitted<fg_chin, chin4a>(),
-      fitted<fg4, omelyan_fg4>(),   fitted<aba<4>, pefrl>(),     fitted<bab<4>, vefrl>(),
-      fitted<aba<5>, mclachlan5>(), fitted<bab<5>, omelyan5v>(), fitted<bab<6>, srkn6b>(),
+      adaptive<s_aia2>("s_aia2"),     adaptive<s_aia3>("s_aia3"),    fitted(fg_chin(), chin4a()),
+      fitted(fg4(), omelyan_fg4()),   fitted(aba<4>(), pefrl()),     fitted(bab<4>(), vefrl()),
+      fitted(aba<5>(), mclachlan5()), fitted(bab<5>(), omelyan5v()), fitted(bab<6>(), srkn6b()),
   };
   return all;
 }

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "nysalt/detail/known_letters.hpp"
+#include "nysalt/letters.hpp"
 #include "nysalt/learning/problem.hpp"
 #include "nysalt/losses/window_error.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/run_time_family.hpp"
 #include "refusal.hpp"
 
@@ -31,24 +31,24 @@ inline bool is_word(std::string_view name) { return name.starts_with(word_prefix
 /// FAMILY, or FAMILY+pPAIRS with a processor, or word:LETTERS, of A, B, R, S and the letters of a system.
 /// Throws refusal, listing the names, if there is none of that name, and where the family cannot have a
 /// processor, or a word no symmetric coefficients.
-run_time_family family_named(std::string_view name, const detail::named_letters& of_system = {});
+run_time_family family_named(std::string_view name, const std::vector<letter_facts>& of_system = {});
 /// With its letters O, where there is a bath.
 run_time_family placed(std::string_view name, std::optional<placement> where,
-                       const detail::named_letters& of_system = {});
+                       const std::vector<letter_facts>& of_system = {});
 /// The member of word:LETTERS that is made of equal steps.
-tabulated method_of_word(std::string_view name, const detail::named_letters& of_system);
+tabulated method_of_word(std::string_view name, const std::vector<letter_facts>& of_system);
 /// The part of H whose time each slot is, a character each. Throws refusal for a letter that has several
 /// coefficients and does not say.
-std::string times_of_slots(const run_time_word& word, const detail::named_letters& of_system);
+std::string times_of_slots(const word& letters);
 /// "t, c", or "no letters of its own".
-std::string names_of(const detail::named_letters& of_system);
+std::string names_of(const std::vector<letter_facts>& of_system);
 
 /// The key of a family's source in docs/bibliography.bib; empty: not published.
 std::string source_of_family(std::string_view name);
 
 /// A member of a family, from its parameters. Throws what is wrong with them, or with the name.
 tabulated family_member(const std::string& family, const std::vector<double>& parameters,
-                        const detail::named_letters& of_system = {});
+                        const std::vector<letter_facts>& of_system = {});
 
 /// A classical method whose coefficients are fixed.
 struct classical_method {
@@ -76,7 +76,7 @@ placement placement_named(const std::string& name);
 struct adaptive_method {
   std::string name;
   std::string_view source;  // in docs/bibliography.bib
-  run_time_word letters;
+  word letters;
   method_properties properties;
   std::optional<fitted_frequency> (*frequency)(const prepared_problem&);  // nothing where none is known
   std::function<tabulated(double z)> at;  // throws std::invalid_argument where it ends

@@ -5,28 +5,17 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <string>
+#include <string_view>
 
 #include "refusal.hpp"
 
 namespace nysalt::program {
 
-namespace {
-
-/// A letter that kicks with parts; null of any other.
-const detail::named_letter* kick_of_parts_in(const detail::named_letters& of_system, char letter) {
-  const auto found =
-      std::ranges::find_if(of_system, [&](const auto& one) { return one.letter->facts.letter == letter; });
-  return found == of_system.end() || found->parts.empty() ? nullptr : &*found;
-}
-
-}  // namespace
-
-void require_sound_prices(const std::vector<double>& prices, const detail::named_letters& of_system) {
+void require_sound_prices(const std::vector<double>& prices, const std::vector<letter_facts>& of_system) {
   if (prices.empty()) return;
   std::size_t parts = 0;
   for (const auto& one : of_system) {
-    for (const char part : one.parts) parts = std::max(parts, static_cast<std::size_t>(part - '0') + 1);
+    for (const char part : one.parts.view()) parts = std::max(parts, static_cast<std::size_t>(part - '0') + 1);
   }
   if (parts == 0)
     refuse(
@@ -43,17 +32,15 @@ void require_sound_prices(const std::vector<double>& prices, const detail::named
     refuse("--prices must have a positive and finite sum, got {:g}", whole);
 }
 
-double priced_evaluations(const run_time_word& word, const std::vector<double>& prices,
-                          const detail::named_letters& of_system) {
-  double evaluations = word.evaluations_per_step;
+double priced_evaluations(const word& letters, const std::vector<double>& prices) {
+  double evaluations = letters.evaluations_per_step;
   if (prices.empty()) return evaluations;
   const double whole = std::accumulate(prices.begin(), prices.end(), 0.0);
-  const std::size_t first = word.merges ? 1 : 0;  // in the loop the first letter is merged with the last
-  for (std::size_t i = first; i < word.length; ++i) {
-    const detail::named_letter* kick = kick_of_parts_in(of_system, word.letters()[i]);
-    if (kick == nullptr) continue;
-    evaluations -= kick->letter->facts.displaced_forces;
-    for (const char part : kick->parts) evaluations += prices[static_cast<std::size_t>(part - '0')] / whole;
+  for (std::size_t i = letters.first_in_loop(); i < letters.length; ++i) {
+    const std::string_view parts = letters.facts(i).parts.view();
+    if (parts.empty()) continue;
+    evaluations -= letters.facts(i).displaced_forces;
+    for (const char part : parts) evaluations += prices[static_cast<std::size_t>(part - '0')] / whole;
   }
   return evaluations;
 }

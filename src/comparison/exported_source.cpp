@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "did_you_mean.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -95,12 +95,11 @@ export_source exported_from(const method_source& source, const export_request& r
       refuse("cannot export {}: {}", source.typed, problem.what());
     }
   }
-  for (const char letter : result.method.letters().letters()) {
-    if (result.method.letters().own_letter(letter) == nullptr) continue;
+  for (const letter_facts& own : result.method.letters().own()) {
     refuse(
-        "export: {} must have letters that hosts have, got the letter {} of {}, which is code of that "
-        "system; take a word of A, B, D and G",
-        source.typed, letter, result.method.letters().own_letter(letter)->system);
+        "export: {} must have letters that hosts have, got the letter {}, which is code of a system; take a "
+        "word of A, B, D and G",
+        source.typed, own.letter);
   }
   result.options.displaced = request.displaced;
   result.options.about.push_back("To cite: nysalt cite" + arguments_of_cite(source));

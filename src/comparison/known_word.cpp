@@ -65,7 +65,7 @@ std::vector<letter> letters_of(const run_time_word& word, const std::vector<doub
     if (const auto* own = word.own_letter(name)) {
       const auto first = coefficients.begin() + static_cast<std::ptrdiff_t>(slot);
       const auto count = static_cast<std::ptrdiff_t>(word.slots_of(i));
-      result.push_back({name, 0.0, 0.0, {first, first + count}, own->facts.additive});
+      result.push_back({name, 0.0, 0.0, {first, first + count}, own->additive});
       continue;
     }
     letter one{name, coefficients[slot], word.slots_of(i) > 1 ? coefficients[slot + 1] : 0.0};
@@ -137,7 +137,7 @@ std::optional<std::string> known_as(const tabulated& method, std::span<const tab
 
 std::optional<std::string> known_as(const std::string& family, const std::vector<double>& theta,
                                     std::span<const tabulated> further,
-                                    const detail::named_letters& of_system) {
+                                    const std::vector<letter_facts>& of_system) {
   const run_time_family named_family = family_named(family, of_system);
   const auto member = [&](const std::string& name, const Eigen::VectorXd& at) {
     return tabulated(name, named_family.letters, named_family.coefficients(at),

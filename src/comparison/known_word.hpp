@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/detail/known_letters.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/letters.hpp"
+#include "nysalt/method.hpp"
 
 namespace nysalt::program {
 
@@ -23,6 +23,6 @@ std::optional<std::string> known_as(const tabulated& method, std::span<const tab
 /// theta is of that family.
 std::optional<std::string> known_as(const std::string& family, const std::vector<double>& theta,
                                     std::span<const tabulated> further = {},
-                                    const detail::named_letters& of_system = {});
+                                    const std::vector<letter_facts>& of_system = {});
 
 }  // namespace nysalt::program

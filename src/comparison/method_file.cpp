@@ -16,10 +16,10 @@
 #include "inputs.hpp"
 #include "method_file_format.hpp"
 #include "nysalt/derivatives/properties.hpp"
-#include "nysalt/detail/known_letters.hpp"
+#include "nysalt/letters.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/losses/loss_choice.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "refusal.hpp"
 #include "stability.hpp"
 
@@ -112,12 +112,12 @@ int whole_in(const document_reader& read, const char* name, int most) {
 }
 
 /// The name of a letter of one's own: not one that the library has, and each once.
-char letter_in(const document_reader& read, const detail::named_letters& before) {
+char letter_in(const document_reader& read, const std::vector<letter_facts>& before) {
   const std::string name = read.text("letter");
   const bool is_free =
       name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0])) != 0 &&
-      !detail::with_letter(name[0], known_letters{}, [](auto) {}) &&
-      std::ranges::none_of(before, [&](const auto& one) { return one.letter->facts.letter == name[0]; });
+      std::ranges::find(letter_table, name[0], &letter_facts::letter) == letter_table.end() &&
+      std::ranges::find(before, name[0], &letter_facts::letter) == before.end();
   if (!is_free) {
     refuse(
         "{}: each \"letter\" of \"own_letters\" must be another letter or digit, and none of the library, "
@@ -129,7 +129,7 @@ char letter_in(const document_reader& read, const detail::named_letters& before)
 
 /// Of which parts its coefficients are the times, a character for each.
 std::string times_in(const document_reader& read) {
-  constexpr std::size_t most = 64;
+  constexpr std::size_t most = short_text::most;
   std::string times = read.text("times");
   const bool are_names = std::ranges::all_of(times, [](unsigned char c) { return std::isgraph(c) != 0; });
   if (times.empty() || times.size() > most || !are_names) {
@@ -142,9 +142,8 @@ std::string times_in(const document_reader& read) {
 }
 
 /// Those of its system that a scheme states.
-detail::named_letters own_letters_in(const json& document, const document_reader& read,
-                                     const std::string& system) {
-  detail::named_letters result;
+std::vector<letter_facts> own_letters_in(const json& document, const document_reader& read) {
+  std::vector<letter_facts> result;
   if (!document.contains("own_letters")) return result;
   const json& all = read.member("own_letters");
   if (!all.is_array()) {
@@ -160,20 +159,13 @@ detail::named_letters own_letters_in(const json& document, const document_reader
     const char name = letter_in(one, result);
     const std::string times = times_in(one);
     constexpr int most_forces = 64;
-    result.push_back({std::make_shared<const detail::stated_letter>(
-                          detail::letter_facts{.letter = name,
-                                               .slots = times.size(),
-                                               .reads = field::none,
-                                               .force_derivatives = 0,
-                                               .displaced_forces = whole_in(one, "forces", most_forces),
-                                               .moves_q = one.flag("moves_q"),
-                                               .additive = one.flag("additive"),
-                                               .symplectic = one.flag("symplectic"),
-                                               .is_of_bath = false,
-                                               .reads_modes = false,
-                                               .splits = splitting::any},
-                          system),
-                      times});
+    result.push_back(as_stated({.letter = name,
+                                .slots = times.size(),
+                                .displaced_forces = whole_in(one, "forces", most_forces),
+                                .moves_q = one.flag("moves_q"),
+                                .additive = one.flag("additive"),
+                                .symplectic = one.flag("symplectic"),
+                                .times = std::string_view(times)}));
   }
   return result;
 }
@@ -187,7 +179,7 @@ scheme scheme_in(const json& document, const document_reader& read) {
   }
   const std::string name = read.text("family");
   const document_reader of_system(read.member("system"), read.file());
-  const auto own_letters = own_letters_in(document, read, of_system.text("description"));
+  const auto own_letters = own_letters_in(document, read);
   const run_time_family family = [&] {
     try {
       return family_named(name, own_letters);
@@ -237,7 +229,7 @@ std::string sums_of(const run_time_word& word, const std::vector<double>& coeffi
     if (letter == "H") letter = "S";
     sums[letter] += coefficients[word.first_slot(i)];
   }
-  const std::string processor = word.processor();
+  const std::string_view processor = word.processor();
   for (std::size_t i = 0; i < processor.size(); ++i) {
     sums[fmt::format("{} of the processor", processor[i])] += coefficients[word.kernel_slots + i];
   }
@@ -263,10 +255,9 @@ int order_of(const tabulated& method, std::string times) {
 
 /// A table with letters of the system.
 tabulated table_of_system(const std::string& name, const run_time_word& word,
-                          const std::vector<double>& coefficients, const detail::named_letters& of_system,
-                          const document_reader& read, std::optional<double> declared) {
+                          const std::vector<double>& coefficients, const document_reader& read, std::optional<double> declared) {
   const tabulated bare(name, word, coefficients, {1, is_palindrome(word, coefficients), word.rotates()});
-  const std::string times = times_of_slots(word, of_system);
+  const std::string times = times_of_slots(word);
   std::map<char, double> sums;
   for (std::size_t k = 0; k < times.size(); ++k) sums[times[k]] += coefficients[k];
   for (const auto& [part, sum] : sums) {
@@ -284,7 +275,7 @@ tabulated table_of_system(const std::string& name, const run_time_word& word,
 }
 
 tabulated table_in(const json& document, const document_reader& read,
-                   const detail::named_letters& of_system) {
+                   const std::vector<letter_facts>& of_system) {
   if (document.contains("placement")) {
     refuse("{}: a table must have no \"placement\"; write O among its letters, or FILE@PLACEMENT",
            read.file());
@@ -296,7 +287,7 @@ tabulated table_in(const json& document, const document_reader& read,
   }
   const std::vector<double> coefficients = read.numbers("coefficients");
   return in_file(read.file(), [&] {
-    const run_time_word word(letters, detail::letters_in(of_system));
+    const nysalt::word word(letters, of_system);
     const std::string name = document.contains("name") ? read.text("name") : "table";
     if (word.has_own_letters()) {
       if (word.is_processed() || word.stochastic_letters > 0) {
@@ -304,7 +295,7 @@ tabulated table_in(const json& document, const document_reader& read,
                read.file(), letters);
       }
       const auto declared = document.contains("order") ? std::optional(read.number("order")) : std::nullopt;
-      return table_of_system(name, word, coefficients, of_system, read, declared);
+      return table_of_system(name, word, coefficients, read, declared);
     }
     const tabulated bare(name, word, coefficients, {1, false, false});
     if (word.stochastic_letters > 0) intervals_of_noise(word, coefficients);  // letters O cover the step once
@@ -327,16 +318,26 @@ tabulated table_in(const json& document, const document_reader& read,
             read.file(), found.quadratic_kinetic, declared);
       }
     }
-    if (!has_rotation(word) && limit_of(bare) == 0.0) {  // throws where there are too many letters
+    if (!word.reads_modes && limit_of(bare) == 0.0) {  // throws where there are too many letters
       refuse("{} must be linearly stable at small steps; take other coefficients", read.file());
     }
     return tabulated(name, word, coefficients,
                      {found.quadratic_kinetic, is_palindrome(word, coefficients),
-                      found.any_kinetic < found.quadratic_kinetic || has_rotation(word)});
+                      found.any_kinetic < found.quadratic_kinetic || word.reads_modes});
   });
 }
 
 }  // namespace
+
+letter_facts as_stated(const letter_facts& of_system) {
+  return {.letter = of_system.letter,
+          .slots = of_system.slots,
+          .displaced_forces = of_system.displaced_forces,
+          .moves_q = of_system.moves_q,
+          .additive = of_system.additive,
+          .symplectic = of_system.symplectic,
+          .times = of_system.times};
+}
 
 tabulated scheme::at(double step) const {
   const double inside = std::clamp(step, curve.steps().front(), curve.steps().back());
@@ -366,13 +367,13 @@ std::string source_of_system(const json& parameters) {
   return known.dump();
 }
 
-method_file read_method_file(const std::filesystem::path& path, const detail::named_letters& of_system) {
+method_file read_method_file(const std::filesystem::path& path, const std::vector<letter_facts>& of_system) {
   note_input(path);
   return method_file_in(contents_of(path), path.string(), of_system);
 }
 
 method_file method_file_in(const std::string& text, const std::string& file,
-                           const detail::named_letters& of_system) {
+                           const std::vector<letter_facts>& of_system) {
   json document;
   if (text.size() > longest_method_file) {
     refuse("{} must be a scheme or a table, at most {} bytes long", file, longest_method_file);

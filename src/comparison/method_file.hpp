@@ -9,14 +9,17 @@
 #include <vector>
 
 #include "json.hpp"
-#include "nysalt/detail/known_letters.hpp"
+#include "nysalt/letters.hpp"
 #include "nysalt/learning/reach.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "prepared_problem.hpp"
 
 namespace nysalt::program {
 
 /// What a scheme file says: a family's parameters at a step or at several, and where they are valid.
+/// What scheme files state of a letter of a system, all other facts as usual.
+letter_facts as_stated(const letter_facts& of_system);
+
 struct scheme {
   std::string family;
   std::optional<placement> where;  // of its letters O
@@ -28,7 +31,7 @@ struct scheme {
   std::string reason;
   std::optional<energy_range> energies;  // that it was learned on
   std::size_t trajectories = 0;          // how many, at the step with the fewest
-  detail::named_letters own_letters{};   // of the system, as they are stated
+  std::vector<letter_facts> own_letters{};  // of the system, as they are stated
 
   /// The method at a step, under the family's name; beyond the curve that of its nearer end.
   tabulated at(double step) const;
@@ -77,9 +80,9 @@ struct method_file {
 /// Reads either kind. Throws refusal, naming the file, for one that is missing, not whole, edited, foreign or
 /// of a newer version, and for coefficients that are not consistent or of a lower order than declared.
 /// Tables may have letters of a system, schemes state what theirs are.
-method_file read_method_file(const std::filesystem::path& path, const detail::named_letters& of_system = {});
+method_file read_method_file(const std::filesystem::path& path, const std::vector<letter_facts>& of_system = {});
 /// The same from the text of a file, whose name is part of refusals.
 method_file method_file_in(const std::string& text, const std::string& file,
-                           const detail::named_letters& of_system = {});
+                           const std::vector<letter_facts>& of_system = {});
 
 }  // namespace nysalt::program

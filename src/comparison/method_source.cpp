@@ -11,7 +11,7 @@
 #include "nysalt/langevin.hpp"
 #include "nysalt/learning/reach.hpp"
 #include "nysalt/learning/stability_guard.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -42,7 +42,7 @@ bool is_file_name(const std::string& text) {
 }  // namespace
 
 method_source find_method(const std::string& typed, const held_methods& held,
-                          const detail::named_letters& of_system) {
+                          const std::vector<letter_facts>& of_system) {
   if (of_letters(typed) != typed) {  // reports show the name in every format
     refuse(
         "the name of a method must be UTF-8 without line breaks and other control characters, got '{}'; "
@@ -107,23 +107,22 @@ void charge(method_source& source, const prepared_problem& system) {
 namespace {
 
 /// Of a scheme or a system, by name; null: it has none of that name.
-const detail::own_letter* letter_in(const detail::named_letters& all, char name) {
-  const auto found =
-      std::ranges::find_if(all, [&](const auto& one) { return one.letter->facts.letter == name; });
-  return found == all.end() ? nullptr : found->letter.get();
+const letter_facts* letter_in(const std::vector<letter_facts>& all, char name) {
+  const auto found = std::ranges::find(all, name, &letter_facts::letter);
+  return found == all.end() ? nullptr : &*found;
 }
 
 /// Refuses a scheme with letters that the system has not, or has otherwise.
 void require_letters_of(const method_source& source, const prepared_problem& system) {
-  for (const auto& [stated, times, parts] : source.learned->own_letters) {
-    const char name = stated->facts.letter;
+  for (const letter_facts& stated : source.learned->own_letters) {
+    const char name = stated.letter;
     const auto* own = letter_in(system.letters(), name);
     if (own == nullptr) {
       refuse("{}: the letters of its word {} must be of {}, which has {}, got {} of {}; learn a method there",
              source.typed, source.learned->letters().letters(), system.description(),
              names_of(system.letters()), name, source.learned->system);
     }
-    if (own->facts != stated->facts) {
+    if (as_stated(*own) != stated) {
       refuse(
           "{}: the letter {} of {} must be what it was when the scheme was learned, got another; learn the "
           "scheme again",
@@ -135,7 +134,7 @@ void require_letters_of(const method_source& source, const prepared_problem& sys
 /// The same with the letters of the system for those that a file states.
 tabulated with_letters_of(const prepared_problem& system, const tabulated& method) {
   if (!method.letters().has_own_letters()) return method;
-  return {method.name(), run_time_word(method.letters().letters(), detail::letters_in(system.letters())),
+  return {method.name(), word(method.letters().letters(), system.letters()),
           method.coefficients(), method};
 }
 

@@ -14,7 +14,7 @@
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/learning/learn_enough.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "settings.hpp"
 
 namespace nysalt::program {

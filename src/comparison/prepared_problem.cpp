@@ -85,7 +85,7 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
       examined_(conditions.examined),
       is_bundled_(conditions.is_bundled) {
   if (conditions.starts) made_.starts = conditions.starts(made_);
-  for (const auto& one : made_.letters) letters_.push_back(one.named);
+  letters_ = made_.system.facts().own_letters;
   if (made_.frequency == 0.0) made_.frequency = conditions.frequency.value_or(0.0);
   require_square_of_frequency(description(), made_.frequency);
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
@@ -143,7 +143,7 @@ std::string in_words(const fitted_frequency& frequency) {
 std::optional<fitted_frequency> prepared_problem::frequency_to_fit() const {
   if (frequency_asked_) return fitted_frequency{*frequency_asked_, "as given"};
   if (has_modes(made_.system) || has_frequency_bands(made_.system))
-    return fitted_frequency{detail::frequency_to_fit(made_.system), "declared"};
+    return fitted_frequency{nysalt::frequency_to_fit(made_.system), "declared"};
   const seen_frequencies& seen = highest_seen();
   if (!(seen.median > 0.0)) return std::nullopt;
   return fitted_frequency{seen.median, "the median of the highest " + seen.source};
@@ -291,11 +291,11 @@ std::array<compared_rates, 2> rates_of_sum(const model& system, const run_time_w
   std::array<compared_rates, 2> result;
   for (const auto& x : states) {
     const Eigen::VectorXd whole =
-        rate_of(system, run_time_word("A"), 0, x, h) + rate_of(system, run_time_word("B"), 0, x, h);
+        rate_of(system, nysalt::word("A"), 0, x, h) + rate_of(system, nysalt::word("B"), 0, x, h);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(2 * n);
     std::string known;
     for (std::size_t i = 0; i < word.length; ++i) {
-      const run_time_word letter = word.with_letters(std::string(1, word.letters()[i]));
+      const run_time_word letter = word.with_letters(std::string(1, word.letter(i)));
       for (std::size_t k = 0; k < word.slots_of(i); ++k) {
         const char part = times[word.first_slot(i) + k];
         if (known.find(part) != std::string::npos) continue;
@@ -329,15 +329,14 @@ void prepared_problem::require_sound_letters(const std::string& name, const run_
     states.push_back(sound_start(base, made_.starts, 1, n));
     if (n % 2 == 1) mover.step(states.back());
   }
-  for (const auto& [named, check] : made_.letters) {
-    if (word.own_letter(named.letter->facts.letter) == nullptr) continue;
-    const letter_check found = check(states, step);
+  for (const letter_facts& own : word.own()) {
+    const letter_check found = check_letter(base, own.letter, states, step);
     if (!found.passed()) refuse("cannot take {}: {}", name, found.report());
   }
   std::string letters = word.letters();
   std::erase(letters, bath_letter);
   const run_time_word conservative = word.with_letters(letters);
-  const auto rates = rates_of_sum(base, conservative, times_of_slots(conservative, letters_), states, step);
+  const auto rates = rates_of_sum(base, conservative, times_of_slots(conservative), states, step);
   for (const auto& [which, rate] : {std::pair("q", rates[0]), std::pair("p", rates[1])}) {
     if (rate.agree()) continue;
     refuse(

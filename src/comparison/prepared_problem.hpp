@@ -143,7 +143,7 @@ class prepared_problem {
   /// Throws refusal for a word that the system does not serve.
   void require_served(const run_time_word& word) const;
   /// Letters of one's own that the system has, by name.
-  const detail::named_letters& letters() const { return letters_; }
+  const std::vector<letter_facts>& letters() const { return letters_; }
   /// Tries the letters of one's own in a word by check_letter(), over the step from four states, and whether
   /// its letters add up to H there. Throws refusal, which begins with the name of the method, for the first
   /// that is not what it states. Nothing is tried above 2000 coordinates. Cost: of letters that passed before
@@ -238,7 +238,7 @@ class prepared_problem {
   std::optional<initial_states> starts_;
   mutable std::optional<seen_frequencies> highest_seen_;
   mutable std::optional<std::vector<frequency_band>> bands_along_motion_;
-  detail::named_letters letters_;
+  std::vector<letter_facts> letters_;
   mutable std::map<std::pair<double, std::int64_t>, step_judge> judges_;  // by step and evaluations
   mutable std::map<std::string, judgement> judged_;  // by letters, coefficients, step and evaluations
   mutable std::set<std::string> sound_;              // by letters and step

@@ -10,7 +10,7 @@
 #include "nysalt/analysis/cost_against_error.hpp"
 #include "nysalt/analysis/ensemble_statistics.hpp"
 #include "nysalt/analysis/error_measures.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "observables.hpp"
 #include "prepared_problem.hpp"
 #include "refusal.hpp"

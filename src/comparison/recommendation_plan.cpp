@@ -69,7 +69,7 @@ void recommendation::plan_classical() {
       contender.order = method.order;
       contender.symmetric = method.symmetric;
       contender.is_symplectic = method.letters().is_symplectic;
-      contender.rotates = has_rotation(method.letters());
+      contender.rotates = method.letters().reads_modes;
     } else {
       contender.order = contender.source.adaptive->properties.order;
       contender.symmetric = contender.source.adaptive->properties.symmetric;
@@ -90,7 +90,7 @@ void recommendation::plan_families() {
     contender.order = family.order;
     contender.symmetric = family.symmetric;
     contender.is_symplectic = family.letters.is_symplectic;
-    contender.rotates = has_rotation(family.letters);
+    contender.rotates = family.letters.reads_modes;
     consider(std::move(contender));
   }
   if (!fixes)

@@ -73,12 +73,10 @@ json scheme_document(const std::vector<learned_scheme>& learned, const prepared_
       {"held_out_seed", fit.held_out_seed},
       {"versions", {{"nysalt", version}}}};
   if (energies) document["energy_range"] = {energies->low, energies->high};
-  const run_time_word word = family_named(fit.family, system.letters()).letters;
-  for (const auto& [letter, times, parts] : system.letters()) {
-    const auto& facts = letter->facts;
-    if (word.own_letter(facts.letter) == nullptr) continue;
+  const word letters = family_named(fit.family, system.letters()).letters;
+  for (const letter_facts& facts : letters.own()) {
     document["own_letters"].push_back({{"letter", std::string(1, facts.letter)},
-                                       {"times", times},
+                                       {"times", facts.times.view()},
                                        {"forces", facts.displaced_forces},
                                        {"moves_q", facts.moves_q},
                                        {"additive", facts.additive},

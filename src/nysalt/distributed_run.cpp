@@ -51,7 +51,7 @@ detail::step_program<double> letters_of(const model& system, const tabulated& me
   }
   (void)make_stepper(system, method, step);  // throws what is not a step
   detail::step_program<double> result =
-      prepared_word<run_time_word, double, Eigen::Dynamic>(word, method.coefficients(), step, {}).program();
+      prepared_word<double, Eigen::Dynamic>(system, word, method.coefficients(), step, {}).program();
   result.keeps_last_force = false;  // only a word whose letters merge reads that force, and computes it again
   return result;
 }

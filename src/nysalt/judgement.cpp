@@ -278,7 +278,7 @@ void add_linear(const stability_guard& guard, const tabulated& method, Eigen::In
   found.linear_objection = guard.objection(word, coefficients, found.step,
                                            shows_rare_states(found, size) ? met::often : met::ever);
   if (word.has_own_letters()) return;
-  if (!has_rotation(word)) {
+  if (!word.reads_modes) {
     const auto chart = chart_stability(word, coefficients);
     for (const auto& band : bands) {
       const double margin =
@@ -343,7 +343,7 @@ judgement step_judge::of(const tabulated& method) const {
                           std::numeric_limits<double>::epsilon();
   const double least_growth = summarise(courses, rounding, found);
   found.frequencies = no_guard;
-  if (has_rotation(word) || word.has_own_letters()) {
+  if (word.reads_modes || word.has_own_letters()) {
     try {
       add_linear(guard_of(system, motion, starts, evaluations, word), method, size(system), found);
     } catch (const std::invalid_argument& problem) {

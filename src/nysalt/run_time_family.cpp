@@ -35,14 +35,14 @@ Eigen::MatrixXd thermostatted_jacobian(const run_time_family& plain, placement w
 
 }  // namespace
 
-run_time_family::run_time_family(std::string method_name, run_time_word word,
+run_time_family::run_time_family(std::string method_name, const word& all,
                                  std::vector<double> coefficients)
     : name(std::move(method_name)),
       starts({{name, Eigen::VectorXd()}}),
       order(0),
       symmetric(false),
       requires_quadratic_kinetic(false),
-      letters(std::move(word)),
+      letters(all),
       coefficients_([coefficients](const Eigen::VectorXd&) { return coefficients; }),
       jacobian_([count = static_cast<Eigen::Index>(coefficients.size())](const Eigen::VectorXd&) {
         return Eigen::MatrixXd(count, 0);
@@ -150,9 +150,9 @@ run_time_family processed(const run_time_family& kernel, int pairs) {
   const Eigen::Index all = known + further;
   result.contained = std::make_shared<const contained_family>(
       contained_family{kernel, Eigen::MatrixXd::Identity(all, known), Eigen::VectorXd::Zero(all)});
-  std::string letters = kernel.letters.letters() + run_time_word::processor_mark;
+  std::string letters = kernel.letters.letters() + word::processor_mark;
   for (int k = 0; k < pairs; ++k) letters += "BA";
-  result.letters = run_time_word(letters);
+  result.letters = word(letters);
   result.name += sentence("+p{}", pairs);
   result.order = 2;
   for (Eigen::Index k = 0; k < further; ++k) {
@@ -192,7 +192,7 @@ struct mirrored_slots {
   double slots() const { return first == last ? 1.0 : 2.0; }
 };
 
-std::vector<mirrored_slots> mirrored_slots_of(const run_time_word& word, const std::string& times) {
+std::vector<mirrored_slots> mirrored_slots_of(const nysalt::word& word, const std::string& times) {
   std::vector<mirrored_slots> result;
   for (std::size_t i = 0; 2 * i < word.length; ++i) {
     const std::size_t j = word.length - 1 - i;
@@ -207,7 +207,7 @@ std::vector<mirrored_slots> mirrored_slots_of(const run_time_word& word, const s
 /// Coefficients of a part in a word of equal steps: each letter has half of the time to the letter of the
 /// same part before it, around the end of the step, and half of that to the one behind it. Time passes
 /// between two of them where the part acts that lies between most of them.
-void put_equal_steps(const run_time_word& word, const std::string& times, char part,
+void put_equal_steps(const nysalt::word& word, const std::string& times, char part,
                      std::vector<double>& coefficients) {
   std::vector<std::size_t> letters;  // where the part acts, and in which slot
   std::vector<std::size_t> slots;
@@ -250,8 +250,8 @@ void put_equal_steps(const run_time_word& word, const std::string& times, char p
 
 }  // namespace
 
-run_time_family symmetric_word(std::string name, const run_time_word& word, const std::string& times) {
-  const std::string& letters = word.letters();
+run_time_family symmetric_word(std::string name, const nysalt::word& word, const std::string& times) {
+  const std::string letters = word.letters();
   const auto refuse = [&](const char* condition, const std::string& got, const char* remedy) {
     throw std::invalid_argument(sentence("{}: the word must {}, got {}; {}", name, condition, got, remedy));
   };
@@ -319,6 +319,17 @@ run_time_family symmetric_word(std::string name, const run_time_word& word, cons
     return slopes;
   };
   return result;
+}
+
+tabulated member(const run_time_family& family, const std::vector<double>& theta) {
+  if (std::ssize(theta) != family.parameters()) {
+    throw std::invalid_argument(sentence("{}: theta must have {} parameters, got {}", family.name,
+                                         family.parameters(), theta.size()));
+  }
+  const Eigen::VectorXd column = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
+  require_in_range(family, column);
+  return {family.name, family.letters, family.coefficients(column),
+          {family.order, family.symmetric, family.requires_quadratic_kinetic}};
 }
 
 void require_in_range(const run_time_family& family, const Eigen::VectorXd& theta) {

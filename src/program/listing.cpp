@@ -62,7 +62,7 @@ json methods_json() {
   for (const auto& [method, source] : classical_methods()) {
     const int evaluations = method.letters().evaluations_per_step;
     json limit = nullptr;  // of words that rotate it depends on the system
-    if (!has_rotation(method.letters())) limit = limit_of(method) / evaluations;
+    if (!method.letters().reads_modes) limit = limit_of(method) / evaluations;
     all.push_back({{"name", method.name()},
                    {"aliases", aliases_of(method.name())},
                    {"letters", method.letters().letters()},

@@ -93,7 +93,7 @@ normal_around<Eigen::Dynamic> around_zero(Eigen::Index size, double of_q, double
   return {{zero, zero}, of_q, of_p};
 }
 
-stepper<model, run_time_word> stepper_of(const model& system, double step) {
+stepper<model> stepper_of(const model& system, double step) {
   return make_stepper(system, tabulated(verlet()), step);
 }
 

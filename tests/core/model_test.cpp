@@ -71,7 +71,7 @@ phase_point<R, N> gathered(const start_states& starts) {
 template <Scalar T, NoiseSource Noise, class S>
 std::vector<double> numbers_of_run(const S& system, const tabulated& method, double step,
                                    const start_states& starts, const Noise& noise) {
-  const stepper<S, run_time_word, double, Noise> fixed(system, method.letters(), method.coefficients(), step,
+  const stepper<S, double, Noise> fixed(system, method.letters(), method.coefficients(), step,
                                                        noise);
   const auto x = gathered<T, S::dimension>(starts);
   constexpr std::uint64_t trajectory = 5;
@@ -110,7 +110,7 @@ std::vector<double> numbers_of_step(const S& system, const tabulated& method, do
     coefficients[i].derivative[0] = R(0.1 * static_cast<double>(i + 1));
     coefficients[i].derivative[1] = R(1.0 - 0.3 * static_cast<double>(i));
   }
-  const stepper<S, run_time_word, T, Noise> fixed(system, method.letters(), coefficients, step, noise);
+  const stepper<S, T, Noise> fixed(system, method.letters(), coefficients, step, noise);
   auto x = gathered<R, S::dimension>(starts).template cast<T>();
   for (std::int64_t n = 0; n < 3; ++n) fixed.step(x, 5, n);
   std::vector<double> all;

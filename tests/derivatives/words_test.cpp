@@ -7,7 +7,7 @@
 #include "../support/refusal.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
-#include "nysalt/methods/classical_methods.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 

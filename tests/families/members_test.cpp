@@ -9,7 +9,7 @@
 #include "../support/refusal.hpp"
 #include "nysalt/derivatives/properties.hpp"
 #include "nysalt/families/composition.hpp"
-#include "nysalt/methods/classical_methods.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/multiple_time_steps.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
 

@@ -9,7 +9,7 @@
 #include "../support/refusal.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
-#include "nysalt/detail/known_letters.hpp"
+#include "nysalt/letters.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/learn.hpp"
@@ -74,7 +74,7 @@ state after(const run_time_word& word, const std::vector<double>& c, state x) {
 state after_stepping(const run_time_word& word, const std::vector<double>& c, const state& x) {
   const spring_and_rest system;
   phase_point<double, 1> z{vector<double, 1>(x.q), vector<double, 1>(x.p)};
-  stepper<spring_and_rest, run_time_word>(system, word, c, 1.0).step(z);
+  stepper<spring_and_rest>(system, word, c, 1.0).step(z);
   return {z.q[0], z.p[0]};
 }
 

@@ -70,7 +70,7 @@ auto with_stepper(const model& system, const tabulated& method, double step, con
                   const auto& f) {
   const auto c = method.coefficients();
   return f(
-      stepper<model, run_time_word, C, Noise>(system, method.letters(), {c.begin(), c.end()}, step, noise));
+      stepper<model, C, Noise>(system, method.letters(), {c.begin(), c.end()}, step, noise));
 }
 
 /// J of a plain step; the noise of its bath, which J does not depend on, is fresh.
@@ -358,7 +358,7 @@ double measured_order(const solved& problem, const std::function<table(double)>&
   const auto error_after = [&](std::int64_t n) {  // root mean square over the starts
     const double step = problem.time / static_cast<double>(n);
     const auto [word, coefficients] = at(step);
-    const stepper<model, run_time_word> fixed(problem.system, word, coefficients, step);
+    const stepper<model> fixed(problem.system, word, coefficients, step);
     double sum = 0.0;
     for (std::size_t k = 0; k < problem.start.size(); ++k) {
       auto run = fixed.open(problem.start[k]);

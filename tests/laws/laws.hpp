@@ -14,7 +14,7 @@
 #include "../support/draws.hpp"
 #include "../support/noises.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/run_time_family.hpp"
 

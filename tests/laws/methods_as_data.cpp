@@ -5,7 +5,7 @@
 #include "laws.hpp"
 #include "models.hpp"
 #include "nysalt/families/composition.hpp"
-#include "nysalt/methods/classical_methods.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/s_aia.hpp"
 
 namespace nysalt::test {

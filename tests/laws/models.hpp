@@ -14,7 +14,7 @@
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 #include "nysalt/systems/textbook.hpp"

@@ -5,7 +5,7 @@
 #include "../support/learned.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/methods/classical_methods.hpp"
+#include "nysalt/methods/classical.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

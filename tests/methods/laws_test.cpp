@@ -11,8 +11,8 @@
 #include "../support/refusal.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/families/composition.hpp"
-#include "nysalt/methods/classical_methods.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/method.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

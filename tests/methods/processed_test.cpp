@@ -7,8 +7,8 @@
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/gradient_composition.hpp"
-#include "nysalt/methods/classical_methods.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/method.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -2,7 +2,7 @@
 // Letters, words, methods and baths that do not suit a system or each other. The comments are explained in
 // check.py.
 #include "common.hpp"
-#include "nysalt/detail/conservative_part.hpp"
+#include "nysalt/word.hpp"
 #include "nysalt/families/gradient_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/flows/drift_kick.hpp"
@@ -13,9 +13,9 @@
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/methods/s_aia.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/references/fine_steps.hpp"
-#include "nysalt/run_time_word.hpp"
+#include "nysalt/word.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/sum_of_parts.hpp"
 #include "nysalt/systems/textbook.hpp"

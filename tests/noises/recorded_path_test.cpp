@@ -9,7 +9,7 @@
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 
 using namespace nysalt;

@@ -27,7 +27,7 @@
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/methods/s_aia.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/in_bath.hpp"

@@ -6,7 +6,7 @@
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
 #include "nysalt/ensembles/given_states.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;

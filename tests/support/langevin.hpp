@@ -16,7 +16,7 @@
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/systems/in_bath.hpp"

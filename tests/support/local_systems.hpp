@@ -11,7 +11,7 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/local_system.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/phi4.hpp"
 

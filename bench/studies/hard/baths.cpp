@@ -5,7 +5,7 @@
 #include "energy_story.hpp"
 #include "hard_case.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/textbook.hpp"

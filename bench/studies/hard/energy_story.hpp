@@ -11,7 +11,7 @@
 
 #include "../../../src/report/figure.hpp"
 #include "nysalt/integrate.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 
 namespace nysalt::hard {
 

@@ -22,7 +22,7 @@
 #include "nysalt/learn.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/multiple_time_steps.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 namespace nysalt::hard {

@@ -11,7 +11,7 @@
 #include "nysalt/analysis/trajectory_errors.hpp"
 #include "nysalt/communicator.hpp"
 #include "nysalt/initial_states.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 
 namespace nysalt {
@@ -43,11 +43,11 @@ acceptance_result acceptance(const model& system, const tabulated& method, const
 /// Memory: 32 bytes a trajectory on each rank. Throws std::invalid_argument if the method is not symmetric,
 /// K(-p) is not K(p) at some start of the first 16, the system is in a bath that acts (H is not its own
 /// then), kT is not positive and finite, there is not one step or trajectory, or a start does not fit.
-template <SeparableSystem S, Method M, Ensemble<S> E>
+template <SeparableSystem S, Ensemble<S> E>
   requires HasEnergy<S>
-acceptance_result acceptance(const S& system, const M& method, const E& ensemble,
+acceptance_result acceptance(const S& system, const tabulated& method, const E& ensemble,
                              const trajectory_options& options, double temperature = 1.0) {
-  return detail::acceptance(system, detail::table_for(method, system, options.step), ensemble, options,
+  return detail::acceptance(system, method, ensemble, options,
                             temperature);
 }
 

@@ -28,8 +28,8 @@ struct order_measurement {
 /// and the rounding of n steps. NaN if fewer than two are; runs that diverged do not count. Use a nonlinear
 /// system: on linear ones methods converge too well.
 /// Throws std::invalid_argument if fewest_steps < 1, halvings < 0 or the horizon is not finite or 0.
-template <SeparableSystem S, Method M, ReferenceFlow<S> R>
-order_measurement convergence_order(const S& system, const M& method, const R& reference,
+template <SeparableSystem S, ReferenceFlow<S> R>
+order_measurement convergence_order(const S& system, const tabulated& method, const R& reference,
                                     const phase_point<double, S::dimension>& start, double horizon,
                                     std::int64_t fewest_steps, int halvings) {
   if (fewest_steps < 1 || halvings < 0 || !std::isfinite(horizon) || horizon == 0.0) {
@@ -59,7 +59,7 @@ order_measurement convergence_order(const S& system, const M& method, const R& r
         std::max((end.q - exact.q).cwiseAbs().maxCoeff(), (end.p - exact.p).cwiseAbs().maxCoeff());
     result.errors.push_back(error);
     const double rounding = std::numeric_limits<double>::epsilon() * size_of_state * static_cast<double>(n) *
-                            static_cast<double>(word_of(method).length);
+                            static_cast<double>(method.letters().length);
     if (error > 20.0 * (of_reference + rounding)) {  // then they bend the slope by less than .1
       log_steps.push_back(std::log(step));
       log_errors.push_back(std::log(error));

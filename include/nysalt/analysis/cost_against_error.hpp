@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 
 // Force evaluations of a trajectory.
@@ -25,10 +25,10 @@ std::int64_t evaluations_of_run(const model& system, const tabulated& method, do
 /// Force evaluations of one whole trajectory of `steps` steps that is observed once, at the end, start-up
 /// included: those that follow from the word; of a black box counted over the first two steps, as every step
 /// after them costs the same.
-template <SeparableSystem S, Method M>
-std::int64_t evaluations_of_run(const S& system, const M& method, double step, std::int64_t steps,
+template <SeparableSystem S>
+std::int64_t evaluations_of_run(const S& system, const tabulated& method, double step, std::int64_t steps,
                                 const phase_point<double, S::dimension>& start) {
-  return detail::evaluations_of_run(system, detail::table_for(method, system, step), step, steps,
+  return detail::evaluations_of_run(system, method, step, steps,
                                     {start.q, start.p});
 }
 

@@ -21,7 +21,7 @@
 #include "nysalt/detail/divergence.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/lanes.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 
@@ -141,7 +141,7 @@ void require_room(const trajectory_options& options, std::size_t methods, std::s
 /// A vector, array or span of methods of one type.
 template <class C>
 concept Methods =
-    std::ranges::contiguous_range<C> && std::ranges::sized_range<C> && Method<std::ranges::range_value_t<C>>;
+    std::ranges::contiguous_range<C> && std::convertible_to<std::ranges::range_value_t<C>, tabulated>;
 
 namespace detail {
 
@@ -184,7 +184,7 @@ std::vector<trajectory_errors_result> trajectory_errors(const S& system, const R
                                                         std::span<const error_measure> measures,
                                                         const trajectory_options& options) {
   std::vector<tabulated> tables;
-  for (const auto& method : methods) tables.push_back(detail::table_for(method, system, options.step));
+  for (const auto& method : methods) tables.push_back(method);
   return detail::trajectory_errors(system, detail::reference_value(detail::reference_of(system, reference)),
                                    ensemble, tables, measures, options);
 }
@@ -199,10 +199,10 @@ trajectory_errors_result trajectory_errors(const S& system, const R& reference, 
 }
 
 /// Errors of one method, by one measure or several.
-template <SeparableSystem S, Reference<S> R, Ensemble<S> E, Method M>
-auto trajectory_errors(const S& system, const R& reference, const E& ensemble, const M& method,
+template <SeparableSystem S, Reference<S> R, Ensemble<S> E>
+auto trajectory_errors(const S& system, const R& reference, const E& ensemble, const tabulated& method,
                        const auto& measures, const trajectory_options& options) {
-  return trajectory_errors(system, reference, ensemble, std::span<const M>(&method, 1), measures, options);
+  return trajectory_errors(system, reference, ensemble, std::span<const tabulated>(&method, 1), measures, options);
 }
 
 }  // namespace nysalt

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nysalt/method.hpp"
-#include "nysalt/run_time_word.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
@@ -100,30 +100,20 @@ inline std::vector<step_range> stable_steps(const std::vector<stability_window>&
 /// +-1 by less than 1e-10. Cost: some 0.05 ms for 10 letters, 1 ms for 40. Throws std::invalid_argument if
 /// the word has more than 64 evaluations a step, where it rotates, or unless there is a coefficient for each
 /// slot.
-stability_chart chart_stability(const run_time_word& word, const std::vector<double>& coefficients);
-/// Stability chart of a word whose letters are known_letters.
-template <TypeLevelWord W>
-stability_chart chart_stability(const W& word,
-                                const typename W::template coefficients<double>& coefficients) {
-  return chart_stability(run_time_word(word), std::vector<double>(coefficients.begin(), coefficients.end()));
-}
-
+stability_chart chart_stability(const word& letters, const std::vector<double>& coefficients);
 /// Only the windows of chart_stability().
-template <Word W>
-std::vector<stability_window> stability_windows(
-    const W& word, const typename W::template coefficients<double>& coefficients) {
-  return chart_stability(word, coefficients).windows;
+inline std::vector<stability_window> stability_windows(const word& letters,
+                                                       const std::vector<double>& coefficients) {
+  return chart_stability(letters, coefficients).windows;
 }
 
 /// The windows of a method, at its own coefficients.
-template <Method M>
-std::vector<stability_window> stability_windows(const M& method) {
-  return stability_windows(word_of(method), method.coefficients());
+inline std::vector<stability_window> stability_windows(const tabulated& method) {
+  return stability_windows(method.letters(), method.coefficients());
 }
 
 /// End of the window that begins at z = 0; 0 where there is none.
-template <Method M>
-double stability_limit(const M& method) {
+inline double stability_limit(const tabulated& method) {
   const auto windows = stability_windows(method);
   return windows.empty() || windows.front().low > 0.0 ? 0.0 : windows.front().high;
 }

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/run_time_word.hpp"
+#include "nysalt/word.hpp"
 #include "nysalt/scalars/polynomial.hpp"
 #include "nysalt/system.hpp"
 

@@ -39,12 +39,12 @@ Eigen::MatrixXd jacobian(const auto& map, const phase_point<double, N>& x) {
 }
 
 /// One plain step of a method as a map of phase space, over any scalar.
-template <System S, Method M>
-auto step_map(const S& system, const M& method, double step) {
+template <System S>
+auto step_map(const S& system, const tabulated& method, double step) {
   return [stepper = make_stepper(system, method, step)](auto& x) { stepper.step(x); };
 }
-template <System S, Method M>
-void step_map(const S&& system, const M& method, double step) = delete;  // it would refer to a temporary
+template <System S>
+void step_map(const S&& system, const tabulated& method, double step) = delete;  // it would refer to a temporary
 
 /// Largest entry of J^T Omega J - Omega with the exact Jacobian J of a map at x: zero to rounding if and
 /// only if the map is symplectic there [hairer_lubich_wanner_2006, definition VI.2.2].
@@ -59,8 +59,8 @@ double symplecticity_defect(const auto& map, const phase_point<double, N>& x) {
 }
 
 /// Symplecticity defect of one step of a method.
-template <System S, Method M>
-double symplecticity_defect(const S& system, const M& method, double step,
+template <System S>
+double symplecticity_defect(const S& system, const tabulated& method, double step,
                             const phase_point<double, S::dimension>& x) {
   return symplecticity_defect(step_map(system, method, step), x);
 }
@@ -78,8 +78,8 @@ double reversibility_defect(const auto& map, const phase_point<double, N>& x) {
 }
 
 /// Reversibility defect of one step of a method.
-template <System S, Method M>
-double reversibility_defect(const S& system, const M& method, double step,
+template <System S>
+double reversibility_defect(const S& system, const tabulated& method, double step,
                             const phase_point<double, S::dimension>& x) {
   return reversibility_defect(step_map(system, method, step), x);
 }
@@ -264,12 +264,12 @@ taylor_orders taylor_order_of(const Coefficients& coefficients, const auto& one_
 namespace detail {
 
 /// To which powers of h the processor of a word is even, so that P(-h) P(h)^-1 is the identity.
-inline taylor_orders order_of_processor(const run_time_word& word, const std::vector<double>& coefficients) {
+inline taylor_orders order_of_processor(const word& letters, const std::vector<double>& coefficients) {
   const auto there_and_back = [&](const order_probe& system, const std::vector<double>& c) {
     auto x = system.start();
-    stepper<order_probe, run_time_word>(system, pre_processor(word), pre_processor_coefficients(word, c), 1.0)
+    stepper<order_probe>(system, pre_processor(letters), pre_processor_coefficients(letters, c), 1.0)
         .step(x);
-    stepper<order_probe, run_time_word>(system, post_processor(word), post_processor_coefficients(word, c),
+    stepper<order_probe>(system, post_processor(letters), post_processor_coefficients(letters, c),
                                         1.0)
         .step(x);
     return x;
@@ -289,30 +289,27 @@ inline taylor_orders order_of_processor(const run_time_word& word, const std::ve
 ///
 /// Words with rotations obey the order conditions of those with drifts: all that these use of K is that it is
 /// quadratic in p, and so is K with the quadratic part of V.
-template <Word W>
-taylor_orders taylor_order(const W& word, const typename W::template coefficients<double>& coefficients) {
-  std::string letters = word.letters();
-  for (char& letter : letters) {
+inline taylor_orders taylor_order(const word& letters, const std::vector<double>& coefficients) {
+  std::string like = letters.letters();
+  for (char& letter : like) {
     detail::with_letter(letter, known_letters{},
                         [&](auto flow) { letter = decltype(flow)::same_order_as::letter; });
   }
-  const run_time_word split(letters);
-  const std::vector<double> as_data(coefficients.begin(), coefficients.end());
-  const auto of_step = taylor_order_of(as_data, [&](const order_probe& system, const auto& c) {
+  const word split(like);
+  const auto of_step = taylor_order_of(coefficients, [&](const order_probe& system, const auto& c) {
     auto x = system.start();
-    stepper<order_probe, run_time_word>(system, split, c, 1.0).step(x);
+    stepper<order_probe>(system, split, c, 1.0).step(x);
     return x;
   });
   if (!split.is_processed()) return of_step;
-  const auto of_none = detail::order_of_processor(split, as_data);
+  const auto of_none = detail::order_of_processor(split, coefficients);
   return {std::min(of_step.quadratic_kinetic, of_none.quadratic_kinetic),
           std::min(of_step.any_kinetic, of_none.any_kinetic)};
 }
 
 /// The orders of a method, at its own coefficients.
-template <Method M>
-taylor_orders taylor_order(const M& method) {
-  return taylor_order(word_of(method), method.coefficients());
+inline taylor_orders taylor_order(const tabulated& method) {
+  return taylor_order(method.letters(), method.coefficients());
 }
 
 }  // namespace nysalt

@@ -11,7 +11,7 @@
 
 #include "nysalt/model.hpp"
 #include "nysalt/phase_point.hpp"
-#include "nysalt/run_time_word.hpp"
+#include "nysalt/word.hpp"
 
 namespace nysalt {
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/references/fine_steps.hpp"
@@ -152,10 +152,10 @@ std::shared_ptr<const any_reference> reference_of(const S& system, const R& refe
   if constexpr (std::same_as<R, reference_value>) {
     return reference.held();
   } else if constexpr (is_fine_steps<R>) {
-    require_suited<std::remove_cvref_t<decltype(reference.method())>, S>();
-    return small_steps(table_of(reference.method()), reference.step(), reference.description());
+    require_suited<S>();
+    return small_steps(reference.method(), reference.step(), reference.description());
   } else if constexpr (is_fine_paths<R>) {
-    return small_steps_on_paths(table_of(reference.method()), reference.step(), reference.halvings(),
+    return small_steps_on_paths(reference.method(), reference.step(), reference.halvings(),
                                 reference.description());
   } else {
     return std::make_shared<typed_reference<S, R>>(system, reference);

@@ -15,6 +15,7 @@
 #include "nysalt/bath.hpp"
 #include "nysalt/detail/site_kernels.hpp"
 #include "nysalt/detail/step_program.hpp"
+#include "nysalt/detail/system_letters.hpp"
 #include "nysalt/flow.hpp"
 #include "nysalt/lanes.hpp"
 
@@ -66,6 +67,8 @@ class kernels {
   virtual T kinetic_energy(const column& p) const = 0;
   virtual T potential(const column& q) const = 0;
   virtual T energy(const column& q, const column& p) const = 0;
+  /// The letter of that name among those that the system declares, with coefficients and step folded in.
+  virtual applied_letter<T> letter(char name, const coefficient_of<T>* c, double h) const = 0;
 };
 
 /// A system without its type.
@@ -91,6 +94,8 @@ class any_system {
   virtual std::vector<frequency_band> frequency_bands(const bath* in) const = 0;
   /// Of a local system, else null.
   virtual const site_kernels* sites() const { return nullptr; }
+  /// The system, as the letters that it declares find it.
+  virtual const void* held() const = 0;
   /// p += c force(q) by the system's own kick.
   virtual void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const = 0;
 
@@ -134,6 +139,7 @@ struct model_facts {
   bool has_velocity_over_slopes = false;
   bool may_be_wrong = false;  ///< force_may_be_wrong
   bool is_black_box = false;
+  std::vector<letter_facts> own_letters{};  ///< that the system declares
   int derivative_calls = 1;
   const char* derivative_source = "";
   /// The letters that the system serves, over each scalar.

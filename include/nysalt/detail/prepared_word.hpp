@@ -1,148 +1,23 @@
 // SPDX-License-Identifier: BSL-1.0
-// A word with its coefficients and step, prepared for a system; half steps of letters O where one ends a step
-// and another begins the next are one.
+// A word with its coefficients and the step folded in, prepared for a system.
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <tuple>
+#include <stdexcept>
 #include <utility>
+#include <vector>
 
-#include "nysalt/detail/known_letters.hpp"
+#include "nysalt/detail/merged_half_steps.hpp"
 #include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/flows/drift_kick.hpp"
-#include "nysalt/flows/ornstein_uhlenbeck.hpp"
-#include "nysalt/noise.hpp"
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/detail/system_letters.hpp"
+#include "nysalt/detail/take_steps.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {
-
-/// How far a run is in its noise while it is stepped, room for the numbers of one letter O, and for what
-/// other letters need.
-template <NoiseSource Noise, Scalar T, int N, class Room>
-struct noise_cursor {
-  static constexpr bool is_noisy = true;  ///< there are letters O
-  const Noise* source;                    ///< where numbers come from
-  std::uint64_t trajectory;               ///< whose noise it is; that of lane 0
-  std::int64_t step;                      ///< that is under way
-  int letters;                            ///< O of a word
-  bool bath_is_warm;                      ///< false: sigma = 0, no number is drawn
-  vector<T, N> xi;                        ///< of the last draw
-  Room room;                              ///< for letters G, R, H, or none
-
-  /// Standard normal numbers for letter O number `letter` of a step; held until the next draw.
-  const vector<T, N>& draw(std::int64_t of_step, int letter) {
-    source->normals({trajectory, of_step, letter}, xi);
-    return xi;
-  }
-  void next() { ++step; }  ///< to the next step
-};
-
-/// The same where a word has no letter O.
-template <class Room>
-struct quiet_cursor {
-  static constexpr bool is_noisy = false;  ///< no letter O
-  Room room;                               ///< for letters G, R, H, or none
-  void next() {}                           ///< no noise, nothing to count
-};
-
-/// One letter O of a step.
-template <System S, Scalar T, Scalar C>
-void apply_noise(const S& system, const ornstein_uhlenbeck::prepared<C>& flow, int letter, auto& cursor,
-                 flow_state<T, S::dimension>& x) {
-  if (!cursor.bath_is_warm) return ornstein_uhlenbeck::damp(system, flow.decay, x);
-  ornstein_uhlenbeck::apply(system, flow, cursor.draw(cursor.step, letter), x);
-}
-
-/// Two letters O that meet between steps, one that ends a step (a_1, s_1) and one that begins the next
-/// (a_2, s_2), take a single draw xi:
-///   p <- a_2 a_1 p + s xi,  s^2 = a_2^2 s_1^2 + s_2^2.
-/// The state between them, if it is observed, needs a further draw zeta, which changes nothing of what comes:
-///   xi_1 = u xi + v zeta,  xi_2 = v xi - u zeta,  u = a_2 s_1/s,  v = s_2/s
-/// are independent standard normal, and a_2 s_1 xi_1 + s_2 xi_2 = s xi. A path has its own xi_1 and xi_2, and
-/// they are taken. Before the first step there is only xi_2.
-template <Scalar C>
-class merged_half_steps {
- public:
-  merged_half_steps() = default;
-  /// From the letters as they are prepared. `bath_is_warm`: sigma > 0, so that there is noise.
-  merged_half_steps(const ornstein_uhlenbeck::prepared<C>& end, const ornstein_uhlenbeck::prepared<C>& begin,
-                    bool bath_is_warm)
-      : end_(end), begin_(begin) {
-    using std::sqrt;
-    both_.decay = begin.decay * end.decay;
-    if (!bath_is_warm) return;
-    const C of_end = begin.decay * end.deviation;
-    both_.deviation = sqrt(of_end * of_end + begin.deviation * begin.deviation);
-    if (!any(both_.deviation > C(0.0))) return;  // their coefficients are 0
-    u_ = of_end / both_.deviation;
-    v_ = begin.deviation / both_.deviation;
-  }
-
-  /// From the end of the last step into the one that begins.
-  template <System S, Scalar T>
-  void cross(const S& system, auto& cursor, flow_state<T, S::dimension>& x) const {
-    if (cursor.step == 0) return begin(system, cursor, x);
-    if (!cursor.bath_is_warm) return ornstein_uhlenbeck::damp(system, both_.decay, x);
-    if constexpr (is_memoryless<decltype(*cursor.source)>) {
-      ornstein_uhlenbeck::apply(system, both_, cursor.draw(cursor.step, 0), x);
-    } else {
-      end(system, cursor, x);
-      begin(system, cursor, x);
-    }
-  }
-
-  /// The letter that ends the step before the cursor's; before the first step there is none.
-  template <System S, Scalar T>
-  void end(const S& system, auto& cursor, flow_state<T, S::dimension>& x) const {
-    if (cursor.step == 0) return;
-    if (!cursor.bath_is_warm) return ornstein_uhlenbeck::damp(system, end_.decay, x);
-    if constexpr (is_memoryless<decltype(*cursor.source)>) {
-      ornstein_uhlenbeck::apply(system, end_, half(cursor, u_, v_), x);
-    } else {
-      ornstein_uhlenbeck::apply(system, end_, cursor.draw(cursor.step - 1, cursor.letters - 1), x);
-    }
-  }
-
-  /// The letter that begins the cursor's step.
-  template <System S, Scalar T>
-  void begin(const S& system, auto& cursor, flow_state<T, S::dimension>& x) const {
-    if (!cursor.bath_is_warm) return ornstein_uhlenbeck::damp(system, begin_.decay, x);
-    if constexpr (is_memoryless<decltype(*cursor.source)>) {
-      ornstein_uhlenbeck::apply(system, begin_, half(cursor, v_, -u_), x);
-    } else {
-      ornstein_uhlenbeck::apply(system, begin_, cursor.draw(cursor.step, 0), x);
-    }
-  }
-
- private:
-  template <class Source>
-  static constexpr bool is_memoryless = std::remove_reference_t<Source>::is_memoryless;
-
-  /// of_xi xi + of_zeta zeta
-  static const auto& half(auto& cursor, const C& of_xi, const C& of_zeta) {
-    auto zeta = cursor.xi;
-    cursor.draw(cursor.step, 0);
-    cursor.source->halving({cursor.trajectory, cursor.step, 0}, zeta);
-    for (Eigen::Index i = 0; i < zeta.size(); ++i) {
-      cursor.xi[i] = cursor.xi[i] * of_xi + zeta[i] * of_zeta;
-    }
-    return cursor.xi;
-  }
-
-  ornstein_uhlenbeck::prepared<C> end_;
-  ornstein_uhlenbeck::prepared<C> begin_;
-  ornstein_uhlenbeck::prepared<C> both_;
-  C u_{0.0};
-  C v_{0.0};
-};
-
-// A word with its coefficients and the step folded in, letters known at compile time.
 
 /// What letters are prepared with, beside coefficients and step: where their word needs it, else nothing.
 struct surroundings_of_word {
@@ -151,207 +26,282 @@ struct surroundings_of_word {
   int threads = 1;                                ///< that may share a step
 };
 
-namespace detail {
-/// One letter with its coefficients, from c[0] on, and the step folded in.
-template <Flow Letter, int N, Scalar C>
-auto prepare_letter(const C* c, double h, const surroundings_of_word& around) {
-  if constexpr (StochasticFlow<Letter>) {
-    return Letter::prepare(c[0], h, *around.heat_bath);
-  } else if constexpr (QuadraticFlow<Letter>) {
-    return Letter::template prepare<N>(c[0], h, around.part);
-  } else {
-    return prepare_coefficients<Letter>(c, h);
-  }
-}
-}  // namespace detail
-
 // clang-format off
 /// Letters with coefficients and step folded in, and what a stepper does with them:
-/// open(system, x)                from a synchronous state to an open one: force and first letter where needed
+/// open(system, x, cursor)        from a synchronous state to an open one: force and first letter where needed
 /// advance(system, x, n, cursor)  n steps of an open run; last letter of a step and first of the next are one
 /// close(system, x, cursor)       an open state becomes synchronous
 /// step(system, x, cursor)        one plain step, letter by letter, from only q and p
-/// in_loop()                      itself, as a loop should hold it
 /// The cursor says where the run is in its noise, and goes on with it.
 // clang-format on
 ///
 /// An open run is ahead of the synchronous state by a first letter that merges with the last. Where both are
-/// of the bath it is behind instead: the letter O that meets the next step's is still to come. N is the
-/// dimension of the system.
-template <class W, Scalar C, int N>
-class prepared_word;
-
-/// Of letters known at compile time: unrolled, nothing is decided while stepping.
-template <Scalar C, int N, Flow... L>
-class prepared_word<word<L...>, C, N> {
-  using W = word<L...>;
-
+/// of the bath it is behind instead: the letter O that meets the next step's is still to come.
+///
+/// Letters of the bath and those that a system declares are done here, all others by the system's kernels: in
+/// one virtual call for many steps where the system is a model. N is the dimension of the system.
+template <Scalar C, int N>
+class prepared_word {
  public:
-  /// One for each slot.
-  using coefficients = typename W::template coefficients<C>;
-  /// The cursor of the word holds a flow_room: there is a letter D, G, R or H.
-  static constexpr bool needs_room = W::force_derivatives + W::displaced_forces > 0 ||
-                                     (QuadraticFlow<L> || ...);
-
-  /// Folds step and surroundings into the coefficients.
-  prepared_word(const W&, const coefficients& c, double h, const surroundings_of_word& around)
-      : letters_(prepare(c, h, around, std::make_index_sequence<W::length>{})) {
-    if constexpr (W::merges) {
-      std::array<C, first::slots> both;
-      std::array<C, first::slots> back;
-      for (std::size_t k = 0; k < first::slots; ++k) {
-        both[k] = c[W::slots - first::slots + k] + c[k];
-        back[k] = -c[k];
-      }
-      merged_ = detail::prepare_letter<first, N>(both.data(), h, around);
-      undo_ = detail::prepare_letter<first, N>(back.data(), h, around);
-    } else if constexpr (W::merges_half_steps) {
-      merged_ = merged_half_steps<C>(std::get<W::length - 1>(letters_), std::get<0>(letters_),
-                                     around.heat_bath->sigma() > 0.0);
+  /// Folds step and surroundings into the coefficients. Throws std::invalid_argument unless there is a
+  /// coefficient for each slot.
+  template <System S>
+  prepared_word(const S& system, const word& w, const std::vector<C>& c, double h,
+                const surroundings_of_word& around)
+      : merges_(w.merges), merges_half_steps_(w.merges_half_steps) {
+    w.require_one_for_each_slot(c);
+    if (w.is_processed()) {
+      before_ = plain(detail::pre_processor(w), detail::pre_processor_coefficients(w, c), h);
+      after_ = plain(detail::post_processor(w), detail::post_processor_coefficients(w, c), h);
     }
+    const word::evaluation_plan plan = w.plan();
+    evaluates_to_open_ = plan.is_known_when_open;
+    const auto prepare_one = [&](std::size_t i, const C* from) { return prepare(system, w.facts(i), from, h, around); };
+    run_.reads = plain_.reads = w.reads == field::soft ? field::soft : field::whole;
+    run_.calls = plain_.calls = w.stochastic_letters > 0;
+    run_.threads = around.threads;
+    if (merges_half_steps_) run_.loop.push_back({.number = seam_of_steps});
+    if (merges_half_steps_) run_.last.push_back({.number = seam_of_steps});
+    const std::size_t slots_of_first = w.slots_of(0);
+    std::size_t slot = 0;
+    for (std::size_t i = 0; i < w.length; slot += w.slots_of(i), ++i) {
+      const letter one = prepare_one(i, &c[slot]);
+      const bool is_at_seam = merges_half_steps_ && (i == 0 || i + 1 == w.length);
+      if (!is_at_seam) plain_.loop.push_back(evaluating(one, plan.in_step[i]));
+      if (i < w.first_in_loop() || is_at_seam) continue;
+      letter in_run = one;
+      if (merges_ && i + 1 == w.length) {
+        std::vector<C> both;
+        for (std::size_t k = 0; k < slots_of_first; ++k) both.push_back(C(c[slot + k] + c[k]));
+        in_run = prepare_one(i, both.data());
+      }
+      run_.loop.push_back(evaluating(in_run, plan.in_loop[i]));
+      run_.last.push_back(evaluating(in_run, plan.in_last[i]));
+    }
+    if (merges_) {
+      std::vector<C> back;
+      for (std::size_t k = 0; k < slots_of_first; ++k) back.push_back(C(-c[k]));
+      first_ = prepare_one(0, c.data());
+      run_.undo = {prepare_one(0, back.data())};
+    }
+    if (merges_half_steps_) {
+      const bool is_warm = around.heat_bath->sigma() > 0.0;
+      merged_ = merged_half_steps<C>(noise_.back(), noise_.front(), is_warm);
+    }
+    for (auto* letters : {&run_.loop, &run_.last, &plain_.loop}) end_step(*letters);
+    plain_.last = plain_.loop;
+    run_.find_pairs();
   }
 
-  /// A copy: local coefficients cannot alias the system, so they stay in registers.
-  prepared_word in_loop() const { return *this; }
+  /// The letters of an open run.
+  const detail::step_program<C>& program() const { return run_; }
 
-  /// Opens a run. Cost: W::evaluations_to_open.
+  /// Opens a run. Cost: the word's evaluations_to_open.
   template <class T, System S>
-  void open(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
-    if constexpr (W::plan.is_known_when_open) force_of<W::reads, T>(system, x.q, x.f);
-    if constexpr (W::merges) first::apply(system, std::get<0>(letters_), x, cursor.room);
+  [[gnu::noinline]] void open(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+    take(system, before_, x, 1, cursor, {});
+    if (evaluates_to_open_) evaluate<T>(system, x);
+    if (merges_) apply_known(system, first_, x, cursor);
   }
-  /// Steps of an open run. Cost: W::evaluations_per_step each.
+  /// Steps of an open run. Cost: the word's evaluations_per_step each.
   template <class T, System S>
-  [[gnu::always_inline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
-                                      auto& cursor) const {
-    constexpr bool last_differs = W::plan.in_last != W::plan.in_loop;
-    const std::int64_t alike = last_differs ? steps - 1 : steps;
-    if constexpr (is_in_pairs && !is_dual<T>) {
-      constexpr auto begins = std::same_as<typename W::template letter<W::first_in_loop>, kick>
-                                  ? detail::pair_begins::with_kick
-                                  : detail::pair_begins::with_drift;
-      const auto pairs = pairs_of_loop(std::make_index_sequence<(end - W::first_in_loop) / 2>{});
-      detail::take_pairs<begins, detail::last_force::unknown, T>(system, x, cursor.room, pairs.data(),
-                                                                 pairs.size(), alike);
-    } else {
-      for (std::int64_t n = 0; n < alike; ++n) {
-        loop<in_loop_plan, W::first_in_loop>(system, x, cursor);
-        cursor.next();
-      }
+  [[gnu::noinline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
+                                 auto& cursor) const {
+    take(system, run_, x, steps, cursor, {});
+  }
+  /// The same of an erased system, watched: observe() is called with the synchronous state in y after `first`
+  /// steps, and every `every` steps from there on.
+  template <class T, ErasedSystem S>
+  void advance(const S& system, flow_state<T, S::dimension>& x, flow_state<T, S::dimension>& y,
+               std::int64_t steps, std::int64_t first, std::int64_t every, auto& cursor,
+               const auto& observe) const {
+    const auto see = [&] {
+      if (merges_ && is_called(run_.undo.front())) apply_called(system, run_.undo.front().number, y, cursor.room);
+      end(system, y, cursor);
+      observe();
+    };
+    take(system, run_, x, steps, cursor,
+         detail::watch<T>{.q = &y.q,
+                          .p = &y.p,
+                          .first = first,
+                          .every = every,
+                          .observe = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
+                          .context = const_cast<void*>(static_cast<const void*>(&see))});
+  }
+  /// What an open state is at its step. Cost: the word's evaluations_to_observe.
+  template <class T, System S>
+  [[gnu::noinline]] void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+    close_kernel(system, x, cursor);
+    end(system, x, cursor);
+  }
+  /// The same without the bath and without P(-h). No evaluation.
+  template <class T, System S>
+  void close_kernel(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+    if (merges_) apply_known(system, run_.undo.front(), x, cursor);
+  }
+  /// One step from only q and p. Cost: the word's evaluations_of_plain_step.
+  template <class T, System S>
+  [[gnu::noinline]] void step(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+    if constexpr (is_noisy<decltype(cursor)>) {
+      if (merges_half_steps_) merged_.begin(system, cursor, x);
     }
-    if constexpr (last_differs) {
-      if (steps > 0) {
-        loop<in_last_plan, W::first_in_loop>(system, x, cursor);
-        cursor.next();
-      }
-    }
-  }
-  /// What an open state is at its step. No evaluation.
-  template <class T, System S>
-  void close(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
-    if constexpr (W::merges) first::apply(system, undo_, x, cursor.room);
-    if constexpr (W::merges_half_steps) merged_.end(system, cursor, x);
-  }
-  /// One step from only q and p. Cost: W::evaluations_of_plain_step.
-  template <class T, System S>
-  void step(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
-    if constexpr (W::merges_half_steps) merged_.begin(system, cursor, x);
-    plain<W::merges_half_steps ? 1 : 0>(system, x, cursor);
-    cursor.next();
-    if constexpr (W::merges_half_steps) merged_.end(system, cursor, x);
+    take(system, before_, x, 1, cursor, {});
+    take(system, plain_, x, 1, cursor, {});
+    end(system, x, cursor);
   }
 
  private:
-  using first = typename W::template letter<0>;
-  static constexpr std::size_t end =
-      W::merges_half_steps ? W::length - 1 : W::length;  // of loop and plain step
+  using letter = detail::step_program_letter<C>;
+  using turn = rotation::prepared<C, Eigen::Dynamic>;
 
-  /// Whether a step of an open run is drifts and kicks in turn, several of each, whose forces nothing else
-  /// needs.
-  static constexpr bool is_in_pairs = [] {
-    constexpr std::size_t first = W::first_in_loop;
-    if (!std::same_as<C, double> || end - first < 4 || (end - first) % 2 != 0) return false;
-    constexpr std::array is_kick{std::same_as<L, kick>...};
-    constexpr std::array is_drift{std::same_as<L, drift>...};
-    for (std::size_t i = first; i < end; ++i) {
-      if (!is_kick[i] && !is_drift[i]) return false;
-      if (i > first && is_kick[i] == is_kick[i - 1]) return false;
-      if (is_kick[i] && W::plan.in_loop[i] != evaluation::unshared) return false;
+  // What is called back: letter O number k as k, and
+  static constexpr int next_step = -1;
+  static constexpr int seam_of_steps = -2;
+  static constexpr int ends_step = 1 << 20;  // with the number of a letter O that is the last of a step
+  static constexpr int first_called = 1 << 24;  // and any other letter number k as first_called + k
+
+  template <System S>
+  letter prepare(const S& system, const letter_facts& facts, const C* c, double h,
+                 const surroundings_of_word& around) {
+    if (facts.is_of_bath) {
+      noise_.push_back(ornstein_uhlenbeck::prepare(c[0], h, *around.heat_bath));
+      return {.number = static_cast<int>(noise_.size()) - 1};
     }
-    return true;
-  }();
-
-  template <std::size_t I>
-  double folded() const {
-    if constexpr (W::merges && I + 1 == W::length) {
-      return merged_;
+    letter result = with_step(facts.letter, c, h, around);
+    if (result.what == detail::action::call) {
+      result.number = first_called + static_cast<int>(called_.size());
+      called_.push_back(detail::prepared_letter_of(system, facts.letter, c, h));
+    }
+    return result;
+  }
+  /// A letter that kernels do themselves; of all others, a call of nothing.
+  letter with_step(char name, const C* c, double h, const surroundings_of_word& around) {
+    letter result;
+    detail::with_letter(name, known_letters{}, [&]<class L>(const L&) {
+      result.what = detail::action_of<L>();
+      if constexpr (std::is_same_v<L, rotation>) {
+        turns_.push_back(std::make_shared<const turn>(rotation::prepare<Eigen::Dynamic>(c[0], h, around.part)));
+        result.turn = turns_.back().get();
+      } else if constexpr (detail::action_of<L>() == detail::action::displaced_kick) {
+        result.displaced = detail::prepare_coefficients<L>(c, h);
+      } else if constexpr (detail::action_of<L>() == detail::action::gradient_kick) {
+        result.gradient = detail::prepare_coefficients<L>(c, h);
+      } else if constexpr (detail::action_of<L>() != detail::action::call) {
+        result.coefficient = detail::prepare_coefficients<L>(c, h);
+      }
+    });
+    return result;
+  }
+  static letter evaluating(letter one, evaluation evaluates) {
+    one.evaluates = evaluates;
+    return one;
+  }
+  /// The cursor goes on with the last letter O where a step ends with it, else by a call of its own.
+  void end_step(std::vector<letter>& letters) const {
+    if (!run_.calls) return;
+    const bool by_letter = !letters.empty() && letters.back().what == detail::action::call &&
+                           letters.back().number >= 0 && letters.back().number < ends_step;
+    if (by_letter) {
+      letters.back().number |= ends_step;
     } else {
-      return std::get<I>(letters_);
+      letters.push_back({.number = next_step});
     }
   }
-  template <std::size_t... I>
-  auto pairs_of_loop(std::index_sequence<I...>) const {
-    constexpr std::size_t first = W::first_in_loop;
-    return std::array{std::array{folded<first + 2 * I>(), folded<first + 2 * I + 1>()}...};
+
+  /// A plain step of a word of drifts and kicks.
+  detail::step_program<C> plain(const word& w, const std::vector<C>& c, double h) {
+    detail::step_program<C> result;
+    result.reads = field::whole;
+    const word::evaluation_plan plan = w.plan();
+    for (std::size_t i = 0; i < w.length; ++i) {
+      result.loop.push_back(evaluating(with_step(w.letter(i), &c[i], h, {}), plan.in_step[i]));
+    }
+    result.last = result.loop;
+    result.find_pairs();
+    return result;
   }
 
-  template <std::size_t... I>
-  static auto prepare(const coefficients& c, double h, const surroundings_of_word& around,
-                      std::index_sequence<I...>) {
-    return std::tuple(
-        detail::prepare_letter<typename W::template letter<I>, N>(&c[W::first_slot(I)], h, around)...);
-  }
-
-  template <std::size_t I, evaluation E, class T, System S>
-  [[gnu::always_inline]] static void apply(const S& system, const auto& prepared,
-                                           flow_state<T, S::dimension>& x, auto& cursor) {
-    using letter = typename W::template letter<I>;
-    if constexpr (StochasticFlow<letter>) {
-      apply_noise(system, prepared, W::stochastic_number(I), cursor, x);
-    } else if constexpr (E == evaluation::unshared &&
-                         requires { letter::evaluate_and_apply(system, prepared, x, cursor.room); }) {
-      letter::evaluate_and_apply(system, prepared, x, cursor.room);
+  /// Nothing of an empty program.
+  template <class T, System S>
+  void take(const S& system, const detail::step_program<C>& letters, flow_state<T, S::dimension>& x,
+            std::int64_t steps, auto& cursor, const detail::watch<T>& watched) const {
+    if (letters.loop.empty()) return;
+    const auto act = [&](int number) {
+      if (number >= first_called) return apply_called(system, number, x, cursor.room);
+      if constexpr (is_noisy<decltype(cursor)>) {
+        if (number == seam_of_steps) return merged_.cross(system, cursor, x);
+        if (number != next_step) {
+          const int k = number & ~ends_step;
+          apply_noise(system, noise_[static_cast<std::size_t>(k)], k, cursor, x);
+          if (k == number) return;
+        }
+        cursor.next();
+      }
+    };
+    const detail::callback other{
+        [](void* context, int number) { (*static_cast<decltype(act)*>(context))(number); },
+        const_cast<void*>(static_cast<const void*>(&act))};
+    if constexpr (ErasedSystem<S>) {
+      system.template kernels<T>().advance(x.q, x.p, x.f, cursor.room, letters, steps, other, watched);
     } else {
-      if constexpr (E != evaluation::none) force_of<W::reads, T>(system, x.q, x.f);
-      letter::apply(system, prepared, x, cursor.room);
+      detail::state_in_place<T, S::dimension> in_place{x.q, x.p, x.f};
+      detail::take_steps_of_word(system, in_place, cursor.room, letters, steps, other, watched);
     }
   }
 
-  // Types, not arrays: g++ 12 confuses template parameters that are arrays of equal length.
-  struct in_loop_plan {
-    static constexpr auto evaluations = W::plan.in_loop;
-  };
-  struct in_last_plan {
-    static constexpr auto evaluations = W::plan.in_last;
-  };
-
-  template <class Plan, std::size_t I, class T, System S>
-  [[gnu::always_inline]] void loop(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
-    constexpr evaluation evaluates = Plan::evaluations[I];
-    if constexpr (W::merges_half_steps && I == 0) {
-      merged_.cross(system, cursor, x);
-    } else if constexpr (W::merges && I + 1 == W::length) {
-      apply<I, evaluates>(system, merged_, x, cursor);
+  template <class T, System S>
+  [[gnu::noinline]] void evaluate(const S& system, flow_state<T, S::dimension>& x) const {
+    if constexpr (HasQuadraticPart<S> && ForceOver<S, T, field::soft>) {
+      if (run_.reads == field::soft) return force_of<field::soft, T>(system, x.q, x.f);
+    }
+    force<T>(system, x.q, x.f);
+  }
+  static bool is_called(const letter& one) {
+    return one.what == detail::action::call && one.number >= first_called;
+  }
+  template <System S, class T, int Size>
+  [[gnu::noinline]] void apply_called(const S& system, int number, flow_state<T, Size>& x, auto& room) const {
+    if constexpr (detail::prepared_letter<C>::template serves<T>) {
+      const void* held = &system;
+      if constexpr (ErasedSystem<S>) held = system.held();
+      const auto& one = called_[static_cast<std::size_t>(number - first_called)].template over<T>();
+      if constexpr (Size == Eigen::Dynamic) {
+        one(held, {x.q.data(), x.p.data(), &x.q, &x.p, &room});
+      } else {
+        one(held, {x.q.data(), x.p.data()});
+      }
     } else {
-      apply<I, evaluates>(system, std::get<I>(letters_), x, cursor);
+      throw std::logic_error("prepared_word: a letter of a system must be over the scalar of its coefficients");
     }
-    if constexpr (I + 1 < end) loop<Plan, I + 1>(system, x, cursor);
+  }
+  void apply_known(const auto& system, const letter& one, auto& x, auto& cursor) const {
+    if (is_called(one)) return apply_called(system, one.number, x, cursor.room);
+    detail::apply_known<field::whole>(system, one, x, cursor.room);
   }
 
-  template <std::size_t I, class T, System S>
-  [[gnu::always_inline]] void plain(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
-    constexpr evaluation evaluates = W::plan.in_step[I];
-    apply<I, evaluates>(system, std::get<I>(letters_), x, cursor);
-    if constexpr (I + 1 < end) plain<I + 1>(system, x, cursor);
+  template <class Cursor>
+  static constexpr bool is_noisy = std::remove_cvref_t<Cursor>::is_noisy;
+
+  template <class T, System S>
+  void end(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
+    if constexpr (is_noisy<decltype(cursor)>) {
+      if (merges_half_steps_) merged_.end(system, cursor, x);
+    }
+    take(system, after_, x, 1, cursor, {});
   }
 
-  using letters_type = decltype(prepare({}, 1.0, {}, std::make_index_sequence<W::length>{}));
-  using first_type = std::tuple_element_t<0, letters_type>;
-
-  letters_type letters_;
-  std::conditional_t<W::merges_half_steps, merged_half_steps<C>, first_type>
-      merged_{};       // last and first letter in one
-  first_type undo_{};  // the first letter taken back
+  bool merges_;
+  bool merges_half_steps_;
+  bool evaluates_to_open_ = false;
+  detail::step_program<C> run_;
+  detail::step_program<C> plain_;
+  detail::step_program<C> before_;  // P(h)^-1 of a processed word, else empty
+  detail::step_program<C> after_;   // P(-h)
+  letter first_{};
+  std::vector<ornstein_uhlenbeck::prepared<C>> noise_;  // of the letters O, in their order
+  std::vector<std::shared_ptr<const turn>> turns_;      // that the programs refer to
+  std::vector<detail::prepared_letter<C>> called_;      // all other letters that are called back
+  merged_half_steps<C> merged_;
 };
 
 }  // namespace nysalt

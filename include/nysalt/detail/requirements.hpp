@@ -223,9 +223,9 @@ constexpr void require_no_near_members() {
 
 }  // namespace detail
 
-/// Compiles if S can be stepped by methods of M's kind (a method or a family), and every optional member
+/// Compiles if S can be stepped, and every optional member
 /// that it has is one that the library will use; else a static assertion says what is wrong.
-template <class M, class S>
+template <class S>
 constexpr void require_suited() {
   static_assert(System<S>,
                 "nysalt: a system is copyable and has `static constexpr int dimension`, positive, or "
@@ -239,12 +239,6 @@ constexpr void require_suited() {
     detail::require_used_members<written>();
     detail::require_no_near_members<written>();
     detail::require_no_near_members<S>();  // what derives from a sum of parts may have members of its own
-  }
-  if constexpr (requires { std::bool_constant<M::requires_quadratic_kinetic>{}; }) {
-    static_assert(!M::requires_quadratic_kinetic || NystromSystem<S>,
-                  "nysalt: the order of this method needs a quadratic kinetic energy, but the system has a "
-                  "kinetic energy of its own; take one of any K(p), as blanes_moan_s10, and as reference "
-                  "fine_steps<blanes_moan_s10>");
   }
 }
 

@@ -2,77 +2,66 @@
 // The letters of a word that a system serves.
 #pragma once
 
-#include <cstddef>
+#include <algorithm>
 #include <stdexcept>
-#include <string>
-#include <utility>
+#include <string_view>
 
 #include "nysalt/detail/sentence.hpp"
-#include "nysalt/run_time_word.hpp"
+#include "nysalt/detail/system_letters.hpp"
+#include "nysalt/word.hpp"
+
+namespace nysalt::detail {
+
+/// Whether the system serves the letter L over T.
+template <class L, class T, class S>
+bool serves_letter(const S& system) {
+  if constexpr (ErasedSystem<S>) {
+    return system.facts().template serves<T>(L::letter);
+  } else {
+    return L::template serves<S, T>;
+  }
+}
+
+/// Refuses a letter that is not the library's, unless the system declares it.
+template <class T, class S>
+void require_declared(const word& letters, const letter_facts& own, const S& system) {
+  const auto declared = letters_declared_by(system);
+  if (std::ranges::find(declared, own) == declared.end()) {
+    throw std::invalid_argument(
+        sentence("cannot step {} by the word {}: the system must declare the letter {}; add it to `using "
+                 "letters = std::tuple<...>` of the system, or take with_letters",
+                 describe(system), letters.letters(), own.letter));
+  }
+  bool is_served = true;
+  if constexpr (ErasedSystem<S>) {
+    is_served = system.facts().template serves<T>(own.letter);
+  } else {
+    with_letter(own.letter, letters_of<S>(), [&]<class L>(const L&) { is_served = serves_letter<L, T>(system); });
+  }
+  if (!is_served) {
+    throw std::invalid_argument(sentence("cannot step {} by the word {}: the letter {} must serve the system",
+                                         describe(system), letters.letters(), own.letter));
+  }
+}
+
+}  // namespace nysalt::detail
 
 namespace nysalt {
 
-namespace detail {
-/// Does not compile, in the letter's words if it has some, unless a system serves it.
-template <Flow L, System S, Scalar T>
-constexpr void require_letter() {
-  if constexpr (requires { L::template require_served<S, T>(); }) {
-    L::template require_served<S, T>();
-  } else {
-    static_assert(L::template serves<S, T>, "nysalt: the system does not serve a letter of the word");
-  }
-}
-template <System S, Scalar T, TypeLevelWord W, std::size_t... I>
-constexpr void require_letters(std::index_sequence<I...>) {
-  (require_letter<typename W::template letter<I>, S, T>(), ...);
-}
-}  // namespace detail
-
-/// Whether a letter R is among them, so that modes are needed.
-template <Word W>
-bool has_rotation(const W& word) {
-  return word.reads_modes;
-}
-
-/// Refuses a word with a letter that a system does not have over T. Where the word is a type it does not
-/// compile. Throws std::invalid_argument, saying what is missing, where it is data.
-template <System S, Scalar T, Word W>
-void require_served(const W& word, const S& system) {
-  if constexpr (TypeLevelWord<W>) {
-    detail::require_letters<S, T, W>(std::make_index_sequence<W::length>{});
-  } else {
-    for (const char letter : word.letters()) {
-      if (const auto* own = word.own_letter(letter)) {
-        std::string base;
-        if constexpr (ErasedSystem<S>) {
-          base = system.facts().base_description;
-        } else {
-          base = describe(system);
-        }
-        if (own->system != base) {
-          throw std::invalid_argument(
-              sentence("the word {} must be made with the system {}, got the letter {} of {}; make the word "
-                       "with this system",
-                       word.letters(), base, letter, own->system));
-        }
-        if (!own->template serves<T>()) {
-          throw std::invalid_argument(
-              sentence("the word {} must step {} one trajectory at a time, as the letter {} has one lane",
-                       word.letters(), describe(system), letter));
+/// Throws std::invalid_argument, saying what is missing, if a word has a letter that the system does not have
+/// over T.
+template <System S, Scalar T>
+void require_served(const word& letters, const S& system) {
+  for (const letter_facts& own : letters.own()) detail::require_declared<T>(letters, own, system);
+  for (const char letter : letters.view()) {
+    detail::with_letter(letter, known_letters{}, [&]<class L>(const L&) {
+      if constexpr (requires { L::needs; }) {
+        if (!detail::serves_letter<L, T>(system)) {
+          throw std::invalid_argument(sentence("cannot step {} by the word {}: {}", describe(system),
+                                               letters.letters(), L::needs));
         }
       }
-      detail::with_letter(letter, known_letters{}, [&](auto flow) {
-        using L = decltype(flow);
-        if constexpr (requires { L::needs; }) {
-          bool is_served = L::template serves<S, T>;
-          if constexpr (ErasedSystem<S>) is_served = system.facts().template serves<T>(letter);
-          if (!is_served) {
-            throw std::invalid_argument(
-                sentence("cannot step {} by the word {}: {}", describe(system), word.letters(), L::needs));
-          }
-        }
-      });
-    }
+    });
   }
 }
 

@@ -1,20 +1,32 @@
 // SPDX-License-Identifier: BSL-1.0
-// Letters as data, as they are interpreted.
+// The letters of a step, with their coefficients, as they are interpreted.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
-#include "nysalt/flows/gradient_kick.hpp"
-#include "nysalt/flows/rotation.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt::detail {
 
-/// What kernels do themselves; letters of the bath are called back.
+/// What kernels do themselves; letters of the bath, and all other letters, are called back.
 enum class action : std::uint8_t { drift, kick, gradient_kick, displaced_kick, rotation, call };
+
+/// The action of a letter of the library.
+template <class L>
+constexpr action action_of() {
+  if constexpr (std::is_same_v<L, drift>) return action::drift;
+  if constexpr (std::is_same_v<L, kick> || std::is_same_v<L, soft_kick>) return action::kick;
+  if constexpr (std::is_same_v<L, gradient_kick> || std::is_same_v<L, soft_gradient_kick>) {
+    return action::gradient_kick;
+  }
+  if constexpr (std::is_same_v<L, displaced_kick>) return action::displaced_kick;
+  if constexpr (std::is_same_v<L, rotation>) return action::rotation;
+  return action::call;
+}
 
 /// A letter as data, with the step folded into the coefficients.
 template <Scalar C>

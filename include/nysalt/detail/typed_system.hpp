@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "nysalt/detail/kernels.hpp"
-#include "nysalt/detail/prepared_run_time_word.hpp"
+#include "nysalt/detail/take_steps.hpp"
 #include "nysalt/detail/tiled_steps.hpp"
 #include "nysalt/flows/drift_kick.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/rotation.hpp"
-#include "nysalt/run_time_word.hpp"
+#include "nysalt/word.hpp"
 #include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/in_bath.hpp"
 
@@ -215,6 +215,10 @@ class typed_kernels final : public kernels<T> {
       refuse_kernel();
     }
   }
+  applied_letter<T> letter(char name, const C* c, double h) const final {
+    if constexpr (serves) return letter_of_system<held_system<S>, T>(name, c, h);
+    return {};
+  }
 
  private:
   template <field F>
@@ -298,6 +302,7 @@ class typed_system final : public any_system {
     if constexpr (LocalSystem<S>) return &sites_;
     return nullptr;
   }
+  const void* held() const override { return &system_; }
   void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const override {
     const auto one_at_a_time = lock();
     if constexpr (HasKick<S, double>) {
@@ -345,7 +350,7 @@ std::string letters_served() {
   if constexpr (serves<S, T>) {
     std::apply([&]<class... L>(
                    const L&...) { ((L::template serves<S, T> ? void(result += L::letter) : void()), ...); },
-               known_letters{});
+               std::tuple_cat(known_letters{}, letters_of<S>{}));
   }
   return result;
 }
@@ -395,6 +400,7 @@ model_facts facts_of(const S& system) {
   facts.has_velocity_over_slopes = HasVelocity<S, slopes>;
   facts.may_be_wrong = force_may_be_wrong<S>;
   facts.is_black_box = BlackBoxForce<S>;
+  facts.own_letters = letters_declared_by(system);
   facts.derivative_calls = derivative_calls<S>;
   facts.derivative_source = derivative_source<S>();
   facts.letters_over_double = letters_served<S, double>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Families of compositions of drifts and kicks, of rotations, and of letters of a bath.
+// Families of compositions of drifts and kicks, and of rotations and soft kicks.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,6 @@
 #include "nysalt/family.hpp"
 #include "nysalt/flows/drift_kick.hpp"
 #include "nysalt/flows/rotation.hpp"
-#include "nysalt/langevin.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/word.hpp"
 
@@ -20,7 +19,8 @@ namespace nysalt {
 
 /// Defaults of a family: parameters theta1, theta2, ... between -4 and 4; of order 1,
 /// not symmetric, for any kinetic energy. A family of one's own adds
-///   using word = ...;  static constexpr std::string_view name = ...;  start();  coefficients(theta)
+///   static constexpr word letters{"..."};  static constexpr std::string_view name = ...;
+///   start();  coefficients(theta)
 template <int Parameters>
 struct composition {
   static constexpr int parameters = Parameters;
@@ -67,7 +67,7 @@ constexpr std::array<std::string_view, Count> names_in_turn(bool b_is_first) {
 /// drift: a gradient kick by differences, along a flat valley.
 template <Flow Outer, Flow Inner, std::size_t Length>
 struct symmetric_composition : composition<(static_cast<int>(Length) - 3) / 2> {
-  using word = alternating_word<Outer, Inner, Length>;
+  static constexpr word letters = alternating<Outer, Inner, Length>();
   static constexpr std::size_t free = (Length - 3) / 2;
   static constexpr auto parameter_names = names_in_turn<free>(Outer::reads != field::none);
   static constexpr int order = 2;
@@ -89,11 +89,9 @@ struct symmetric_composition : composition<(static_cast<int>(Length) - 3) / 2> {
   }
 
   /// The parameters that a classical method of this word has.
-  template <class M>
-  static std::array<double, free> of(const M& method) {
-    static_assert(std::is_same_v<typename M::word, word> || QuadraticFlow<Outer>);
+  static std::array<double, free> of(const tabulated& method) {
     std::array<double, free> all;
-    const auto c = method.coefficients();
+    const auto& c = method.coefficients();
     for (std::size_t k = 0; k < free; ++k) all[k] = c[k];
     return all;
   }
@@ -170,7 +168,7 @@ struct bab : symmetric_composition<kick, drift, 2 * Drifts + 1> {
 /// a tiny constant: never take it to a smaller step.
 template <Flow Outer, Flow Inner, int Stages>
 struct free_composition : composition<2 * Stages - 1> {
-  using word = alternating_word<Outer, Inner, 2 * Stages + 1>;
+  static constexpr word letters = alternating<Outer, Inner, 2 * Stages + 1>();
   static constexpr std::size_t free = 2 * Stages - 1;
   static constexpr auto parameter_names = names_in_turn<free>(Outer::reads != field::none);
 
@@ -234,41 +232,6 @@ struct r_aba : symmetric_composition<rotation, soft_kick, 2 * Kicks + 1> {
   static std::vector<classical_member<base::parameters>> classical_members() {
     return classical_palindromes<base, Kicks>();
   }
-};
-
-/// A family in a bath: the same parameters, with letters O at a placement. Its order is that of damping
-/// without noise (sigma = 0): 1 at the end, and in the middle of what is not symmetric; else 2 at most.
-template <Family F, placement P>
-struct thermostatted_family {
-  using plain = F;  ///< family without letters O
-  using word = thermostatted_word<typename F::word, P>;
-  static constexpr int parameters = F::parameters;
-  static constexpr auto parameter_names = F::parameter_names;
-  static constexpr int order = thermostatted_order(P, F::order, F::symmetric);
-  static constexpr bool symmetric = P != placement::end && F::symmetric;
-  static constexpr bool requires_quadratic_kinetic = F::requires_quadratic_kinetic;
-
-  static auto ranges() { return F::ranges(); }
-  static auto start() { return F::start(); }
-
-  template <Scalar C>
-  static typename word::template coefficients<C> coefficients(
-      const std::array<C, static_cast<std::size_t>(F::parameters)>& theta) {
-    return thermostatted_coefficients<word>(P, F::coefficients(theta));
-  }
-
- private:
-  static constexpr std::string_view place = to_string(P);
-  static constexpr auto text = [] {
-    std::array<char, F::name.size() + 1 + to_string(P).size()> joined{};
-    auto end = std::copy(F::name.begin(), F::name.end(), joined.begin());
-    *end++ = '_';
-    std::copy(place.begin(), place.end(), end);
-    return joined;
-  }();
-
- public:
-  static constexpr std::string_view name{text.data(), text.size()};
 };
 
 }  // namespace nysalt

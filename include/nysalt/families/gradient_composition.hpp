@@ -21,7 +21,7 @@ namespace nysalt {
 /// X(a) Y(b) X(1/2 - a) Z(1 - 2 b, c) X(1/2 - a) Y(b) X(a) with a gradient kick Z: four evaluations.
 template <Flow X, Flow Y, Flow Z>
 struct gradient_composition : composition<3> {
-  using word = nysalt::word<X, Y, X, Z, X, Y, X>;
+  static constexpr word letters = spelled<X, Y, X, Z, X, Y, X>();
   static constexpr std::string_view source = "takahashi_imada_1984";  // of the gradient kick
   static constexpr std::array<std::string_view, 3> parameter_names{"a", "b", "c"};
   static constexpr int order = 2;
@@ -47,10 +47,8 @@ struct gradient_composition : composition<3> {
   }
 
   /// The parameters that a method of this word has. Rotations may replace the drifts.
-  template <class M>
-  static std::array<double, 3> of(const M& method) {
-    static_assert(std::is_same_v<typename M::word, word> || QuadraticFlow<X>);
-    const auto c = method.coefficients();
+  static std::array<double, 3> of(const tabulated& method) {
+    const auto& c = method.coefficients();
     return {c[0], c[1], c[4]};
   }
 
@@ -78,7 +76,7 @@ struct r_fg4 : gradient_composition<rotation, soft_kick, soft_gradient_kick> {
 /// B(b) A(1/2) X(1 - 2 b, c) A(1/2) B(b) with a kick X that uses derivatives of the force: three evaluations.
 template <Flow Middle>
 struct chin_composition : composition<2> {
-  using word = nysalt::word<kick, drift, Middle, drift, kick>;
+  static constexpr word letters = spelled<kick, drift, Middle, drift, kick>();
   static constexpr std::array<std::string_view, 2> parameter_names{"b", "c"};
   static constexpr int order = 2;
   static constexpr bool symmetric = true;
@@ -102,10 +100,8 @@ struct fg_chin : chin_composition<gradient_kick> {
   static std::array<double, 2> start() { return {1.0 / 6.0, 1.0 / 72.0}; }
 
   /// Parameters of a method of this word.
-  template <class M>
-  static std::array<double, 2> of(const M& method) {
-    static_assert(std::is_same_v<typename M::word, word>);
-    const auto c = method.coefficients();
+  static std::array<double, 2> of(const tabulated& method) {
+    const auto& c = method.coefficients();
     return {c[0], c[3]};
   }
 };

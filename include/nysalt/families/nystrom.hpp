@@ -15,7 +15,7 @@ namespace nysalt {
 /// Members: (1/2, 1/2) velocity Verlet, (1/2, 3/8) two half steps of drift-kick-drift,
 /// (1/2, 0.4034) McLachlan's. Symmetric where b1 = 1/2. Two evaluations a step.
 struct nystrom {
-  using word = nysalt::word<drift, kick, drift, kick, drift>;
+  static constexpr word letters{"ABABA"};
   static constexpr std::string_view name = "nystrom";
   static constexpr std::string_view source = "okunbor_skeel_1992";
   static constexpr int parameters = 2;

@@ -76,10 +76,6 @@ struct kick_of {
   template <System S, Scalar T>
   static constexpr bool serves =
       Field == field::whole || (HasQuadraticPart<S> && ForceOver<S, T, field::soft>);
-  template <System S, Scalar T>
-  static constexpr void require_served() {
-    detail::require_quadratic_part<serves<S, T>>();
-  }
 
   template <Scalar C>
   static C prepare(const C& c, double h) {

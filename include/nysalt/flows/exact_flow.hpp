@@ -7,11 +7,11 @@
 #include <concepts>
 #include <cstddef>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "nysalt/energy.hpp"
 #include "nysalt/flow.hpp"
-#include "nysalt/word.hpp"
 
 namespace nysalt {
 
@@ -22,7 +22,8 @@ namespace nysalt {
 ///   static void apply(const S& system, const C& t, State& x, auto& room);     x.q and x.p over the time t =
 ///   c h
 /// over any scalar, and hides what is not so. check_letter() tests each of these claims. The character must
-/// be that of no known letter: lower case and digits are free.
+/// be that of no known letter: lower case and digits are free. The system declares its letters as
+/// `using letters = std::tuple<...>`, or is wrapped in with_letters.
 template <char Letter>
 struct exact_flow {
   static constexpr char letter = Letter;
@@ -75,11 +76,6 @@ struct kick_of_parts : exact_flow<sizeof...(Part) == 1 ? static_cast<char>('0' +
 
   template <System S, Scalar T>
   static constexpr bool serves = HasParts<S>;
-  template <System S, Scalar T>
-  static constexpr void require_served() {
-    static_assert(serves<S, T>,
-                  "nysalt: a kick of parts needs a system that declares them, such as sum_of_parts");
-  }
 
   template <Scalar C>
   static std::array<C, slots> prepare(const C* c, double h) {
@@ -105,26 +101,16 @@ struct kick_of_parts : exact_flow<sizeof...(Part) == 1 ? static_cast<char>('0' +
 template <std::size_t Part>
 using kick_of_part = kick_of_parts<Part>;
 
-/// Evaluations of the force of a part in a step of an open run, which a declared price multiplies. Letters
-/// that do not say, such as drifts, evaluate none.
-template <TypeLevelWord W>
-constexpr int evaluations_of_part(std::size_t part) {
-  int all = 0;
-  const auto add = [&]<class L>() {
-    if constexpr (requires { L::evaluations_of_part(part); }) all += L::evaluations_of_part(part);
-  };
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    (add.template operator()<typename W::template letter<I + W::first_in_loop>>(), ...);
-  }(std::make_index_sequence<W::length - W::first_in_loop>());
-  return all;
-}
-
-/// The declared cost of a step of an open run: the sum over parts of price times evaluations.
-template <TypeLevelWord W, std::size_t Parts>
-constexpr double declared_cost(const std::array<double, Parts>& prices) {
-  double all = 0.0;
-  for (std::size_t part = 0; part < Parts; ++part) all += prices[part] * evaluations_of_part<W>(part);
-  return all;
-}
+/// The kicks of each of `Parts` parts alone, and of all of them together: the letters of a sum of parts.
+template <class Parts>
+struct kicks_of;
+template <std::size_t... Part>
+struct kicks_of<std::index_sequence<Part...>> {
+  using type = std::tuple<kick_of_part<Part>..., kick_of_parts<Part...>>;
+};
+template <>
+struct kicks_of<std::index_sequence<0>> {
+  using type = std::tuple<kick_of_part<0>>;
+};
 
 }  // namespace nysalt

@@ -23,6 +23,7 @@ struct displaced_kick_coefficients {
 struct displaced_kick {
   static constexpr char letter = 'D';
   static constexpr std::size_t slots = 2;
+  static constexpr int power_of_second = 2;
   static constexpr field reads = field::whole;
   static constexpr int force_derivatives = 0;
   static constexpr int displaced_forces = 1;
@@ -36,10 +37,6 @@ struct displaced_kick {
 
   template <System S, Scalar T>
   static constexpr bool serves = HasQuadraticKinetic<S>;
-  template <System S, Scalar T>
-  static constexpr void require_served() {
-    static_assert(serves<S, T>, "nysalt: the letter D needs a quadratic kinetic energy");
-  }
 
   template <Scalar C>
   static displaced_kick_coefficients<C> prepare(const C& b, const C& c, double h) {
@@ -84,6 +81,7 @@ template <field Field>
 struct gradient_kick_of {
   static constexpr char letter = Field == field::soft ? 'H' : 'G';
   static constexpr std::size_t slots = 2;
+  static constexpr int power_of_second = 3;
   static constexpr field reads = Field;
   static constexpr int force_derivatives = 1;
   static constexpr bool moves_q = false;
@@ -101,16 +99,6 @@ struct gradient_kick_of {
   static constexpr bool serves =
       Field == field::soft ? HasQuadraticPart<S> && ForceDerivativeOver<S, T, Field>
                            : HasQuadraticKinetic<S> && ForceDerivativeOver<S, T, Field>;
-  template <System S, Scalar T>
-  static constexpr void require_served() {
-    if constexpr (Field == field::soft) {
-      detail::require_quadratic_part<serves<S, T>>();
-    } else {
-      static_assert(serves<S, T>,
-                    "nysalt: the letter G needs a quadratic kinetic energy, and a force that can be "
-                    "differentiated");
-    }
-  }
 
   template <Scalar C>
   static gradient_kick_coefficients<C> prepare(const C& b, const C& c, double h) {

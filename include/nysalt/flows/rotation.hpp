@@ -42,10 +42,6 @@ struct rotation {
 
   template <System S, Scalar T>
   static constexpr bool serves = HasQuadraticPart<S>;
-  template <System S, Scalar T>
-  static constexpr void require_served() {
-    detail::require_quadratic_part<serves<S, T>>();
-  }
 
   /// The turn of each mode over t = c h.
   template <Scalar C, int N>

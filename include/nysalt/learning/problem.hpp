@@ -18,7 +18,7 @@
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/window_error.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/run_time_family.hpp"
 
 namespace nysalt {

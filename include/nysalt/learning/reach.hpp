@@ -16,7 +16,7 @@
 #include "nysalt/initial_states.hpp"
 #include "nysalt/judgement.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 
 // A test whether starts are beyond the energies that a method was learned on, or outside by chance.
@@ -75,22 +75,8 @@ inline energies_outside count_outside(const energy_range& seen, std::size_t traj
 /// A method that was learned for one size of a kind of system, as a method for this size, if it holds there
 /// by judge(). Throws std::invalid_argument if the systems are not of one kind, see kind_of(), or the method
 /// does not hold. Cost: that of judge(); none where the method was learned for this very system.
-template <Family F, SeparableSystem S, Ensemble<S> E>
-tuned_method<F> at_size_of(const S& system, const tuned_method<F>& learned, const E& starts,
-                           const judging_options& options = {}) {
-  if (describe(system) == learned.system()) return learned;
-  const auto refuse = [&](const std::string& why) {
-    throw std::invalid_argument(
-        sentence("{} must run on {}, for which it was learned, got {}: {}; learn it there, or use anywhere()",
-                 learned.name(), learned.system(), describe(system), why));
-  };
-  if (learned.kind().empty() || learned.kind() != kind_of(system)) refuse("the systems are not of one kind");
-  const model erased(system);
-  const judgement found = judge(erased, starts_to_judge(erased, initial_states(starts)),
-                                tabulated(learned.anywhere()), learned.step(), options);
-  if (!found.holds()) refuse(found.in_words());
-  return {learned.anywhere(), learned.step(), describe(system), {}, kind_of(system)};
-}
+tabulated at_size_of(const model& system, const tabulated& learned, const initial_states& starts,
+                     const judging_options& options = {});
 
 // Parameters that were learned at several steps, and between them.
 

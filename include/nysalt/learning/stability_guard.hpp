@@ -16,7 +16,7 @@
 #include "nysalt/derivatives/word_on_parts.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_point.hpp"
-#include "nysalt/run_time_word.hpp"
+#include "nysalt/word.hpp"
 
 namespace nysalt {
 

@@ -182,7 +182,7 @@ class after_steps {
   }
 
  private:
-  using stepper_type = stepper<model, run_time_word, C, noise_of_entries<R>>;
+  using stepper_type = stepper<model, C, noise_of_entries<R>>;
   using parts = std::vector<windows_in_lanes<R>>;
 
   static std::size_t last_of(const after_steps_options& options) {

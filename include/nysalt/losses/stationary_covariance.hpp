@@ -229,7 +229,7 @@ class stationary_covariance {
   template <Scalar T>
   plane_map<T> map_of(const run_time_word& turn, const T* c, double omega) const {
     const detail::single_mode mode{omega};
-    const stepper<detail::single_mode, run_time_word, T> one(mode, turn, {c, c + turn.slots}, step_);
+    const stepper<detail::single_mode, T> one(mode, turn, {c, c + turn.slots}, step_);
     phase_point<T, 1> from_x{vector<T, 1>(T(1.0 / omega)), vector<T, 1>(T(0.0))};
     phase_point<T, 1> from_y{vector<T, 1>(T(0.0)), vector<T, 1>(T(1.0))};
     one.step(from_x);

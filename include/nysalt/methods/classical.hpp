@@ -6,14 +6,10 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
-#include <string>
 #include <string_view>
-#include <tuple>
-#include <type_traits>
-#include <utility>
+#include <vector>
 
-#include "nysalt/run_time_word.hpp"
-#include "nysalt/word.hpp"
+#include "nysalt/method.hpp"
 
 namespace nysalt {
 
@@ -159,8 +155,7 @@ inline constexpr classical_row classical_table[] = {
 
 /// Classical kernels with processors P = B A B A ..., with which P(-h) K^n P(h)^-1 agrees with the flow to
 /// h^order for every n: 5 equations for the order 4, 11 for the order 6 [blanes_casas_ros_1999], which
-/// docs/notation.md lists. Of their solutions these have a small sum of squares. They are words as data
-/// only.
+/// docs/notation.md lists. Of their solutions these have a small sum of squares.
 inline constexpr classical_row processed_table[] = {
     {.name = "takahashi_imada_processed", .letters = "AGA|BABABA",
      .coefficients = [] {
@@ -181,32 +176,11 @@ inline constexpr classical_row processed_table[] = {
 };
 // clang-format on
 
-}  // namespace nysalt
+/// A row of the table as a method.
+tabulated as_data(const classical_row& row);
 
-// From letters as text to a word as a type.
-
-namespace nysalt::detail {
-
-template <char Letter, class Flows>
-struct flow_with_letter;
-template <char Letter, class First, class... Rest>
-struct flow_with_letter<Letter, std::tuple<First, Rest...>>
-    : std::conditional_t<First::letter == Letter, std::type_identity<First>,
-                         flow_with_letter<Letter, std::tuple<Rest...>>> {};
-
-template <class Text, std::size_t... I>
-auto spelled(std::index_sequence<I...>)
-    -> word<typename flow_with_letter<Text::letters()[I], known_letters>::type...>;
-
-/// The word of known letters that Text::letters(), a std::string_view, spells.
-template <class Text>
-using word_of_letters = decltype(spelled<Text>(std::make_index_sequence<Text::letters().size()>{}));
-
-}  // namespace nysalt::detail
-
-// Classical methods as types.
-
-namespace nysalt {
+/// Rows without letters O that are not several steps of another: what a learned method is compared with.
+std::vector<tabulated> classical_methods();
 
 namespace detail {
 
@@ -225,39 +199,17 @@ constexpr std::size_t row_of(std::string_view name) {
   return row;
 }
 
-/// The letters of a row, for word_of_letters.
-template <std::size_t Row>
-struct letters_of_row {
-  static constexpr std::string_view letters() { return classical_table[Row].letters; }
-};
-
 }  // namespace detail
 
-/// A row of the table as a type: `classical<"pefrl">`, which is also called pefrl. A name that the table does
-/// not have does not compile.
+/// The method of that name in the table: `classical<"pefrl">()`, which is also pefrl(). A name that the table
+/// does not have does not compile.
 template <detail::method_name Name>
-class classical {
-  static constexpr std::size_t row = detail::row_of(Name.view());
+struct classical : tabulated {
+  static constexpr std::size_t row = detail::row_of(Name.view());  ///< number of the row
   static_assert(row < std::size(classical_table),
                 "nysalt: no classical method has this name; nysalt/methods/classical.hpp has those that "
                 "there are");
-
- public:
-  using word = detail::word_of_letters<detail::letters_of_row<row>>;
-  static constexpr int order = classical_table[row].order;
-  static constexpr bool symmetric = classical_table[row].symmetric;
-  static constexpr bool requires_quadratic_kinetic = classical_table[row].requires_quadratic_kinetic;
-  static std::string name() { return std::string(Name.view()); }
-  static constexpr typename word::template coefficients<double> coefficients() { return constants; }
-
- private:
-  static constexpr auto constants = [] {
-    const auto& from = classical_table[row].coefficients;
-    typename word::template coefficients<double> all{};
-    static_assert(classical_table[row].coefficients.size() == all.size());
-    std::copy(from.begin(), from.end(), all.begin());
-    return all;
-  }();
+  classical() : tabulated(as_data(classical_table[row])) {}
 };
 
 /// B(1/2) A B(1/2): velocity Verlet, order 2, one evaluation a step

@@ -4,10 +4,10 @@
 
 #include <array>
 #include <cstddef>
-#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/families/composition.hpp"
@@ -19,9 +19,11 @@ namespace nysalt {
 namespace detail {
 
 template <std::size_t Fast, std::size_t Slow, std::size_t Inner, std::size_t... I>
-auto nest_kicks(std::index_sequence<I...>) -> word<std::conditional_t<
-    I % 2 == 1, drift,
-    std::conditional_t<I % (2 * Inner) == 0, kick_of_parts<Fast, Slow>, kick_of_part<Fast>>>...>;
+constexpr word nest_kicks(std::index_sequence<I...>) {
+  return spelled<std::conditional_t<
+      I % 2 == 1, drift,
+      std::conditional_t<I % (2 * Inner) == 0, kick_of_parts<Fast, Slow>, kick_of_part<Fast>>>...>();
+}
 
 /// The first half of a palindrome of `Count` numbers that add up to one, from those that are free: the middle
 /// one, or the two next to the middle, follow.
@@ -49,8 +51,8 @@ inline constexpr std::array<char, 10> name_of_nested{
 /// Inner - 1 kicks of Fast only between any two of them. With Inner = n and Outer = 1 it is the word of
 /// r-RESPA: k A (F A)^(n - 1) k.
 template <std::size_t Fast, std::size_t Slow, std::size_t Inner, std::size_t Outer = 1>
-using nested_word =
-    decltype(detail::nest_kicks<Fast, Slow, Inner>(std::make_index_sequence<2 * Inner * Outer + 1>()));
+inline constexpr word nested_word =
+    detail::nest_kicks<Fast, Slow, Inner>(std::make_index_sequence<2 * Inner * Outer + 1>());
 
 /// r-RESPA and its kin: a nested_word whose coefficients read the same from both ends, those of drifts, of
 /// Fast and of Slow adding up to one each. Parameters are the free drifts from the left, then the free kicks
@@ -67,7 +69,8 @@ struct nested_kicks : composition<(Inner * Outer - 1) / 2 + Inner * Outer / 2 + 
       static_cast<std::size_t>(Outer) / 2;  ///< number of free parameters that are kicks of Slow
   static constexpr std::size_t free = free_drifts + free_fast + free_slow;
 
-  using word = nested_word<Fast, Slow, static_cast<std::size_t>(Inner), static_cast<std::size_t>(Outer)>;
+  static constexpr word letters =
+      nested_word<Fast, Slow, static_cast<std::size_t>(Inner), static_cast<std::size_t>(Outer)>;
   static constexpr std::string_view name{detail::name_of_nested<Inner, Outer>.data(), 10};
   static constexpr int order = 2;
   static constexpr bool symmetric = true;
@@ -85,12 +88,12 @@ struct nested_kicks : composition<(Inner * Outer - 1) / 2 + Inner * Outer / 2 + 
   static std::array<double, free> most_stable_member() { return start(); }
 
   template <Scalar C>
-  static typename word::template coefficients<C> coefficients(const std::array<C, free>& theta) {
+  static std::array<C, letters.slots> coefficients(const std::array<C, free>& theta) {
     const auto a = detail::of_sum_one<drifts>(theta.data());
     const auto fast = detail::of_sum_one<drifts + 1>(theta.data() + free_drifts);
     const auto slow =
         detail::of_sum_one<static_cast<std::size_t>(Outer) + 1>(theta.data() + free_drifts + free_fast);
-    typename word::template coefficients<C> all{};
+    std::array<C, letters.slots> all{};
     std::size_t slot = 0;
     for (std::size_t i = 0; i <= drifts; ++i) {
       all[slot++] = fast[i];
@@ -106,15 +109,14 @@ struct nested_kicks : composition<(Inner * Outer - 1) / 2 + Inner * Outer / 2 + 
 /// a period of a fast mode it is unstable. Source: [tuckerman_berne_martyna_1992].
 template <std::size_t Fast, std::size_t Slow, int Inner>
   requires(Inner >= 1)
-struct r_respa {
-  using word = nested_word<Fast, Slow, static_cast<std::size_t>(Inner)>;
-  static constexpr int order = 2;
-  static constexpr bool symmetric = true;
-  static constexpr bool requires_quadratic_kinetic = false;
-  static std::string name() { return sentence("r_respa({})", Inner); }
-  static typename word::template coefficients<double> coefficients() {
-    typename word::template coefficients<double> all{};
-    all.fill(1.0 / Inner);
+struct r_respa : tabulated {
+  r_respa()
+      : tabulated(sentence("r_respa({})", Inner), nested_word<Fast, Slow, static_cast<std::size_t>(Inner)>,
+                  equal_steps(), {2, true, false}) {}
+
+ private:
+  static std::vector<double> equal_steps() {
+    std::vector<double> all(nested_word<Fast, Slow, static_cast<std::size_t>(Inner)>.slots, 1.0 / Inner);
     all.front() = all[all.size() - 2] = 0.5 / Inner;
     all[1] = all.back() = 0.5;
     return all;

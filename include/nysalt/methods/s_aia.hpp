@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
+// Two and three stages whose coefficients suit the highest frequency of a system.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <string>
 #include <string_view>
 
-#include "nysalt/detail/requirements.hpp"
-#include "nysalt/flows/drift_kick.hpp"
-#include "nysalt/word.hpp"
+#include "nysalt/method.hpp"
+#include "nysalt/model.hpp"
 
 namespace nysalt {
-
-/// Common members of all symmetric compositions of drifts and kicks; a method adds its name, order and
-/// coefficients.
-template <Flow Outer, Flow Inner, std::size_t Length>
-struct palindromic {
-  using word = alternating_word<Outer, Inner, Length>;
-  static constexpr bool symmetric = true;
-  static constexpr bool requires_quadratic_kinetic = false;
-};
-
-// Two and three stages whose coefficients suit the highest frequency of a system.
 
 namespace detail {
 
@@ -46,22 +31,19 @@ double energy_error_of_three_stages(double b, double x);
 ///
 /// a grows from (3 - sqrt 5)/4 at highest_z = 0 over BCSS' 0.211781 at 2 to 1/4 at sqrt 8. From there to 4 it
 /// stays 1/4, which is two half steps of position Verlet: all others are unstable before sqrt 8.
-class s_aia2 : public palindromic<drift, kick, 5> {
+class s_aia2 : public tabulated {
  public:
-  static constexpr int order = 2;
   static constexpr std::string_view source = "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024";
-  static std::string name() { return "s_aia2"; }
+  static constexpr word letters_of_all{"ABABA"};                   ///< letters at every z
+  static constexpr method_properties promises{2, true, false};  ///< properties at every z
 
   /// The best coefficient for all z up to highest_z. Throws std::invalid_argument unless 0 < highest_z < 4.
   /// Cost: some 30 microseconds; a is right to rounding.
   explicit s_aia2(double highest_z);
-
-  std::array<double, 5> coefficients() const { return palindrome<5>({coefficient_}); }
   double highest_z() const { return highest_z_; }  ///< largest z, as given
 
  private:
   double highest_z_;
-  double coefficient_;
 };
 
 /// B(b) A(a) B(1/2 - b) A(1 - 2a) B(1/2 - b) A(a) B(b) with the least energy error on oscillators of all z up
@@ -72,39 +54,23 @@ class s_aia2 : public palindromic<drift, kick, 5> {
 ///
 /// b grows from that of predescu3 at highest_z = 0 over BCSS' 0.11888 at 3 to 1/6 at sqrt 27. From there to 6
 /// it stays 1/6, which is three equal steps of velocity Verlet: all others are unstable before sqrt 27.
-class s_aia3 : public palindromic<kick, drift, 7> {
+class s_aia3 : public tabulated {
  public:
-  static constexpr int order = 2;
   static constexpr std::string_view source = "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024";
-  static std::string name() { return "s_aia3"; }
+  static constexpr word letters_of_all{"BABABAB"};                   ///< letters at every z
+  static constexpr method_properties promises{2, true, false};  ///< properties at every z
 
   /// The best coefficients for all z up to highest_z. Throws std::invalid_argument unless 0 < highest_z < 6.
   /// Cost: some 30 microseconds; b is right to rounding.
   explicit s_aia3(double highest_z);
-
-  std::array<double, 7> coefficients() const {
-    const double b = coefficient_;
-    return palindrome<7>({b, (1.0 - 2.0 * b) / (4.0 - 12.0 * b)});
-  }
   double highest_z() const { return highest_z_; }  ///< largest z, as given
 
  private:
   double highest_z_;
-  double coefficient_;
 };
 
 /// The member for a system at a step: up to z = |step| times the end of its highest frequency band (0 if it
 /// has none). Throws what s_aia2 throws.
-template <System S>
-s_aia2 s_aia2_for(const S& system, double step) {
-  require_suited<s_aia2, S>();
-  static_assert(
-      HasFrequencyBands<S>,
-      "nysalt: s_aia2_for needs the system's highest frequency; give the system frequency_bands(), or "
-      "use s_aia2(step * frequency)");
-  double highest = 0.0;
-  for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
-  return s_aia2(std::abs(step) * highest);
-}
+s_aia2 s_aia2_for(const model& system, double step);
 
 }  // namespace nysalt

@@ -46,8 +46,8 @@ struct summing_noise {
 
 /// Advances x on its path by the time t, in steps of a method whose noise was halved `halvings` times; see
 /// fine_paths::advance(). Returns the number of steps.
-template <HasBath S, Method M, Scalar T>
-std::int64_t advance_on_path(const S& system, const M& method, double step, int halvings,
+template <HasBath S, Scalar T>
+std::int64_t advance_on_path(const S& system, const tabulated& method, double step, int halvings,
                              phase_point<T, S::dimension>& x, double t, const path_place& at,
                              std::span<vector<T, S::dimension>> xi) {
   const std::int64_t parts = std::max<std::int64_t>(std::ssize(xi), 1);
@@ -84,7 +84,7 @@ namespace nysalt {
 /// Any method with a small step. SRKN11b (order 6) is the default: at omega h = 5e-3 its error is
 /// rounding. It needs a quadratic K(p): of any other, take fine_steps<blanes_moan_s10>. A second-order method
 /// needs a far smaller step, or what is learned is its error.
-template <Method M = srkn11b>
+template <class M = srkn11b>
 class fine_steps {
  public:
   /// Throws std::invalid_argument unless the step is positive and finite.
@@ -123,10 +123,8 @@ class fine_steps {
 
 /// Paths of a system in a bath in small steps, with their noise in larger ones. Its error is the difference
 /// from a finer one along the same path.
-template <Method M = baoab>
+template <class M = baoab>
 class fine_paths {
-  static_assert(M::word::stochastic_letters == 1, "nysalt: fine paths need a method with one letter O");
-
  public:
   /// Throws std::invalid_argument unless the step is positive and finite.
   explicit fine_paths(double step, const M& method = M{}) : fine_paths(step, method, 0) {}

@@ -95,7 +95,6 @@ class odeint_reference {
 /// Odeint hands the state out after each step and may change it, so every step is a plain one: nothing is
 /// merged, and a word that begins and ends with a kick costs one evaluation more than in our own loop.
 /// A tuned method checks at each step that it may take the step.
-template <Method M>
 class odeint_stepper {
  public:
   using value_type = double;                                     ///< value type, as Odeint requires
@@ -104,9 +103,9 @@ class odeint_stepper {
   using stepper_category = boost::numeric::odeint::stepper_tag;  ///< stepper category, as Odeint requires
 
   /// A stepper with a copy of the method.
-  explicit odeint_stepper(M method = M{}) : method_(std::move(method)) {}
+  explicit odeint_stepper(tabulated method) : method_(std::move(method)) {}
 
-  order_type order() const { return static_cast<order_type>(M::order); }  ///< order of the method
+  order_type order() const { return static_cast<order_type>(method_.order); }  ///< order of the method
 
   /// One plain step of x by dt. Cost: the word's evaluations_of_plain_step, and the making of a stepper.
   template <System S>
@@ -115,7 +114,7 @@ class odeint_stepper {
   }
 
  private:
-  M method_;
+  tabulated method_;
 };
 
 }  // namespace nysalt

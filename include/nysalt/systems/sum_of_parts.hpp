@@ -13,6 +13,7 @@
 #include "nysalt/detail/requirements.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/energy.hpp"
+#include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/lanes.hpp"
 
 namespace nysalt {
@@ -27,6 +28,8 @@ class sum_of_parts {
  public:
   static constexpr int dimension = First::dimension;
   static constexpr std::size_t parts = 1 + sizeof...(Rest);  ///< number of parts
+  /// Kicks with the force of one part, and with all of them.
+  using letters = typename kicks_of<std::make_index_sequence<parts>>::type;
   /// Most trajectories side by side: as many as each part bears.
   static constexpr int lanes = std::min({lanes_of<First>, lanes_of<Rest>...});
 

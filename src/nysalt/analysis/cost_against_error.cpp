@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/detail/conservative_part.hpp"
+#include "nysalt/word.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt::detail {

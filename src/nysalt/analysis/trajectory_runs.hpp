@@ -21,7 +21,7 @@
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/shard.hpp"
 
@@ -420,7 +420,7 @@ class method_runs {
 
  private:
   using noise_type = along_path<T, Eigen::Dynamic>;
-  using stepper_type = stepper<model, run_time_word, double, noise_type>;
+  using stepper_type = stepper<model, double, noise_type>;
   struct watched_run {
     lockstep<stepper_type, T> run;
     std::vector<error_sum<T>> errors;  // one a measure

@@ -204,7 +204,7 @@ std::vector<piece_end> pieces_of(const trace_of_word& trace, std::size_t degree,
 }  // namespace
 
 stability_chart chart_stability(const run_time_word& word, const std::vector<double>& coefficients) {
-  if (has_rotation(word)) {
+  if (word.reads_modes) {
     throw std::invalid_argument(
         fmt::format("stability: the word must have no letters R, S or H, got {}, which is exact on the "
                     "oscillator at any step and which only its soft part can make unstable",

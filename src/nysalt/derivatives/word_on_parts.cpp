@@ -33,7 +33,7 @@ linear_letter linearise(const model& system, const run_time_word& single, std::s
                         double step, const phase_point<double, Eigen::Dynamic>& state) {
   std::vector<slopes> coefficients(single.slots, slopes(0.0));
   coefficients[slot] = slopes(by);
-  const stepper<model, run_time_word, slopes> steps(system, single, coefficients, step);
+  const stepper<model, slopes> steps(system, single, coefficients, step);
   const Eigen::Index n = state.q.size();
   linear_letter result{Eigen::MatrixXd(2 * n, 2 * n), Eigen::VectorXd(n)};
   constexpr Eigen::Index at_once = directions_at_a_time;

@@ -23,7 +23,7 @@
 #include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "step_of_motion.hpp"
@@ -76,7 +76,7 @@ struct watched_interval {
 class burn_in_chains {
  public:
   /// BAOAB on the system in the chains' bath.
-  using stepper_type = stepper<model, run_time_word, double, counter_noise>;
+  using stepper_type = stepper<model, double, counter_noise>;
 
   /// Chains of a system that comes without its bath; temperature is kT, an energy.
   burn_in_chains(const model& base, double temperature, double friction, double step, std::uint64_t seed)

@@ -12,7 +12,7 @@
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "step_of_motion.hpp"
 

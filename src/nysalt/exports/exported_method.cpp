@@ -220,10 +220,10 @@ self_test self_test_of(const exported_method& method) {
   if (!has_bath(method)) {
     const pinned_oscillators system;
     return end_of(
-        stepper<pinned_oscillators, run_time_word>(system, word, method.method.coefficients(), 0.1));
+        stepper<pinned_oscillators>(system, word, method.method.coefficients(), 0.1));
   }
   const pinned_oscillators_in_bath system;
-  return end_of(stepper<pinned_oscillators_in_bath, run_time_word, double, sines>(
+  return end_of(stepper<pinned_oscillators_in_bath, double, sines>(
       system, word, method.method.coefficients(), 0.1, sines{word.stochastic_letters}));
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 
 namespace nysalt::detail {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "nysalt/judgement.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_point.hpp"
 

@@ -24,7 +24,7 @@
 #include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/served_letters.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 
 namespace nysalt {
 
@@ -118,7 +118,7 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
   if (options.frequency) {
     problem.frequency_to_fit = *options.frequency;
   } else if (has_modes(system)) {
-    problem.frequency_to_fit = detail::frequency_to_fit(system);
+    problem.frequency_to_fit = frequency_to_fit(system);
   }
   problem.judged = [system = system, starts = judged_starts_of(system, data, held_out),
                     how = judging_options{.steps = options.planned_steps,

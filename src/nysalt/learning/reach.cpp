@@ -105,4 +105,21 @@ Eigen::VectorXd theta_curve::at(double step) const {
   return result;
 }
 
+tabulated at_size_of(const model& system, const tabulated& learned, const initial_states& starts,
+                     const judging_options& options) {
+  const auto& validity = learned.validity();
+  if (!validity || describe(system) == validity->system) return learned;
+  const auto refuse = [&](const std::string& why) {
+    throw std::invalid_argument(fmt::format(
+        "learned:{} must run on {}, for which it was learned, got {}: {}; learn it there, or use anywhere()",
+        learned.name(), validity->system, describe(system), why));
+  };
+  if (validity->kind.empty() || validity->kind != kind_of(system)) refuse("the systems are not of one kind");
+  const judgement found =
+      judge(system, starts_to_judge(system, starts), learned.anywhere(), validity->step, options);
+  if (!found.holds()) refuse(found.in_words());
+  return {learned.name(), learned.letters(), learned.coefficients(), learned,
+          method_validity{validity->step, describe(system), kind_of(system)}};
+}
+
 }  // namespace nysalt

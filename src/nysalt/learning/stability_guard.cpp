@@ -14,7 +14,7 @@
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
-#include "nysalt/detail/conservative_part.hpp"
+#include "nysalt/word.hpp"
 #include "nysalt/detail/served_letters.hpp"
 
 namespace nysalt {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "describe.hpp"
-#include "nysalt/methods/classical_methods.hpp"
+#include "nysalt/methods/classical.hpp"
 
 namespace nysalt::detail {
 
@@ -47,7 +47,7 @@ std::vector<contender> classical_rivals(const learning_problem& problem, const c
   if (family.letters.has_own_letters()) return result;  // what these cost is for their author to declare
   for (const auto& method : classical_methods()) {
     // Rotations are not counted, and are not free: words with them are compared with each other.
-    if (has_rotation(method.letters()) != has_rotation(family.letters)) continue;
+    if (method.letters().reads_modes != family.letters.reads_modes) continue;
     if (!method.letters().is_symplectic && family.letters.is_symplectic) continue;
     // Nor do words without a processor pay for looking.
     if (method.letters().evaluations_to_observe > family.letters.evaluations_to_observe) continue;

@@ -33,10 +33,10 @@ double stumpff(int k, double x) {
 
 }  // namespace
 
-Eigen::VectorXd defect_of_rotation(const run_time_word& word, const std::vector<double>& coefficients,
+Eigen::VectorXd defect_of_rotation(const word& letters, const std::vector<double>& coefficients,
                                    bool symmetric, double x) {
   const auto times_x = [](const dense_polynomial& a) { return a.times_x(); };
-  const oscillator_matrix<dense_polynomial> m(word, coefficients, 0.0, {{0.0}}, {{1.0}}, times_x);
+  const oscillator_matrix<dense_polynomial> m(letters, coefficients, 0.0, {{0.0}}, {{1.0}}, times_x);
   Eigen::VectorXd defects(symmetric ? 3 : 4);
   defects[0] = m.half_trace().tail(2, x) - stumpff(4, x);
   defects[1] = m.qp.tail(1, x) + stumpff(3, x);
@@ -146,6 +146,59 @@ std::optional<named_parameters> phase_fitted_start(const run_time_family& family
     }
   }
   return std::nullopt;
+}
+
+namespace {
+
+/// The start of the family that has the coefficients of the method; nothing if there is none.
+std::optional<Eigen::VectorXd> parameters_of_method(const run_time_family& family, const tabulated& method) {
+  constexpr double rounding = 1e-14;  // sums of some coefficients of order one
+  const auto& wanted = method.coefficients();
+  for (const auto& one : family.starts) {
+    const auto c = family.coefficients(one.theta);
+    const bool is_equal = std::ranges::equal(
+        c, wanted, [](double x, double y) { return std::abs(x - y) <= rounding; });
+    if (is_equal) return one.theta;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+tabulated phase_fitted(const run_time_family& family, const tabulated& classical, double z) {
+  const std::string name = "phase_fitted_" + classical.name();
+  if (!(family.letters == classical.letters()) || !family.symmetric || family.parameters() < 2 ||
+      family.letters.reads != field::whole || classical.order < 4) {
+    throw std::invalid_argument(
+        sentence("{}: the family must be symmetric, with two parameters or more and without rotations, and of "
+                 "the word {} of a method of order 4 or more, got {} and a method of order {}",
+                 name, classical.letters().letters(), family.name, classical.order));
+  }
+  if (!(z > 0.0) || !std::isfinite(z)) {
+    throw std::invalid_argument(sentence(
+        "{}: z = step * frequency must be positive and finite, got {}; fit to a mode that moves", name, z));
+  }
+  const auto nearest = parameters_of_method(family, classical);
+  if (!nearest) {
+    throw std::invalid_argument(sentence("{}: the method must be a start of the family {}, got another", name,
+                                         family.name));
+  }
+  const auto fit = detail::fit_phase(family, *nearest, z);
+  if (!fit.theta) {
+    throw std::invalid_argument(sentence(
+        "{}: z = step * frequency must be at most {}, where its coefficients end, got {}; take a smaller "
+        "step",
+        name, std::floor(1000.0 * fit.reached) / 1000.0, std::round(1000.0 * z) / 1000.0));
+  }
+  return {name, family.letters, family.coefficients(*fit.theta),
+          {classical.order, true, classical.requires_quadratic_kinetic || family.requires_quadratic_kinetic}};
+}
+
+double frequency_to_fit(const model& system) {
+  if (has_modes(system)) return system.modes().frequencies.maxCoeff();
+  double highest = 0.0;
+  for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
+  return highest;
 }
 
 }  // namespace nysalt

@@ -95,23 +95,52 @@ void require_z(const char* method, const char* stages, double highest_z, double 
 
 }  // namespace
 
-s_aia2::s_aia2(double highest_z) : highest_z_(highest_z), coefficient_(0.25) {
+namespace {
+
+/// 4a^2 - 6a + 1 = 0 where z -> 0; 1/4 from z = sqrt 8 on, before which rho of any other a is infinite.
+double coefficient_of_two_stages(double highest_z) {
   require_z("s_aia2", "two", highest_z, 4.0);
   const double x = highest_z * highest_z;
-  if (x >= 8.0) return;  // for any other a, rho is infinite before z = sqrt 8
-  const double without_hump = (3.0 - std::sqrt(5.0)) / 4.0;  // 4a^2 - 6a + 1 = 0: the best for z -> 0
-  coefficient_ = least_worst(without_hump, 0.25, x, defect_of_two_stages, detail::energy_error_of_two_stages);
+  if (x >= 8.0) return 0.25;
+  const double without_hump = (3.0 - std::sqrt(5.0)) / 4.0;
+  return least_worst(without_hump, 0.25, x, defect_of_two_stages, detail::energy_error_of_two_stages);
 }
 
-s_aia3::s_aia3(double highest_z) : highest_z_(highest_z), coefficient_(1.0 / 6.0) {
+/// Where z -> 0 the root of 48b^4 - 128b^3 + 76b^2 - 16b + 1 below 1/6, b of predescu3
+/// [predescu_and_others_2012, equation (26)]; 1/6 from z = sqrt 27 on, before which rho of any other b is
+/// infinite.
+double coefficient_of_three_stages(double highest_z) {
   require_z("s_aia3", "three", highest_z, 6.0);
   const double x = highest_z * highest_z;
-  if (x >= 27.0) return;  // for any other b, rho is infinite before z = sqrt 27
-  // The root of 48b^4 - 128b^3 + 76b^2 - 16b + 1 below 1/6: the best for z -> 0, b of predescu3
-  // [predescu_and_others_2012, equation (26)].
+  if (x >= 27.0) return 1.0 / 6.0;
   constexpr double without_hump = 0.10899142540342532;
-  coefficient_ =
-      least_worst(without_hump, 1.0 / 6.0, x, defect_of_three_stages, detail::energy_error_of_three_stages);
+  return least_worst(without_hump, 1.0 / 6.0, x, defect_of_three_stages,
+                     detail::energy_error_of_three_stages);
+}
+
+std::vector<double> of_two_stages(double a) {
+  const auto all = palindrome<5>({a});
+  return {all.begin(), all.end()};
+}
+std::vector<double> of_three_stages(double b) {
+  const auto all = palindrome<7>({b, (1.0 - 2.0 * b) / (4.0 - 12.0 * b)});
+  return {all.begin(), all.end()};
+}
+
+}  // namespace
+
+s_aia2::s_aia2(double highest_z)
+    : tabulated("s_aia2", letters_of_all, of_two_stages(coefficient_of_two_stages(highest_z)), promises),
+      highest_z_(highest_z) {}
+
+s_aia3::s_aia3(double highest_z)
+    : tabulated("s_aia3", letters_of_all, of_three_stages(coefficient_of_three_stages(highest_z)), promises),
+      highest_z_(highest_z) {}
+
+s_aia2 s_aia2_for(const model& system, double step) {
+  double highest = 0.0;
+  for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
+  return s_aia2(std::abs(step) * highest);
 }
 
 }  // namespace nysalt

@@ -39,7 +39,7 @@ class steps_run final : public reference_run<T> {
  private:
   model system_;
   run_time_word word_;
-  stepper<model, run_time_word> stepper_;
+  stepper<model> stepper_;
   std::int64_t steps_;
 };
 

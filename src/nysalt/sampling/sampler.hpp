@@ -24,7 +24,7 @@
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/hmc.hpp"
 #include "nysalt/initial_states.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/shard.hpp"
@@ -222,7 +222,7 @@ class block_of_chains {
   }
 
   /// One proposal: trajectory number n, of `steps` steps, and the Metropolis test.
-  void propose(const stepper<model, run_time_word>& stepper, double temperature, std::uint64_t seed,
+  void propose(const stepper<model>& stepper, double temperature, std::uint64_t seed,
                std::int64_t n, std::int64_t steps) {
     const model& system = stepper.system();
     const auto size = static_cast<std::size_t>(x_.q.size());

@@ -27,8 +27,8 @@ struct subject {
   tabulated method;
 };
 
-detail::named_letters letters_of(const prepared_problem* system) {
-  return system == nullptr ? detail::named_letters() : system->letters();
+std::vector<letter_facts> letters_of(const prepared_problem* system) {
+  return system == nullptr ? std::vector<letter_facts>() : system->letters();
 }
 
 subject subject_of(const stability_command& command, const prepared_problem* system, bool force,
@@ -92,7 +92,7 @@ answer about(const subject& target, const stability_chart& chart) {
         "it has letters of one's own: it has no windows of z = h omega, and is tried on its system\n";
     return result;
   }
-  const bool rotates = has_rotation(word);
+  const bool rotates = word.reads_modes;
   const bool from_zero = !chart.windows.empty() && chart.windows.front().low == 0.0;
   const double limit = from_zero ? chart.windows.front().high : 0.0;
   result.document["limit"] = rotates ? json() : json(limit);
@@ -239,7 +239,7 @@ int stability(const stability_command& command, const common_settings& common) {
   std::vector<std::string> warnings;
   const subject target = subject_of(command, system.get(), common.force, warnings);
   require_table(command.output, command.plot, false);
-  const bool rotates = has_rotation(target.method.letters());
+  const bool rotates = target.method.letters().reads_modes;
   const bool has_own_letters = target.method.letters().has_own_letters();
   if (has_own_letters && !command.output.empty()) {
     refuse(

@@ -16,7 +16,7 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/tabulated.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/textbook.hpp"
 

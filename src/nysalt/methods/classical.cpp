@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Classical methods as data.
-#include "nysalt/methods/classical_methods.hpp"
+#include "nysalt/methods/classical.hpp"
 
 #include <string>
 
@@ -8,7 +7,7 @@ namespace nysalt {
 
 tabulated as_data(const classical_row& row) {
   return {std::string(row.name),
-          run_time_word(std::string(row.letters)),
+          word(row.letters),
           {row.coefficients.begin(), row.coefficients.end()},
           {row.order, row.symmetric, row.requires_quadratic_kinetic}};
 }
