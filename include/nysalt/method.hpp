@@ -25,8 +25,8 @@ struct method_properties {
 
 /// Step and system of a learned method, which is not meant for any other.
 struct method_validity {
-  double step;         ///< step of learning
-  std::string system;  ///< system of learning, as describe() returns it
+  double step = 0.0;     ///< step of learning
+  std::string system{};  ///< system of learning, as describe() returns it
   std::string kind{};  ///< kind of that system, as kind_of() returns it; empty where unknown
   /// Energies of the training data; empty where they are not known.
   std::optional<energy_range> energies{};

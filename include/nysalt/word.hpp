@@ -258,7 +258,7 @@ class word {
 /// The word of these flows, from left to right: those of the library, and those of a system.
 template <Flow... L>
   requires(sizeof...(L) > 0)
-constexpr word spelled() {
+constexpr word word_of() {
   constexpr auto are_told_apart = []<class One>(std::type_identity<One>) {
     return ((One::letter != L::letter || std::is_same_v<One, L>) && ...);
   };
@@ -274,9 +274,9 @@ constexpr word spelled() {
 /// First Second First ... of the given odd length: a word that reads the same from both ends.
 template <Flow First, Flow Second, std::size_t Length>
   requires(Length % 2 == 1)
-constexpr word alternating() {
+constexpr word alternating_word() {
   return []<std::size_t... I>(std::index_sequence<I...>) {
-    return spelled<std::conditional_t<I % 2 == 0, First, Second>...>();
+    return word_of<std::conditional_t<I % 2 == 0, First, Second>...>();
   }(std::make_index_sequence<Length>{});
 }
 

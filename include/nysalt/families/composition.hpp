@@ -67,7 +67,7 @@ constexpr std::array<std::string_view, Count> names_in_turn(bool b_is_first) {
 /// drift: a gradient kick by differences, along a flat valley.
 template <Flow Outer, Flow Inner, std::size_t Length>
 struct symmetric_composition : composition<(static_cast<int>(Length) - 3) / 2> {
-  static constexpr word letters = alternating<Outer, Inner, Length>();
+  static constexpr word letters = alternating_word<Outer, Inner, Length>();
   static constexpr std::size_t free = (Length - 3) / 2;
   static constexpr auto parameter_names = names_in_turn<free>(Outer::reads != field::none);
   static constexpr int order = 2;
@@ -168,7 +168,7 @@ struct bab : symmetric_composition<kick, drift, 2 * Drifts + 1> {
 /// a tiny constant: never take it to a smaller step.
 template <Flow Outer, Flow Inner, int Stages>
 struct free_composition : composition<2 * Stages - 1> {
-  static constexpr word letters = alternating<Outer, Inner, 2 * Stages + 1>();
+  static constexpr word letters = alternating_word<Outer, Inner, 2 * Stages + 1>();
   static constexpr std::size_t free = 2 * Stages - 1;
   static constexpr auto parameter_names = names_in_turn<free>(Outer::reads != field::none);
 

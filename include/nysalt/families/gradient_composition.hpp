@@ -21,7 +21,7 @@ namespace nysalt {
 /// X(a) Y(b) X(1/2 - a) Z(1 - 2 b, c) X(1/2 - a) Y(b) X(a) with a gradient kick Z: four evaluations.
 template <Flow X, Flow Y, Flow Z>
 struct gradient_composition : composition<3> {
-  static constexpr word letters = spelled<X, Y, X, Z, X, Y, X>();
+  static constexpr word letters = word_of<X, Y, X, Z, X, Y, X>();
   static constexpr std::string_view source = "takahashi_imada_1984";  // of the gradient kick
   static constexpr std::array<std::string_view, 3> parameter_names{"a", "b", "c"};
   static constexpr int order = 2;
@@ -76,7 +76,7 @@ struct r_fg4 : gradient_composition<rotation, soft_kick, soft_gradient_kick> {
 /// B(b) A(1/2) X(1 - 2 b, c) A(1/2) B(b) with a kick X that uses derivatives of the force: three evaluations.
 template <Flow Middle>
 struct chin_composition : composition<2> {
-  static constexpr word letters = spelled<kick, drift, Middle, drift, kick>();
+  static constexpr word letters = word_of<kick, drift, Middle, drift, kick>();
   static constexpr std::array<std::string_view, 2> parameter_names{"b", "c"};
   static constexpr int order = 2;
   static constexpr bool symmetric = true;

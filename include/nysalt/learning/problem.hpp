@@ -71,6 +71,7 @@ struct learning_problem {
   run_time_family family;              ///< family to fit
   fit_options options;                 ///< options as given
   double step;                         ///< h of the data
+  method_validity validity{};          ///< step, system and energies of the data
   objective loss;                      ///< loss to minimise
   std::vector<search_stage> stages{};  ///< losses that are minimised roughly before, to locate minima
   objective one_step_before{};  ///< one-step loss, whose minimum is one more start of a search in stages;
@@ -110,7 +111,8 @@ struct learning_problem {
 /// Result of learning a run_time_family.
 struct fit {
   Eigen::VectorXd theta;  ///< the learned parameters
-  fit_summary summary;    ///< errors and verdict of the fit; `usable` says whether to use the parameters
+  fit_summary summary;    ///< errors and verdict of the fit; `usable` says whether to use the method
+  tabulated method;       ///< the member at theta; it carries its step and system, and refuses others
 };
 
 /// The fit of a learning problem, judged: see learn().

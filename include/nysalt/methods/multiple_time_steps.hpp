@@ -20,7 +20,7 @@ namespace detail {
 
 template <std::size_t Fast, std::size_t Slow, std::size_t Inner, std::size_t... I>
 constexpr word nest_kicks(std::index_sequence<I...>) {
-  return spelled<std::conditional_t<
+  return word_of<std::conditional_t<
       I % 2 == 1, drift,
       std::conditional_t<I % (2 * Inner) == 0, kick_of_parts<Fast, Slow>, kick_of_part<Fast>>>...>();
 }

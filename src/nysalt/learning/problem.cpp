@@ -113,6 +113,7 @@ learning_problem make_problem(const detail::source_of_losses& from, fit_options 
                            .rival = {},
                            .guard = guard_along(system, data, held_out, family.letters, options),
                            .facts = {}};
+  problem.validity = {data.step, data.system, kind_of(system), data.energies};
   problem.is_of_black_box = is_black_box(system);
   problem.is_in_bath = system.bath().acts();
   if (options.frequency) {

@@ -102,6 +102,19 @@ struct attempt {
   double seconds = 0.0;
 };
 
+/// The member at theta, for the step and the system of the data. A covariance loss asks no data, and has seen no
+/// energies.
+tabulated learned_method(const learning_problem& problem, const Eigen::VectorXd& theta, bool is_of_data) {
+  const run_time_family& family = problem.family;
+  method_validity validity = problem.validity;
+  if (!is_of_data) validity.energies.reset();
+  return {family.name,
+          family.letters,
+          family.coefficients(theta),
+          {family.order, family.symmetric, family.requires_quadratic_kinetic},
+          validity};
+}
+
 /// Searches from all starts, and judges the best.
 attempt solve_as_it_is(const learning_problem& problem) {
   const auto began = std::chrono::steady_clock::now();
@@ -290,7 +303,8 @@ attempt solve_as_it_is(const learning_problem& problem) {
   summary.usable = summary.reason.empty();
   summary.learning_evaluations = problem.evaluations();
   summary.fit_seconds = seconds();
-  return {.found = fit{theta, summary}, .seconds = summary.fit_seconds};
+  return {.found = fit{theta, summary, learned_method(problem, theta, summary.is_of_data)},
+          .seconds = summary.fit_seconds};
 }
 
 }  // namespace
