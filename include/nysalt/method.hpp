@@ -100,7 +100,7 @@ void make_stepper(const S&& system, const tabulated& method, double step,
 /// one step, or, of several steps, if the word has letters O or a processor.
 tabulated repeated(const tabulated& method, int times);
 
-/// A method in a bath: its word with letters O at a placement, METHOD_PLACEMENT. Throws
+/// A method in a bath: its word with letters O at a placement, under the same name. Throws
 /// std::invalid_argument if the method has letters O already, no central letter, or a validity: take its
 /// anywhere().
 tabulated thermostat(const tabulated& method, placement where);

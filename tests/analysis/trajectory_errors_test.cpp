@@ -46,12 +46,12 @@ const auto stiff_energy = [](const state& x) { return same_chain.stiff_energy(x)
 const model of_chain(chain);
 
 /// Two half Verlets, and nearly McLachlan.
-const std::array<member<nystrom>, 2> pairs{member<nystrom>({.5, .375}), member<nystrom>({.5, .4034})};
+const std::array<member<nystrom>, 2> pairs{member(nystrom(), {.5, .375}), member(nystrom(), {.5, .4034})};
 
 const tabulated by_verlet{verlet()};
 const tabulated by_baoab{baoab()};
-const tabulated by_end{thermostat<placement::end>(mclachlan2())};
-const tabulated by_halves{thermostat<placement::symmetric>(mclachlan2())};
+const tabulated by_end{thermostat(mclachlan2(), placement::end)};
+const tabulated by_halves{thermostat(mclachlan2(), placement::symmetric)};
 const tabulated by_thirds("thirds", run_time_word("OABOBAO"),
                           std::vector<double>{1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0}, {});
 

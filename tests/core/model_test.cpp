@@ -26,10 +26,9 @@ const in_bath warm(fixed_chain, bath::of_temperature(0.3, 0.02));
 const in_bath warm_free(dynamic_chain, bath::of_sigma(0.4, 0.3));
 
 const std::vector<tabulated> quiet_words{
-    tabulated(verlet()),      tabulated(srkn11b()), tabulated(takahashi_imada()),
-    tabulated(omelyan_fg4()), tabulated(impulse()), tabulated(member<r_fg4>(r_fg4::start()))};
+    verlet(), srkn11b(), takahashi_imada(), omelyan_fg4(), impulse(), start_of<r_fg4>()};
 const std::vector<tabulated> noisy_words{
-    tabulated(baoab()), tabulated(obabo()), tabulated(aboba()),
+    baoab(), obabo(), aboba(),
     tabulated("at one end", run_time_word("OBA"), {1.0, 1.0, 1.0}, {1, false, false})};
 
 /// All numbers of a state, in order.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // What a word knows of itself: its costs, where it evaluates forces, where its letters O are, and who serves
-// it. A word as a type and as data know the same.
+// it.
 #include "../support/refusal.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
@@ -15,14 +15,16 @@ using O = ornstein_uhlenbeck;
 
 /// Like a kick, but not to be merged.
 struct lonely_kick : kick {
+  static constexpr char letter = 'b';
   static constexpr bool additive = false;
 };
 
 /// A letter for each letter of the word: s, the force is evaluated and kept for a later letter; u, for this
 /// one alone; -, not at all.
-std::string as_text(const auto& evaluations) {
+std::string as_text(const auto& evaluations, std::size_t length) {
   std::string text;
-  for (const evaluation one : evaluations) {
+  for (std::size_t i = 0; i < length; ++i) {
+    const evaluation one = evaluations[i];
     text += one == evaluation::shared ? 's' : one == evaluation::unshared ? 'u' : '-';
   }
   return text;
@@ -56,37 +58,12 @@ const std::vector<facts> known{
 };
 // clang-format on
 
-template <TypeLevelWord W>
-void type_knows_what_data_know() {
-  const run_time_word as_data{W{}};
-  BOOST_TEST_CONTEXT(W::letters()) {
-    BOOST_TEST(as_data.letters() == W::letters());
-    BOOST_TEST((as_data.length == W::length && as_data.slots == W::slots));
-    BOOST_TEST((as_data.reads == W::reads));
-    BOOST_TEST(as_data.force_derivatives == W::force_derivatives);
-    BOOST_TEST(as_data.merges == W::merges);
-    BOOST_TEST(as_data.merges_half_steps == W::merges_half_steps);
-    BOOST_TEST(as_data.stochastic_letters == W::stochastic_letters);
-    BOOST_TEST(as_data.first_in_loop() == W::first_in_loop);
-    BOOST_TEST(as_data.evaluations_per_step == W::evaluations_per_step);
-    BOOST_TEST(as_data.evaluations_to_open == W::evaluations_to_open);
-    BOOST_TEST(as_data.evaluations_of_plain_step == W::evaluations_of_plain_step);
-    for (std::size_t i = 0; i < W::length; ++i) {
-      BOOST_TEST(as_data.first_slot(i) == W::first_slot(i));
-      BOOST_TEST(as_data.slots_of(i) == W::first_slot(i + 1) - W::first_slot(i));
-    }
-    BOOST_TEST(as_text(as_data.plan().in_step) == as_text(W::plan.in_step));
-    BOOST_TEST(as_text(as_data.plan().in_loop) == as_text(W::plan.in_loop));
-    BOOST_TEST(as_text(as_data.plan().in_last) == as_text(W::plan.in_last));
-  }
-}
-
 using enum placement;
 
 void has_letters_o(const char* plain, placement where, const char* letters, const numbers& expected,
                    const numbers& coefficients) {
-  BOOST_TEST(thermostatted(run_time_word(plain), where).letters() == letters);
-  const numbers found = thermostatted_coefficients(run_time_word(plain), where, coefficients);
+  BOOST_TEST(thermostatted(word(plain), where).letters() == letters);
+  const numbers found = thermostatted_coefficients(word(plain), where, coefficients);
   BOOST_TEST(found == expected, boost::test_tools::per_element());
 }
 
@@ -98,14 +75,14 @@ static_assert(to_string(end) == "end" && to_string(symmetric) == "symmetric" &&
 
 BOOST_AUTO_TEST_CASE(costs_and_places_of_evaluations_follow_from_the_letters) {
   for (const facts& expected : known) {
-    const run_time_word word(expected.letters);
+    const word word(expected.letters);
     BOOST_TEST_CONTEXT(expected.letters) {
       BOOST_TEST(word.evaluations_to_open == expected.to_open);
       BOOST_TEST(word.evaluations_per_step == expected.per_step);
       BOOST_TEST(word.evaluations_of_plain_step == expected.of_plain_step);
-      BOOST_TEST(as_text(word.plan().in_step) == expected.in_step);
-      BOOST_TEST(as_text(word.plan().in_loop) == expected.in_loop);
-      BOOST_TEST(as_text(word.plan().in_last) == expected.in_last);
+      BOOST_TEST(as_text(word.plan().in_step, word.length) == expected.in_step);
+      BOOST_TEST(as_text(word.plan().in_loop, word.length) == expected.in_loop);
+      BOOST_TEST(as_text(word.plan().in_last, word.length) == expected.in_last);
       BOOST_TEST(word.merges == expected.merges);
       BOOST_TEST(word.merges_half_steps == expected.merges_half_steps);
       BOOST_TEST(word.first_in_loop() == (expected.merges ? 1U : 0U));
@@ -113,19 +90,16 @@ BOOST_AUTO_TEST_CASE(costs_and_places_of_evaluations_follow_from_the_letters) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_type_knows_what_data_know) {
-  type_knows_what_data_know<word<kick, drift, kick>>();
-  type_knows_what_data_know<word<O, kick, drift, gradient_kick, drift, kick, O>>();
-  type_knows_what_data_know<word<rotation, soft_kick, O, soft_gradient_kick, O, soft_kick, rotation>>();
+BOOST_AUTO_TEST_CASE(a_word_of_flows_is_the_word_of_their_names) {
+  static_assert(word_of<kick, drift, kick>() == word("BAB"));
+  static_assert(word_of<O, kick, drift, gradient_kick, drift, kick, O>() == word("OBAGABO"));
+  static_assert(word_of<rotation, soft_kick, soft_gradient_kick>() == word("RSH"));
+  static_assert(alternating_word<kick, drift, 5>() == word("BABAB"));
   // What is not additive is not merged, yet the force is reused.
-  using lonely = word<lonely_kick, drift, lonely_kick>;
-  static_assert(!lonely::merges && lonely::evaluations_to_open == 1 && lonely::evaluations_per_step == 1);
-  BOOST_TEST(as_text(lonely::plan.in_loop) == "--s");
-  using shared = word<drift, kick, lonely_kick>;
-  BOOST_TEST(as_text(shared::plan.in_step) == "-s-");
-  static_assert(word<O, drift, O, kick, O>::stochastic_number(4) == 2);
-  static_assert(TypeLevelWord<word<kick>> && !TypeLevelWord<kick> && !TypeLevelWord<int>);
-  static_assert(std::is_same_v<alternating_word<kick, drift, 5>, word<kick, drift, kick, drift, kick>>);
+  constexpr word lonely = word_of<lonely_kick, drift, lonely_kick>();
+  static_assert(!lonely.merges && lonely.evaluations_to_open == 1 && lonely.evaluations_per_step == 1);
+  BOOST_TEST(as_text(lonely.plan().in_loop, 3) == "--s");
+  BOOST_TEST(as_text(word_of<drift, kick, lonely_kick>().plan().in_step, 3) == "-s-");
 }
 
 BOOST_AUTO_TEST_CASE(a_palindrome_follows_from_its_first_coefficients) {
@@ -136,7 +110,7 @@ BOOST_AUTO_TEST_CASE(a_palindrome_follows_from_its_first_coefficients) {
 
 BOOST_AUTO_TEST_CASE(letters_and_words_that_cannot_be_are_refused) {
   const auto refused = [](const char* letters, said words) {
-    return refuses([&] { run_time_word{letters}; }, words);
+    return refuses([&] { word{letters}; }, words);
   };
   for (const char* mixed : {"BAS", "SRB", "BAH", "GRS", "SRHRG", "RBR", "ASA", "RAS"}) {
     BOOST_TEST(refused(mixed, {mixed, "A, B, G", "R, S, H"}));
@@ -156,24 +130,22 @@ BOOST_AUTO_TEST_CASE(letters_o_are_added_where_they_are_placed) {
   has_letters_o("BA", end, "BAO", {1., 1., 1.}, {1., 1.});
   has_letters_o("BA", symmetric, "OBAO", {.5, 1., 1., .5}, {1., 1.});
   has_letters_o("A", middle, "AOA", {.5, 1., .5}, {1.});
-  BOOST_TEST(refuses([] { thermostatted(run_time_word("BA"), middle); },
+  BOOST_TEST(refuses([] { thermostatted(word("BA"), middle); },
                      {"BA", "a central letter", "end", "symmetric"}));
   for (const placement where : placements) {
-    BOOST_TEST(refuses([&] { thermostatted(run_time_word("BAOAB"), where); }, {"BAOAB", "no letters O"}));
+    BOOST_TEST(refuses([&] { thermostatted(word("BAOAB"), where); }, {"BAOAB", "no letters O"}));
   }
 }
 
 BOOST_AUTO_TEST_CASE(without_letters_o_the_conservative_part_is_left) {
   const numbers c{0.1, 0.2, 0.3, 0.4, 0.5};
-  BOOST_TEST(conservative_part(run_time_word("BAOAB")).letters() == "BAAB");
-  BOOST_TEST((conservative_part(run_time_word("BAOAB"), c) == numbers{0.1, 0.2, 0.4, 0.5}));
-  BOOST_TEST((conservative_part(run_time_word("OBABO"), c) == numbers{0.2, 0.3, 0.4}));
-  static_assert(std::is_same_v<conservative_word<word<O, O, drift, O, kick>>, word<drift, kick>>);
-  BOOST_TEST((conservative_part(baoab::word{}, std::array{0.1, 0.2, 0.3, 0.4, 0.5}) ==
-              std::array{0.1, 0.2, 0.4, 0.5}));
+  BOOST_TEST(conservative_part(word("BAOAB")).letters() == "BAAB");
+  BOOST_TEST((conservative_part(word("BAOAB"), c) == numbers{0.1, 0.2, 0.4, 0.5}));
+  BOOST_TEST((conservative_part(word("OBABO"), c) == numbers{0.2, 0.3, 0.4}));
+  BOOST_TEST(conservative_part(word("OOAOB")).letters() == "AB");
   // A coefficient too many or too few must not be lost with the letters.
   const auto refused = [](const char* letters, std::size_t count, said words) {
-    return refuses([&] { conservative_part(run_time_word(letters), numbers(count, 0.5)); }, words);
+    return refuses([&] { conservative_part(word(letters), numbers(count, 0.5)); }, words);
   };
   BOOST_TEST(refused("BAB", 4, {"BAB", "3 letters", "4 coefficients"}));
   BOOST_TEST(refused("OBABO", 4, {"OBABO", "5 letters", "4 coefficients"}));
@@ -198,9 +170,9 @@ BOOST_AUTO_TEST_CASE(letters_o_share_a_step_in_their_order_each_by_its_coefficie
   BOOST_TEST(shared(of_letters({0.1, 0.9}), 10, {{0, 1}, {1, 10}}));  // ten times .1 is 1 to rounding
   BOOST_TEST(shared(of_letters({0.0, 1.0}), 1, {{0, 0}, {0, 1}}));    // one that does nothing
   BOOST_TEST(shared(of_letters({0.5, 0.5}).in_parts(6), 6, {{0, 3}, {3, 6}}));
-  const auto of_word = intervals_of_noise(obabo::word{}, obabo::coefficients());
+  const auto of_word = intervals_of_noise(obabo().letters(), obabo().coefficients());
   BOOST_TEST(shared(of_word, 2, {{0, 1}, {1, 2}}));
-  BOOST_TEST(shared(intervals_of_noise(verlet::word{}, verlet::coefficients()).in_parts(6), 6, {}));
+  BOOST_TEST(shared(intervals_of_noise(verlet().letters(), verlet().coefficients()).in_parts(6), 6, {}));
 
   const auto refused = [&](const numbers& c, said words) { return refuses([&] { of_letters(c); }, words); };
   BOOST_TEST(refused({0.5}, {"letters O of O", "cover one step", "got 0.5"}));
@@ -217,9 +189,9 @@ BOOST_AUTO_TEST_CASE(letters_o_share_a_step_in_their_order_each_by_its_coefficie
 BOOST_AUTO_TEST_CASE(a_system_that_does_not_serve_a_letter_refuses_the_word) {
   const auto refused = [](const char* letters, const model& system, said words = {}) {
     const bool over_double =
-        refuses([&] { require_served<model, double>(run_time_word(letters), system); }, words);
+        refuses([&] { require_served<model, double>(word(letters), system); }, words);
     const bool over_slopes =
-        refuses([&] { require_served<model, detail::slopes>(run_time_word(letters), system); }, words);
+        refuses([&] { require_served<model, detail::slopes>(word(letters), system); }, words);
     return over_double || over_slopes;
   };
   const with_quadratic_part split(two_masses(), Eigen::MatrixXd::Identity(2, 2));
@@ -240,7 +212,7 @@ BOOST_AUTO_TEST_CASE(a_system_that_does_not_serve_a_letter_refuses_the_word) {
   BOOST_TEST(!refused("ABABA", relativistic()));
   // The stepper refuses too; and it says that G has two coefficients.
   const auto stepped = [](const model& system, const char* letters, const numbers& c, said words) {
-    return refuses([&] { stepper(system, run_time_word(letters), c, 0.1); }, words);
+    return refuses([&] { stepper(system, word(letters), c, 0.1); }, words);
   };
   BOOST_TEST(stepped(two_masses(), "RSR", {0.5, 1.0, 0.5}, {"RSR", "quadratic part"}));
   BOOST_TEST(!stepped(split, "RSR", {0.5, 1.0, 0.5}, {}));

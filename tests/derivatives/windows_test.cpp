@@ -65,7 +65,7 @@ const double last = std::sqrt(50.0 / 3.0);
 const windows with_a_gap{{0.0, end}, {again, last}};
 
 auto windows_at(double b1, double beta1) {
-  return stability_windows(tabulated(member<nystrom>({b1, beta1})));
+  return stability_windows(member(nystrom(), {b1, beta1}));
 }
 stability_chart chart_of(const std::string& letters, const auto& c) {
   return chart_stability(run_time_word(letters), {c.begin(), c.end()});
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(windows_end_where_they_are_known_to_end) {
     BOOST_TEST(found[i].high == with_a_gap[i].high, nearly);
   }
   for (const double limit : {stability_limit(verlet()), stability_limit(verlet_aba()),
-                             stability_limit(member<nystrom>({0.5, 0.5}))})
+                             stability_limit(member(nystrom(), {0.5, 0.5}))})
     BOOST_TEST(limit == 2.0, nearly);
   BOOST_TEST(stability_limit(chin4a()) == std::sqrt(12.0), nearly);
   BOOST_TEST(stability_windows(chin4a()).size() == 1U);
@@ -188,7 +188,7 @@ BOOST_AUTO_TEST_CASE(windows_hold_everywhere_and_wrong_ones_do_not) {
       BOOST_TEST_CONTEXT(method.name()) BOOST_TEST(first_wrong(stability_windows(method), method) == 0.0);
     }
   }
-  const tabulated method(member<nystrom>({0.5, 0.4}));
+  const tabulated method(member(nystrom(), {0.5, 0.4}));
   BOOST_TEST(first_wrong(with_a_gap, method) == 0.0);
   BOOST_TEST(first_wrong({with_a_gap[0], {again, 1.01 * last}}, method) > last);
   BOOST_TEST(first_wrong({{0.0, last}}, method) > end);

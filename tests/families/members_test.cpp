@@ -21,7 +21,7 @@ namespace {
 
 template <class... F>
 constexpr bool are_families(std::tuple<F...>*) {
-  return (Family<F> && ...) && (Method<member<F>> && ...);
+  return (Family<F> && ...);
 }
 static_assert(are_families(static_cast<all_families*>(nullptr)));
 
@@ -94,7 +94,7 @@ bool can_turn(const run_time_family& family) {
 
 const bonded_chain<3> chain(stiff_bonds<3>(5.0), soft_charges<3>(1.0));
 /// A word that holds the letters 0, 1 and k.
-const run_time_word of_parts(word<kick_of_part<0>, drift, kick_of_part<1>, kick_of_parts<0, 1>>{}, chain);
+constexpr word of_parts = word_of<kick_of_part<0>, drift, kick_of_part<1>, kick_of_parts<0, 1>>();
 
 /// The part of H for each coefficient.
 std::string times_of(const std::string& letters) {
@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(compositions_begin_at_steps_of_verlet) {
 BOOST_AUTO_TEST_CASE(gradient_families_hold_the_methods_of_chin_and_of_takahashi_and_imada) {
   BOOST_TEST(is_at(column_of(fg_chin::start()), run_time_family(fg_chin()), tabulated(chin4a())));
   // fg4 and r_fg4 hold it between two drifts of no length; 1 - 2/6 rounds.
-  const auto chin = chin4a::coefficients();
+  const auto chin = chin4a().coefficients();
   for (const auto& c : {fg4::coefficients(fg4::start()), r_fg4::coefficients(r_fg4::start())}) {
     BOOST_TEST(c.front() == 0.0);
     BOOST_TEST(c.back() == 0.0);
@@ -169,7 +169,7 @@ BOOST_AUTO_TEST_CASE(gradient_families_hold_the_methods_of_chin_and_of_takahashi
   }
   // At b = 0 the kicks outside are none: what is left is Takahashi and Imada's kernel.
   const auto c = fg_chin::coefficients(std::array{0.0, 1.0 / 24.0});
-  const auto theirs = takahashi_imada::coefficients();
+  const auto theirs = takahashi_imada().coefficients();
   BOOST_TEST(std::equal(theirs.begin(), theirs.end(), c.begin() + 1));
 }
 
@@ -199,7 +199,7 @@ BOOST_AUTO_TEST_CASE(what_can_turn_the_oscillator_does) {
 BOOST_AUTO_TEST_CASE(it_is_the_phase_fitted_method_of_the_first_classical_member) {
   const auto found = phase_fitted_start(run_time_family(aba<5>{}), 2.0);
   BOOST_REQUIRE(found);
-  BOOST_TEST((found->theta == column_of(phase_fitted<aba<5>, mclachlan5>(2.0).parameters())));
+  BOOST_TEST((found->theta == column_of(aba<5>::of(fitted<aba<5>, mclachlan5>::at(2.0)))));
   // Letters of the bath count for nothing.
   const run_time_family plain(fg4{});
   const auto expected = phase_fitted_start(plain, 2.0);
@@ -238,7 +238,7 @@ BOOST_AUTO_TEST_CASE(the_word_of_nystrom_is_the_tableau_of_its_paper) {
   const auto check = [&](const auto& system, double reach) {
     for (int n = 0; n < 20; ++n) {
       const auto [b1, beta1] = random_theta<nystrom>(random);
-      const member<nystrom> method({b1, beta1});
+      const tabulated method = member(nystrom(), {b1, beta1});
       const auto off = [&](const tableau& oracle) {
         const auto x = random.state(system, reach);
         const auto at = shears_at(system, {x.q, x.p});

@@ -53,7 +53,7 @@ Eigen::VectorXd random_theta(const run_time_family& family, draws& random) {
 
 std::vector<tabulated> methods_as_data(draws& random) {
   std::vector<tabulated> all;
-  for_each<fitted_methods>([&]<class M>() { all.emplace_back(M(random.uniform(0.1, 4.0))); });
+  for_each<fitted_methods>([&]<class M>() { all.push_back(M::at(random.uniform(0.1, 4.0))); });
   for (const auto& row : classical_table) {
     if (!has(std::string(row.letters), 'O') || row.name == "baoab") all.push_back(as_data(row));
   }

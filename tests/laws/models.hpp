@@ -14,7 +14,6 @@
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
-#include "nysalt/method.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 #include "nysalt/systems/textbook.hpp"
@@ -42,10 +41,18 @@ inline auto split_ring() {
 using all_families =
     std::tuple<nystrom, aba<2>, aba<4>, aba<5>, aba<6>, bab<2>, bab<3>, bab<4>, bab<5>, bab<6>, aba3_free,
                aba4_free, aba6_free, bab6_free, fg_chin, fg4, fd_chin, r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>;
+
+/// Phase-fitted members of a family, which are the classical method for small steps.
+template <Family F, class M>
+struct fitted {
+  using family = F;
+  using classical = M;
+  static tabulated at(double z) { return phase_fitted(F(), M(), z); }
+};
 using fitted_methods =
-    std::tuple<phase_fitted<fg_chin, chin4a>, phase_fitted<fg4, omelyan_fg4>, phase_fitted<aba<4>, pefrl>,
-               phase_fitted<bab<4>, vefrl>, phase_fitted<aba<5>, mclachlan5>, phase_fitted<bab<5>, omelyan5v>,
-               phase_fitted<bab<6>, srkn6b>>;
+    std::tuple<fitted<fg_chin, chin4a>, fitted<fg4, omelyan_fg4>, fitted<aba<4>, pefrl>,
+               fitted<bab<4>, vefrl>, fitted<aba<5>, mclachlan5>, fitted<bab<5>, omelyan5v>,
+               fitted<bab<6>, srkn6b>>;
 
 template <Family F>
 parameters_of<F> random_theta(draws& random) {

@@ -6,6 +6,7 @@
 #include "../support/draws.hpp"
 #include "../support/langevin.hpp"
 #include "../support/learned.hpp"
+#include "../support/members.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
@@ -17,8 +18,7 @@ using namespace nysalt::test;
 namespace {
 
 using galaxy = in_bath<henon_heiles>;
-using family = thermostatted_family<nystrom, placement::symmetric>;
-const run_time_family bathed_stages{family()};
+const run_time_family bathed_stages = two_stages_in(placement::symmetric);
 using parameters = parameters_of<nystrom>;
 
 constexpr double h = 0.5;
@@ -52,8 +52,7 @@ fitted_parameter learned_beta1(placement where) {
   const auto data = make_flow_map_data(
       system, at_random(x, paths), exact_paths(x),
       {.step = step, .horizon = step, .trajectories = paths, .seed = seed(1), .noise_parts = 2});
-  const run_time_family stages = thermostatted(run_time_family(nystrom()), where);
-  const auto fit = learn(stages, system, data, data,
+  const auto fit = learn(two_stages_in(where), system, data, data,
                          {.coordinates = coordinates::energy,
                           .start = Eigen::Vector2d(0.5, 0.4),
                           .random_starts = 0,
@@ -67,7 +66,7 @@ fitted_parameter learned_beta1(placement where) {
 BOOST_AUTO_TEST_CASE(held_out_data_are_new_if_starts_or_noise_are_and_both_are_of_the_bath) {
   const listed<2> same({starts(1, 0), starts(1, 1), starts(1, 2)});
   const auto with = [&](std::uint64_t seed, int parts) {
-    return made_by_steps(warm, same, member<family>({0.45, 0.38}),
+    return made_by_steps(warm, same, member(bathed_stages, {0.45, 0.38}),
                          {.step = h, .trajectories = 3, .seed = seed, .parts = parts});
   };
   const auto is_new = [&](const auto& held_out) {

@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(a_search_that_is_cut_short_is_flagged) {
 }
 
 BOOST_AUTO_TEST_CASE(what_does_not_hold_on_held_out_data_is_flagged) {
-  const auto other_map = of_oscillator(0.5, fine_steps(0.5, member<nystrom>({0.4, 0.45})));
+  const auto other_map = of_oscillator(0.5, fine_steps(0.5, member(nystrom(), {0.4, 0.45})));
   const auto fit =
       learn(two_stages, oscillator, other_map, of_oscillator(0.5), {.loss = loss_named("state:1")});
   BOOST_TEST_CONTEXT(fit.summary.full()) {

@@ -4,6 +4,7 @@
 #include "nysalt/losses/after_steps.hpp"
 
 #include "../support/learned.hpp"
+#include "../support/members.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/systems.hpp"
@@ -59,28 +60,23 @@ void check_bits(const after_steps_options& options, std::size_t windows) {
     BOOST_TEST(!same(squares_at(loss, beside), expected));
     // A pass for each two parameters, and one without derivatives.
     const std::int64_t passes = 2 * ((F::parameters + 1) / 2) + 1;
-    using word = typename F::word;
-    const std::int64_t of_run =
-        word::evaluations_to_open + options.steps.back() * std::int64_t{word::evaluations_per_step};
+    const std::int64_t of_run = F::letters.evaluations_to_open +
+                                options.steps.back() * std::int64_t{F::letters.evaluations_per_step};
     BOOST_TEST(loss.evaluations() == passes * of_run * static_cast<std::int64_t>(windows));
   }
 }
 
-template <placement P>
-using family = thermostatted_family<nystrom, P>;
-using symmetric = family<placement::symmetric>;
-using at_end = family<placement::end>;
-using in_middle = family<placement::middle>;
+const run_time_family symmetric = two_stages_in(placement::symmetric);
+const run_time_family at_end = two_stages_in(placement::end);
+const run_time_family in_middle = two_stages_in(placement::middle);
 
 constexpr double h = 0.4;
-constexpr parameters_of<nystrom> maker{0.45, 0.38};
-constexpr parameters_of<nystrom> far{0.55, 0.42};
+const std::vector<double> maker{0.45, 0.38};
+const std::vector<double> far{0.55, 0.42};
 const in_bath<henon_heiles> warm(henon_heiles(), bath::of_sigma(0.7, 0.1));
 
-template <Family F>
-flow_map_data made(int parts, std::int64_t trajectories = 20) {
-  return made_by_steps(warm, starts, member<F>(maker),
-                       {.step = h, .trajectories = trajectories, .parts = parts});
+flow_map_data made(const run_time_family& family, int parts) {
+  return made_by_steps(warm, starts, member(family, maker), {.step = h, .trajectories = 20, .parts = parts});
 }
 
 /// The same data in fewer parts.
@@ -98,32 +94,31 @@ flow_map_data in_parts(flow_map_data data, int parts) {
   return data;
 }
 
-template <Family F>
-double loss_of(const flow_map_data& data, const parameters_of<nystrom>& theta, int steps = 1) {
+double loss_of(const run_time_family& family, const flow_map_data& data, const std::vector<double>& theta,
+               int steps = 1) {
   const metric measure(warm, data, coordinates::qp);
-  const after_steps<> loss(run_time_family(F()), warm, data, state_error(measure), {.steps = {steps}});
+  const after_steps<> loss(family, warm, data, state_error(measure), {.steps = {steps}});
   return loss_value(loss, column_of(theta));
 }
 
-template <Family F>
-void check_noise(int parts, int steps) {
-  const auto data = made<F>(parts);
+void check_noise(const run_time_family& family, int parts, int steps) {
+  const auto data = made(family, parts);
   // Who made the data has no loss but that of rounding; increments are .03 or more.
   const double rounding = 30.0 * steps * eps / 0.03;
-  BOOST_TEST(loss_of<F>(data, maker, steps) <= 4.0 * rounding * rounding);
-  BOOST_TEST(loss_of<F>(data, far, steps) > 1e-8);
+  BOOST_TEST(loss_of(family, data, maker, steps) <= 4.0 * rounding * rounding);
+  BOOST_TEST(loss_of(family, data, far, steps) > 1e-8);
   // With the noise of other pairs the loss is some half of the increments.
   auto shuffled = data;
   const std::size_t numbers = data.noise.size();
   for (std::size_t n = 0; n < numbers; ++n) {
     shuffled.noise[n] = data.noise[(n + static_cast<std::size_t>(parts)) % numbers];
   }
-  BOOST_TEST(loss_of<F>(shuffled, maker, steps) > 0.1);
+  BOOST_TEST(loss_of(family, shuffled, maker, steps) > 0.1);
   // The noise of each step counts, the last one's too.
   shuffled = data;
   const std::size_t last = numbers - static_cast<std::size_t>(parts);  // of the last window's last step
   shuffled.noise[last].swap(shuffled.noise[last - static_cast<std::size_t>(parts)]);
-  BOOST_TEST(loss_of<F>(shuffled, maker, steps) > 1e-5);
+  BOOST_TEST(loss_of(family, shuffled, maker, steps) > 1e-5);
 }
 
 struct a_fork : potential_only {  // takes a branch, and says so
@@ -142,9 +137,9 @@ BOOST_AUTO_TEST_CASE(bits_are_those_of_window_after_window) {
   check_bits<aba<4>>({.steps = {10}}, 2 + 3 + 31);
   // One parameter. A run of five steps of B A B A B takes eleven evaluations, five plain ones fifteen.
   check_bits<bab<2>>(five_steps, 57);
-  using word = bab<2>::word;
-  static_assert(word::evaluations_to_open + 5 * word::evaluations_per_step == 11);
-  static_assert(5 * word::evaluations_of_plain_step == 15);
+  constexpr const word& letters = bab<2>::letters;
+  static_assert(letters.evaluations_to_open + 5 * letters.evaluations_per_step == 11);
+  static_assert(5 * letters.evaluations_of_plain_step == 15);
 }
 
 // In modes, of a dynamic dimension, with masses: trajectory by trajectory, one longer than what a thread
@@ -172,9 +167,9 @@ BOOST_AUTO_TEST_CASE(each_trajectory_has_the_bits_of_its_pairs) {
 
 // Without a bath it is that of dual numbers, to the bit: bits_are_those_of_window_after_window.
 BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
-  const auto noisy = made<symmetric>(2);
+  const auto noisy = made(symmetric, 2);
   const metric measure(warm, noisy, coordinates::qp);
-  const after_steps<> loss(run_time_family(symmetric()), warm, noisy, state_error(measure));
+  const after_steps<> loss(symmetric, warm, noisy, state_error(measure));
   const Eigen::VectorXd at = column_of(far);
   const Eigen::VectorXd ours = squares_at(loss, at).gradient();
   const auto value = [&](const Eigen::VectorXd& x) { return loss_value(loss, x); };
@@ -254,54 +249,54 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
 
 BOOST_AUTO_TEST_CASE(each_step_takes_its_own_noise) {
   for (const int steps : {1, 3}) {
-    check_noise<at_end>(1, steps);
-    check_noise<in_middle>(1, steps);
-    check_noise<symmetric>(2, steps);
+    check_noise(at_end, 1, steps);
+    check_noise(in_middle, 1, steps);
+    check_noise(symmetric, 2, steps);
   }
-  const auto data = made<symmetric>(2);
+  const auto data = made(symmetric, 2);
   const metric measure(warm, data, coordinates::qp);
-  const after_steps<> loss(run_time_family(symmetric()), warm, data, state_error(measure));
+  const after_steps<> loss(symmetric, warm, data, state_error(measure));
   loss_value(loss, column_of(maker));
   BOOST_TEST(loss.evaluations() == 2 * 200);  // those of plain steps
 }
 
 BOOST_AUTO_TEST_CASE(more_parts_than_the_letters_need_are_put_together) {
-  const auto sixths = made<symmetric>(6);
+  const auto sixths = made(symmetric, 6);
   for (const auto& theta : {maker, far}) {
-    const double expected = loss_of<symmetric>(sixths, theta);
+    const double expected = loss_of(symmetric, sixths, theta);
     // Noise differs by rounding: so do residuals, which at the minimum are nothing else.
     const double rounding = 1e4 * eps * expected + std::pow(100.0 * eps, 2);
-    BOOST_TEST(std::abs(loss_of<symmetric>(in_parts(sixths, 2), theta) - expected) <= rounding);
+    BOOST_TEST(std::abs(loss_of(symmetric, in_parts(sixths, 2), theta) - expected) <= rounding);
   }
-  const auto quarters = made<at_end>(4);
-  BOOST_TEST(loss_of<at_end>(quarters, maker) <= 1e-24);
-  BOOST_TEST(loss_of<at_end>(in_parts(quarters, 2), maker) <= 1e-24);
-  BOOST_TEST(loss_of<in_middle>(quarters, maker) > 1e-3);  // it is another method
+  const auto quarters = made(at_end, 4);
+  BOOST_TEST(loss_of(at_end, quarters, maker) <= 1e-24);
+  BOOST_TEST(loss_of(at_end, in_parts(quarters, 2), maker) <= 1e-24);
+  BOOST_TEST(loss_of(in_middle, quarters, maker) > 1e-3);  // it is another method
 }
 
 BOOST_AUTO_TEST_CASE(data_without_the_noise_that_is_needed_are_refused) {
-  const auto refused = [](const flow_map_data& data, auto of, said w) {
-    return refuses([&] { loss_of<decltype(of)>(data, maker); }, w);
+  const auto refused = [](const flow_map_data& data, const run_time_family& family, said w) {
+    return refuses([&] { loss_of(family, data, maker); }, w);
   };
-  auto without = made<symmetric>(2);
+  auto without = made(symmetric, 2);
   without.noise.clear();
   without.noise_parts = 0;
   BOOST_TEST(
-      refused(without, symmetric(), {"a multiple of 2 for the word OABABAO", "got 0", "noise_parts = 2"}));
-  BOOST_TEST(refused(without, at_end(), {"a multiple of 1 for the word ABABAO", "got 0"}));
-  const auto thirds = made<at_end>(3);
-  BOOST_TEST(refused(thirds, symmetric(), {"got 3", "noise_parts = 2"}));
-  BOOST_TEST(!refused(thirds, in_middle(), {}));
-  BOOST_TEST(refused(made<symmetric>(2), nystrom(), {"must have a letter O"}));
+      refused(without, symmetric, {"a multiple of 2 for the word OABABAO", "got 0", "noise_parts = 2"}));
+  BOOST_TEST(refused(without, at_end, {"a multiple of 1 for the word ABABAO", "got 0"}));
+  const auto thirds = made(at_end, 3);
+  BOOST_TEST(refused(thirds, symmetric, {"got 3", "noise_parts = 2"}));
+  BOOST_TEST(!refused(thirds, in_middle, {}));
+  BOOST_TEST(refused(made(symmetric, 2), nystrom(), {"must have a letter O"}));
 }
 
 BOOST_AUTO_TEST_CASE(without_sigma_no_noise_is_needed) {
   for (const double friction : {0.0, 0.7}) {
     const in_bath<henon_heiles> quiet(henon_heiles(), bath::of_sigma(friction, 0.0));
-    auto data = made_by_steps(quiet, starts, member<symmetric>(maker), {.step = h});
+    auto data = made_by_steps(quiet, starts, member(symmetric, maker), {.step = h});
     const metric measure(quiet, data, coordinates::qp);
     const auto loss = [&] {
-      return loss_value(after_steps<>(run_time_family(symmetric()), quiet, data, state_error(measure)),
+      return loss_value(after_steps<>(symmetric, quiet, data, state_error(measure)),
                         column_of(maker));
     };
     BOOST_TEST(loss() <= 1e-24);

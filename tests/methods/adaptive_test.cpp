@@ -13,8 +13,7 @@ using namespace nysalt::test;
 
 namespace {
 
-using bagab = phase_fitted<fg_chin, chin4a>;
-using abagaba = phase_fitted<fg4, omelyan_fg4>;
+using bagab = fitted<fg_chin, chin4a>;
 
 /// Up to 5 all are defined; pi and 2, where sin z and nearly cos z vanish, are no exceptions.
 constexpr std::array some_z{1e-7, 1e-3, 0.1, 0.5, 1.0, 1.57, 2.0, 3.0, std::numbers::pi, 3.2, 4.0, 5.0};
@@ -28,7 +27,7 @@ struct comparison {
 /// product that is at most the product of the letters' norms; solving for the coefficients can leave as much
 /// again, and is doubled for the rounding of theta itself.
 comparison against_rotation(const tabulated& method, double z) {
-  const run_time_word& word = method.letters();
+  const word& word = method.letters();
   const auto c = method.coefficients();
   const auto m = matrix_on_oscillator(word, c, z * z);
   double size = 1.0;
@@ -45,26 +44,23 @@ comparison against_rotation(const tabulated& method, double z) {
 }
 
 /// A fitted method at any z, the classical one that it began with, and how far their parameters are apart.
-struct fitted {
+struct fitted_example {
   std::function<tabulated(double)> at;
   tabulated classical;
   std::function<double(double)> moved;
 };
-template <Family F, Method M>
-fitted fitted_of(phase_fitted<F, M>*) {
-  return {[](double z) { return tabulated(phase_fitted<F, M>(z)); }, tabulated(M()),
-          [](double z) {
-            const auto theta = phase_fitted<F, M>(z).parameters();
-            const auto from = F::of(M());
-            double most = 0.0;
-            for (std::size_t k = 0; k < theta.size(); ++k)
-              most = std::max(most, std::abs(theta[k] - from[k]));
-            return most;
-          }};
-}
-std::vector<fitted> all_fitted() {
-  std::vector<fitted> all;
-  for_each<fitted_methods>([&]<class M>() { all.push_back(fitted_of(static_cast<M*>(nullptr))); });
+std::vector<fitted_example> all_fitted() {
+  std::vector<fitted_example> all;
+  for_each<fitted_methods>([&]<class M>() {
+    const auto moved = [](double z) {
+      const auto theta = M::family::of(M::at(z));
+      const auto from = M::family::of(typename M::classical());
+      double most = 0.0;
+      for (std::size_t k = 0; k < theta.size(); ++k) most = std::max(most, std::abs(theta[k] - from[k]));
+      return most;
+    };
+    all.push_back({M::at, typename M::classical(), moved});
+  });
   return all;
 }
 
@@ -172,9 +168,10 @@ BOOST_AUTO_TEST_CASE(a_phase_fitted_method_is_the_nearest_member) {
     const double beside = (normals * least_squares(normals, moved, 1e-9) - moved).norm();
     BOOST_TEST((beside <= 1e-8 * moved.norm()) == nearest);
   };
-  check(fg4{}, abagaba(z).parameters(), fg4::of(omelyan_fg4()), true);
-  check(bab<6>{}, phase_fitted<bab<6>, srkn6b>(z).parameters(), bab<6>::of(srkn6b()), true);
-  check(fg4{}, abagaba(z).parameters(), fg4::start(), false);  // it is not the nearest to Chin's
+  const auto theta = fg4::of(fitted<fg4, omelyan_fg4>::at(z));
+  check(fg4{}, theta, fg4::of(omelyan_fg4()), true);
+  check(bab<6>{}, bab<6>::of(fitted<bab<6>, srkn6b>::at(z)), bab<6>::of(srkn6b()), true);
+  check(fg4{}, theta, fg4::start(), false);  // it is not the nearest to Chin's
 }
 
 // Fitted anew at each step, omega fixed; allowed as in measured_order. With the coefficients of one step it
@@ -278,43 +275,49 @@ BOOST_AUTO_TEST_CASE(a_method_is_stable_up_to_the_z_it_is_made_for) {
 // Phase-fitted methods take the frequency of the modes, as bands have room for what soft forces add, and of a
 // system without modes the highest. s-AIA takes the highest frequency.
 BOOST_AUTO_TEST_CASE(a_system_and_a_step_give_the_z) {
-  const auto z_for = [](const auto& system, double step) {
-    return phase_fitted_for<fg_chin, chin4a>(system, step).z();
-  };
   const fpu_chain<3> chain(50.0);
   const double highest = chain.frequency_bands().back().high;
   BOOST_TEST(highest > 50.0);
   for (const double step : {0.04, -0.04}) {
-    BOOST_TEST(z_for(harmonic_oscillator(50.0), step) == 50.0 * 0.04);
     BOOST_TEST(s_aia2_for(harmonic_oscillator(50.0), step).highest_z() == 50.0 * 0.04);
   }
-  BOOST_TEST(z_for(chain, 0.02) == 50.0 * 0.02);
-  BOOST_TEST(z_for(henon_heiles(), 0.5) == 0.5);
-  BOOST_TEST(z_for(pendulum(), 0.5) == 0.5);  // one band, 0 to 1
+  BOOST_TEST(frequency_to_fit(harmonic_oscillator(50.0)) == 50.0);
+  BOOST_TEST(frequency_to_fit(chain) == 50.0);
+  BOOST_TEST(frequency_to_fit(henon_heiles()) == 1.0);
+  BOOST_TEST(frequency_to_fit(pendulum()) == 1.0);  // one band, 0 to 1
+  BOOST_TEST(frequency_to_fit(black_box()) == 0.0);
   BOOST_TEST(s_aia2_for(chain, 0.02).highest_z() == 0.02 * highest);
-  BOOST_TEST((s_aia2(1.5).coefficients() == palindrome<5>({two.best_at(1.5)})));
+  BOOST_TEST((s_aia2(1.5).coefficients() == as_list(palindrome<5>({two.best_at(1.5)}))));
   BOOST_TEST(s_aia3(2.0).highest_z() == 2.0);
-  BOOST_TEST(bagab::name() == "phase_fitted_chin4a");
-  BOOST_TEST(s_aia2::name() == "s_aia2");
-  BOOST_TEST(s_aia3::name() == "s_aia3");
+  BOOST_TEST(bagab::at(1.0).name() == "phase_fitted_chin4a");
+  BOOST_TEST(s_aia2(1.0).name() == "s_aia2");
+  BOOST_TEST(s_aia3(1.0).name() == "s_aia3");
 }
 
 BOOST_AUTO_TEST_CASE(impossible_z_are_refused_with_a_sentence) {
   const auto refused = [](const auto& action, said words) { BOOST_TEST(refuses(action, words)); };
   for (const double z : {0.0, -1.0, infinite, not_a_number}) {
-    refused([&] { bagab{z}; }, {"phase_fitted_chin4a", "positive and finite"});
+    refused([&] { bagab::at(z); }, {"phase_fitted_chin4a", "positive and finite"});
     refused([&] { s_aia2{z}; }, {"s_aia2", "positive and finite"});
     refused([&] { s_aia3{z}; }, {"s_aia3", "positive and finite"});
   }
   // b = 2/z^2 - cot(z/2)/z grows without bound towards 2 pi.
-  refused([] { bagab{2.0 * std::numbers::pi}; },
+  refused([] { bagab::at(2.0 * std::numbers::pi); },
           {"phase_fitted_chin4a", "at most 6.2", "6.283", "take a smaller step"});
-  refused([] { phase_fitted<aba<4>, pefrl>{5.5}; }, {"phase_fitted_pefrl", "at most 5.38"});
-  BOOST_CHECK_NO_THROW((phase_fitted<aba<4>, pefrl>{5.38}));
+  using of_pefrl = fitted<aba<4>, pefrl>;
+  refused([] { of_pefrl::at(5.5); }, {"phase_fitted_pefrl", "at most 5.38"});
+  BOOST_CHECK_NO_THROW(of_pefrl::at(5.38));
   for (const double z : {4.0, 1e300}) refused([&] { s_aia2{z}; }, {"s_aia2", "take a smaller step", "z < 4"});
   refused([] { s_aia3{6.0}; }, {"s_aia3", "three stages", "z < 6"});
   const harmonic_oscillator system(50.0);
   refused([&] { s_aia2_for(system, 0.08); }, {"z = step * highest frequency must", "got 4"});
   refused([&] { s_aia2_for(system, 0.0); }, {"positive and finite"});
-  refused([&] { phase_fitted_for<fg_chin, chin4a>(system, 0.0); }, {"positive and finite"});
+  refused([] { s_aia2_for(black_box(), 0.1); }, {"positive and finite", "got 0"});
+  // Families and methods that do not belong together.
+  refused([] { phase_fitted(nystrom(), mclachlan2(), 1.0); }, {"phase_fitted_mclachlan2", "must be symmetric"});
+  refused([] { phase_fitted(fg4(), chin4a(), 1.0); }, {"of the word BAGAB", "got fg4"});
+  refused([] { phase_fitted(aba<2>(), mclachlan2(), 1.0); }, {"two parameters or more"});
+  const tabulated low("low", bab<4>::letters, vefrl().coefficients(), {2, true, false});
+  refused([&] { phase_fitted(bab<4>(), low, 1.0); }, {"a method of order 4 or more", "of order 2"});
+  refused([] { phase_fitted(r_aba<4>(), pefrl(), 1.0); }, {"without rotations"});
 }

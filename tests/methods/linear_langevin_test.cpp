@@ -8,6 +8,7 @@
 // order 1.
 #include "../support/draws.hpp"
 #include "../support/langevin.hpp"
+#include "../support/members.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
@@ -24,13 +25,6 @@ using namespace nysalt::test;
 namespace {
 
 using enum placement;
-
-template <placement P, class M>
-using in = thermostatted_method<P, M>;
-using at_end = thermostatted_family<nystrom, end>;
-using both_ends = thermostatted_family<nystrom, symmetric>;
-using inside = thermostatted_family<nystrom, middle>;
-using aba2_inside = thermostatted_family<aba<2>, middle>;
 
 bool same(const tabulated& one, const tabulated& other) {
   return one.letters().letters() == other.letters().letters() && one.coefficients() == other.coefficients() &&
@@ -85,14 +79,14 @@ law_kept kept_by(const tabulated& method, double z, double g) {
   return {law(0, 0) * omega * omega / kT, law(1, 1) / kT, law(0, 1) * omega / kT};
 }
 
-std::vector<spelled> two_stages_in(placement where, double b1, double beta1) {
+std::vector<spelled> two_stages_at(placement where, double b1, double beta1) {
   static const std::vector<run_time_family> families = [] {
     std::vector<run_time_family> all;
-    for (const auto each : placements) all.push_back(thermostatted(run_time_family(nystrom()), each));
+    for (const auto each : placements) all.push_back(two_stages_in(each));
     return all;
   }();
   const auto& family = families[static_cast<std::size_t>(where)];
-  return spell(family.letters.letters(), family.coefficients(Eigen::Vector2d(b1, beta1)));
+  return spell(family.letters.view(), family.coefficients(Eigen::Vector2d(b1, beta1)));
 }
 
 /// A mean square one-step error, from states of covariance `start` and with `weights` of q^2 and p^2.
@@ -107,7 +101,7 @@ struct loss {
   double at(double b1, double u, double g) const {
     const double gamma = g * omega;
     const damped_oscillator x{omega, gamma, with_noise ? std::sqrt(2.0 * gamma) : 0.0};
-    const auto step = step_with_error(x, two_stages_in(where, b1, 0.5 * b1 + u), z / omega);
+    const auto step = step_with_error(x, two_stages_at(where, b1, 0.5 * b1 + u), z / omega);
     return weights.dot(error_after(step, start, 1).diagonal());
   }
 };
@@ -277,49 +271,51 @@ double off(const measured& is, const Eigen::Array2d& expected) {
 
 }  // namespace
 
-static_assert(Method<baoab> && Method<in<end, verlet>> && Method<in<symmetric, pefrl>>);
-static_assert(baoab::order == 2 && baoab::symmetric);
-static_assert(in<end, pefrl>::order == 1 && !in<end, pefrl>::symmetric);
-static_assert(in<symmetric, pefrl>::order == 2 && in<symmetric, pefrl>::symmetric);
-static_assert(in<middle, pefrl>::order == 2 && in<middle, pefrl>::symmetric);
-static_assert(Family<at_end> && Family<both_ends> && Family<inside> && Family<aba2_inside>);
-static_assert(at_end::name == "nystrom_end" && both_ends::name == "nystrom_symmetric" &&
-              inside::name == "nystrom_middle");
-static_assert(at_end::order == 1 && both_ends::order == 2);
-// The middle of what is not symmetric is no middle.
-static_assert(inside::order == 1 && aba2_inside::order == 2);
-static_assert(!at_end::symmetric && !both_ends::symmetric && !inside::symmetric);  // nor is every nystrom
-static_assert(aba2_inside::symmetric && !thermostatted_family<aba<2>, end>::symmetric);
-static_assert(at_end::parameters == 2 && at_end::parameter_names == nystrom::parameter_names);
-
-BOOST_AUTO_TEST_CASE(a_method_is_thermostatted_by_its_type_as_by_its_table) {
-  const auto check = [](placement where, const auto& by_type, const char* name) {
-    BOOST_TEST(same(thermostat(tabulated(pefrl()), where), tabulated(by_type)), name);
-    BOOST_TEST(by_type.name() == name);
+BOOST_AUTO_TEST_CASE(a_method_is_thermostatted) {
+  const auto check = [](placement where, const char* letters, int order) {
+    const tabulated method = thermostat(pefrl(), where);
+    BOOST_TEST(method.letters().letters() == letters);
+    BOOST_TEST(method.name() == "pefrl");
+    BOOST_TEST(method.order == order);
+    BOOST_TEST(method.symmetric == (where != end));
   };
-  check(end, thermostat<end>(pefrl()), "pefrl_end");
-  check(symmetric, thermostat<symmetric>(pefrl()), "pefrl_symmetric");
-  check(middle, thermostat<middle>(pefrl()), "pefrl_middle");
-  BOOST_TEST(same(tabulated(thermostat<middle>(verlet())), tabulated(baoab())));
-  BOOST_TEST(same(tabulated(thermostat<symmetric>(verlet())), tabulated(obabo())));
-  BOOST_TEST(same(tabulated(thermostat<middle>(verlet_aba())), tabulated(aboba())));
-  BOOST_TEST(!same(tabulated(thermostat<end>(verlet())), tabulated(baoab())));
+  check(end, "ABABABABAO", 1);
+  check(symmetric, "OABABABABAO", 2);
+  check(middle, "ABABAOABABA", 2);
+  BOOST_TEST(same(thermostat(verlet(), middle), baoab()));
+  BOOST_TEST(same(thermostat(verlet(), symmetric), obabo()));
+  BOOST_TEST(same(thermostat(verlet_aba(), middle), aboba()));
+  BOOST_TEST(!same(thermostat(verlet(), end), baoab()));
   const tabulated euler("euler", run_time_word("BA"), {1.0, 1.0}, {1, false, false});
   BOOST_TEST(thermostat(euler, symmetric).order == 1);
   BOOST_TEST(!thermostat(euler, symmetric).symmetric);
   BOOST_TEST(refuses([&] { thermostat(euler, middle); }, {"central letter"}));
-  BOOST_TEST(refuses([&] { thermostat(tabulated(baoab{}), end); }, {"must have no letters O"}));
+  BOOST_TEST(refuses([] { thermostat(baoab(), end); }, {"must have no letters O"}));
+  const tabulated learned("nystrom", word("ABABA"), member(nystrom(), {0.5, 0.41}).coefficients(),
+                          {2, false, false}, method_validity{0.02, "pendulum()"});
+  BOOST_TEST(refuses([&] { thermostat(learned, end); }, {"nystrom", "anywhere()"}));
+  BOOST_CHECK_NO_THROW(thermostat(learned.anywhere(), end));
 }
 
 BOOST_AUTO_TEST_CASE(a_thermostatted_family_is_the_family_with_the_bath_between) {
-  BOOST_TEST((at_end::start() == nystrom::start()));
-  for (std::size_t k = 0; k < 2; ++k) {
-    const auto ours = both_ends::ranges()[k];
-    const auto theirs = nystrom::ranges()[k];
-    BOOST_TEST((ours.low == theirs.low && ours.high == theirs.high && ours.open == theirs.open));
+  const run_time_family plain{nystrom()};
+  for (const placement where : placements) {
+    const run_time_family family = two_stages_in(where);
+    BOOST_TEST(family.parameter_names == plain.parameter_names, per_element());
+    BOOST_TEST((family.starts.front().theta == plain.starts.front().theta));
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto& ours = family.ranges[k];
+      const auto& theirs = plain.ranges[k];
+      BOOST_TEST((ours.low == theirs.low && ours.high == theirs.high && ours.open == theirs.open));
+    }
+    BOOST_TEST(family.order == (where == symmetric ? 2 : 1));  // the middle of what is not symmetric is no middle
+    BOOST_TEST(!family.symmetric);                             // nor is every nystrom
+    BOOST_TEST(refuses([&] { member(family, {1.5, 0.4}); }, {"nystrom", "b1"}));
   }
-  BOOST_TEST(member<both_ends>::word::letters() == "OABABAO");
-  BOOST_TEST(refuses([] { member<inside>({1.5, 0.4}); }, {"nystrom_middle", "b1"}));
+  const run_time_family two{aba<2>()};
+  BOOST_TEST(thermostatted(two, middle).order == 2);
+  BOOST_TEST(thermostatted(two, middle).symmetric);
+  BOOST_TEST(!thermostatted(two, end).symmetric);
 }
 
 BOOST_AUTO_TEST_CASE(the_solution_has_closed_form) {
@@ -371,16 +367,16 @@ BOOST_AUTO_TEST_CASE(a_step_is_the_word_spelled_out) {
 // declares what all its members have; that at b1 = 1/2 is symmetric, and has order 2 in the middle too.
 BOOST_AUTO_TEST_CASE(without_noise_a_method_has_its_order) {
   for (const tabulated& method : langevin_methods()) {
-    const int order = method.name() == "nystrom_middle" ? 2 : method.order;
+    const int order = method.letters().letters() == "ABAOABA" ? 2 : method.order;
     BOOST_TEST(std::abs(measured_order(method) - order) <= 0.02, method.name());
   }
 }
 
 // O in the middle is in the middle of the time only if the word is symmetric.
 BOOST_AUTO_TEST_CASE(the_middle_of_a_word_that_is_not_symmetric) {
-  BOOST_TEST(std::abs(measured_order(tabulated(member<inside>({0.5, 0.41}))) - 2.0) <= 0.02);
-  BOOST_TEST(std::abs(measured_order(tabulated(member<inside>({0.45, 0.385}))) - 1.0) <= 0.05);
-  BOOST_TEST(std::abs(measured_order(tabulated(member<both_ends>({0.45, 0.385}))) - 2.0) <= 0.02);
+  BOOST_TEST(std::abs(measured_order(member(two_stages_in(middle), {0.5, 0.41})) - 2.0) <= 0.02);
+  BOOST_TEST(std::abs(measured_order(member(two_stages_in(middle), {0.45, 0.385})) - 1.0) <= 0.05);
+  BOOST_TEST(std::abs(measured_order(member(two_stages_in(symmetric), {0.45, 0.385})) - 2.0) <= 0.02);
 }
 
 // kT/omega^2 and kT times these, whatever the friction; q and p are independent. Without O a step keeps

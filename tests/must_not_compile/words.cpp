@@ -229,18 +229,18 @@ namespace methods_that_cannot_be {
 inline void use(const nysalt::tuned_method<nysalt::nystrom>& tuned) {
 #ifdef NYSALT_CONTROL
   nysalt::classical<"pefrl">::coefficients();
-  nysalt::thermostat<nysalt::placement::end>(tuned.anywhere());
-  nysalt::thermostat<nysalt::placement::symmetric>(nysalt::verlet()).coefficients();
+  nysalt::thermostat(tuned.anywhere(), nysalt::placement::end);
+  nysalt::thermostat(nysalt::verlet(), nysalt::placement::symmetric).coefficients();
   nysalt::fine_paths(0.1, nysalt::aboba());
 #else
   // [classical_method_without_row]
   nysalt::classical<"perfl">::coefficients();
   // [/classical_method_without_row]
   // [thermostat_of_tuned_method]
-  nysalt::thermostat<nysalt::placement::end>(tuned);
+  nysalt::thermostat(tuned, nysalt::placement::end);
   // [/thermostat_of_tuned_method]
   // [thermostatted_twice]
-  nysalt::thermostat<nysalt::placement::symmetric>(nysalt::baoab()).coefficients();
+  nysalt::thermostat(nysalt::baoab(), nysalt::placement::symmetric).coefficients();
   // [/thermostatted_twice]
   // [fine_paths_of_two_letters]
   nysalt::fine_paths(0.1, nysalt::obabo());

@@ -76,9 +76,9 @@ const bath warm = bath::of_sigma(2.0, 0.1);
 const in_bath galaxy(henon_heiles(), warm);
 const state start{{0.1, 0.05}, {-0.05, 0.1}};
 
-const auto symmetric = thermostat<placement::symmetric>(mclachlan2());
-const auto end = thermostat<placement::end>(mclachlan2());
-const auto middle = thermostat<placement::middle>(mclachlan2());
+const auto symmetric = thermostat(mclachlan2(), placement::symmetric);
+const auto end = thermostat(mclachlan2(), placement::end);
+const auto middle = thermostat(mclachlan2(), placement::middle);
 const tabulated thirds("thirds", run_time_word("OABOBAO"),
                        std::vector<double>{1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0}, {});
 

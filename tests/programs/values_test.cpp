@@ -48,8 +48,7 @@ const fpu_law<3> law(chain);
 constexpr std::uint64_t seed = 5;  // the user's
 
 /// What the library says of a method on the chain at the step 0.02, for the row that the program printed.
-template <Method M>
-void must_be(const json& row, const M& method, const error_measure& measure) {
+void must_be(const json& row, const tabulated& method, const error_measure& measure) {
   const trajectory_options options{
       .step = .02, .steps = 25, .trajectories = 20, .seed = seed_for(role::test, seed), .horizon = .5};
   const auto expected = trajectory_errors(chain, fine_steps<>(.02 / 20), law, method, measure, options);
@@ -64,15 +63,13 @@ void must_be(const json& row, const M& method, const error_measure& measure) {
 }
 
 /// By the random starts of the library's default seed, as those of the program are the same for every seed.
-learned<nystrom> fitted(coordinates how) {
+fit fitted(coordinates how) {
   const auto pairs = [&](role which) {
     return make_flow_map_data(
         chain, law, fine_steps<>(.02 / 20),
         {.step = .02, .horizon = .4, .trajectories = 15, .seed = seed_for(which, seed)});
   };
-  learn_options<nystrom> options;
-  options.coordinates = how;
-  return learn(nystrom{}, chain, pairs(role::training), pairs(role::held_out), options);
+  return learn(nystrom(), chain, pairs(role::training), pairs(role::held_out), {.coordinates = how});
 }
 
 }  // namespace
@@ -89,10 +86,10 @@ BOOST_AUTO_TEST_CASE(compare_gives_the_errors_of_the_library) {
         metric);
     const auto& theta = all["fits"][0]["parameters"];
     BOOST_REQUIRE(all["rows"].size() == 4U);
-    must_be(all["rows"][0], member<nystrom>({theta["b1"], theta["beta1"]}), measure);
+    must_be(all["rows"][0], member(nystrom(), {theta["b1"], theta["beta1"]}), measure);
     must_be(all["rows"][1], s_aia2(.02 * chain.frequency_bands().back().high), measure);
     must_be(all["rows"][2], srkn6b(), measure);
-    must_be(all["rows"][3], phase_fitted_for<fg_chin, chin4a>(chain, .02), measure);
+    must_be(all["rows"][3], phase_fitted(fg_chin(), chin4a(), .02 * frequency_to_fit(chain)), measure);
   };
   must_all_be("", path_measure(chain, stiff_energy));
   must_all_be("--observable kinetic_energy", path_measure(chain, kinetic));
@@ -168,7 +165,7 @@ BOOST_AUTO_TEST_CASE(run_gives_the_samples_of_the_library_in_a_bath) {
   const auto all = document(
       "run --seed 5 --method srkn6b@symmetric --step 0.03 --horizon 0.6 --sample-every 4 --trajectories 3 "
       "--observables stiff_energy,kinetic_temperature,q1,p6 --start gibbs --friction 0.01 --sigma 0.05");
-  const auto stepper = make_stepper(system, thermostat<placement::symmetric>(srkn6b()), .03,
+  const auto stepper = make_stepper(system, thermostat(srkn6b(), placement::symmetric), .03,
                                     counter_noise(seed_for(role::test, seed)));
   must_be_samples(all, stepper, gibbs<6>(system, law), 20, 4, [](const state& x) {
     return std::vector<double>{chain.stiff_energy(x), kinetic_temperature<double>(chain, x), x.q[0], x.p[5]};
@@ -187,11 +184,11 @@ BOOST_AUTO_TEST_CASE(run_tells_where_the_library_sees_divergence) {
 }
 
 BOOST_AUTO_TEST_CASE(stability_gives_the_windows_of_the_library) {
-  const auto must_have = [](const std::string& arguments, const auto& method) {
+  const auto must_have = [](const std::string& arguments, const tabulated& method) {
     const auto all = document("stability " + arguments);
     json expected = json::array();
     for (const auto& [low, high] : stability_windows(method)) expected.push_back({low, high});
-    const auto evaluations = std::remove_cvref_t<decltype(method)>::word::evaluations_per_step;
+    const auto evaluations = method.letters().evaluations_per_step;
     BOOST_TEST(all["windows"] == expected);
     BOOST_TEST(all["limit"] == stability_limit(method));
     BOOST_TEST(all["limit_per_evaluation"] == stability_limit(method) / evaluations);
@@ -201,7 +198,7 @@ BOOST_AUTO_TEST_CASE(stability_gives_the_windows_of_the_library) {
     BOOST_TEST(all["coefficients"] == coefficients);
   };
   must_have("--method srkn6b", srkn6b());
-  must_have("--family nystrom --parameters 0.45,0.4", member<nystrom>({.45, .4}));
+  must_have("--family nystrom --parameters 0.45,0.4", member(nystrom(), {.45, .4}));
   must_have("--method s_aia2 --system fpu --step 0.03", s_aia2(.03 * chain.frequency_bands().back().high));
 }
 
@@ -225,7 +222,7 @@ BOOST_AUTO_TEST_CASE(acceptances_are_those_of_the_library) {
     };
     BOOST_TEST(all["hmc_temperature"] == temperature);
     is_of(all["rows"][0], verlet());
-    is_of(all["rows"][1], member<fg_chin>({theta["b"], theta["c"]}));
+    is_of(all["rows"][1], member(fg_chin(), {theta["b"], theta["c"]}));
   }
 }
 

@@ -177,8 +177,8 @@ BOOST_AUTO_TEST_CASE(other_methods_with_one_letter_follow_the_same_path) {
     BOOST_TEST(test::distance(found.x, expected.x) > 1e-9);
   };
   check(aboba());
-  check(thermostat<placement::end>(mclachlan2()));
-  check(thermostat<placement::middle>(mclachlan2()));
+  check(thermostat(mclachlan2(), placement::end));
+  check(thermostat(mclachlan2(), placement::middle));
 }
 
 BOOST_AUTO_TEST_CASE(without_sigma_there_is_no_noise) {

@@ -19,6 +19,7 @@
 #include "nysalt/method.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/reference.hpp"
+#include "nysalt/run_time_family.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/textbook.hpp"
 
@@ -199,26 +200,20 @@ inline square<2> error_after(const gaussian_step<4>& step, const square<2>& star
 }
 
 /// Two stages in a bath, at a member that is near the optimum and not quite Verlet.
-template <placement P>
-struct two_stages : member<thermostatted_family<nystrom, P>> {
-  two_stages() : member<thermostatted_family<nystrom, P>>({0.5, 0.41}) {}
-};
-template <placement P>
-struct bathed_verlet : thermostatted_method<P, verlet> {
-  bathed_verlet() : thermostatted_method<P, verlet>(verlet()) {}
-};
+inline tabulated two_stages(placement where) {
+  return thermostat(member(nystrom(), {0.5, 0.41}), where);
+}
 
-/// As data, so that what follows is compiled once. Verlet in a symmetric placement is obabo, and with O in
-/// the middle baoab.
+/// Verlet in a symmetric placement is obabo, and with O in the middle baoab.
 inline std::vector<tabulated> langevin_methods() {
-  return {tabulated(baoab()),
-          tabulated(obabo()),
-          tabulated(aboba()),
-          tabulated(baoab_2x()),
-          tabulated(two_stages<placement::end>()),
-          tabulated(two_stages<placement::symmetric>()),
-          tabulated(two_stages<placement::middle>()),
-          tabulated(bathed_verlet<placement::end>())};
+  return {baoab(),
+          obabo(),
+          aboba(),
+          baoab_2x(),
+          two_stages(placement::end),
+          two_stages(placement::symmetric),
+          two_stages(placement::middle),
+          thermostat(verlet(), placement::end)};
 }
 
 using bathed_oscillator = in_bath<harmonic_oscillator>;
@@ -227,7 +222,7 @@ inline bathed_oscillator bathed_system(const damped_oscillator& x) {
   return {harmonic_oscillator(x.omega), bath::of_sigma(x.gamma, x.sigma)};
 }
 inline std::vector<spelled> spell(const tabulated& method) {
-  return spell(method.letters().letters(), method.coefficients());
+  return spell(method.letters().view(), method.coefficients());
 }
 
 inline phase_point<double, 1> point(double q, double p) {

@@ -91,13 +91,8 @@ inline tabulated euler(const std::string& letters) {
 
 /// Drifts and kicks in turn, which begin with either, merge or not, and keep their last force or not.
 inline std::vector<tabulated> words_in_turn() {
-  return {tabulated(verlet()),
-          tabulated(verlet_aba()),
-          euler("AB"),
-          euler("BA"),
-          tabulated(srkn6b()),
-          tabulated(srkn11b()),
-          tabulated(member<nystrom>({0.5, 0.4}))};
+  return {verlet(), verlet_aba(), euler("AB"), euler("BA"), srkn6b(), srkn11b(),
+          member(nystrom(), {0.5, 0.4})};
 }
 
 /// visit(system) for each kind, with about that many sites.

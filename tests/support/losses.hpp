@@ -60,8 +60,8 @@ struct steps_options {
 };
 
 /// Noise `parts` times a step, and with it a plain step of the method from each state to the next.
-template <class S, Ensemble<S> E, Method M>
-flow_map_data made_by_steps(const S& system, const E& ensemble, const M& method,
+template <class S, Ensemble<S> E>
+flow_map_data made_by_steps(const S& system, const E& ensemble, const tabulated& method,
                             const steps_options& options) {
   using numbers = vector<double, S::dimension>;
   flow_map_data data;
@@ -70,7 +70,7 @@ flow_map_data made_by_steps(const S& system, const E& ensemble, const M& method,
   data.system = describe(system);
   data.seed = options.seed;
   data.first_of = {0};
-  const auto intervals = intervals_of_noise(word_of(method), method.coefficients());
+  const auto intervals = intervals_of_noise(method.letters(), method.coefficients());
   for (std::int64_t m = 0; m < options.trajectories; ++m) {
     const auto trajectory = static_cast<std::uint64_t>(m);
     recorded_path<double, S::dimension> path(options.step / options.parts, system.bath().friction(),
@@ -94,7 +94,7 @@ flow_map_data made_by_steps(const S& system, const E& ensemble, const M& method,
   return data;
 }
 
-/// The loss window after window over double, by the word as a type, and a Ceres block for each. It shares no
+/// The loss window after window over double, and a Ceres block for each. It shares no
 /// loop with the library's own: an oracle for tests, and what benchmarks compare with. Refers to system, data
 /// and metric.
 template <Family F, SeparableSystem S>
@@ -124,7 +124,8 @@ class sample_blocks {
   /// The residuals of one window over double, or anything that carries derivatives by theta.
   template <Scalar C>
   residuals<C> at(std::size_t window, const std::array<C, parameters>& theta) const {
-    const stepper<S, typename F::word, C> one(*system_, F::coefficients(theta), data_->step);
+    const auto c = F::coefficients(theta);
+    const stepper<S, C> one(*system_, F::letters, {c.begin(), c.end()}, data_->step);
     const std::size_t pair = windows_[window].first_pair;
     const phase_point<double, S::dimension> first = data_->start[pair];
     auto x = first.template cast<C>();

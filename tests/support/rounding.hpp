@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "nysalt/method.hpp"
@@ -74,11 +74,10 @@ struct shears {
 /// How much the letters of one step can magnify a perturbation: the product of 1 + |c h| |shear| over
 /// them, with shears twice as large as at the start, since the state moves. A rotation is a shear of both
 /// kinds at most. Those of the bath do not magnify.
-template <Method M>
-double transient_growth(const M& method, double step, const shears& at) {
+inline double transient_growth(const tabulated& method, double step, const shears& at) {
   double product = 1.0;
-  const auto word = word_of(method);
-  const auto c = method.coefficients();
+  const word& letters = method.letters();
+  const auto& c = method.coefficients();
   const auto magnify = [&](char letter, std::size_t slot) {
     const double time = 2.0 * std::abs(c[slot] * step);
     switch (letter) {
@@ -105,19 +104,17 @@ double transient_growth(const M& method, double step, const shears& at) {
         break;
     }
   };
-  for (std::size_t i = 0; i < word.length; ++i) magnify(word.letters()[i], word.first_slot(i));
-  if constexpr (std::is_same_v<std::remove_const_t<decltype(word)>, run_time_word>) {
-    const std::string processor = word.processor();
-    for (int times = 0; times < 2; ++times) {  // before and after
-      for (std::size_t i = 0; i < processor.size(); ++i) magnify(processor[i], word.kernel_slots + i);
-    }
+  for (std::size_t i = 0; i < letters.length; ++i) magnify(letters.letter(i), letters.first_slot(i));
+  const std::string_view processor = letters.processor();
+  for (int times = 0; times < 2; ++times) {  // before and after
+    for (std::size_t i = 0; i < processor.size(); ++i) magnify(processor[i], letters.kernel_slots + i);
   }
   return product;
 }
 
 /// How often a step rounds a coordinate, in units of the two roundings of a kick: a gradient or displaced
 /// kick has two terms more, and each entry of a rotated state is two sums over n modes or coordinates.
-inline double roundings(const std::string& letters, Eigen::Index n) {
+inline double roundings(std::string_view letters, Eigen::Index n) {
   double sum = 0.0;
   for (const char letter : letters) {
     sum += letter == 'R'                                     ? 2.0 * static_cast<double>(n + 2)
@@ -126,11 +123,9 @@ inline double roundings(const std::string& letters, Eigen::Index n) {
   }
   return sum;
 }
-template <Method M>
-double roundings(const M& method, Eigen::Index n) {
-  const std::string letters = word_of(method).letters();
-  const auto mark = std::min(letters.find(run_time_word::processor_mark), letters.size());
-  return roundings(letters, n) + roundings(letters.substr(mark), n);  // a processor acts before and after
+inline double roundings(const tabulated& method, Eigen::Index n) {
+  const word& letters = method.letters();
+  return roundings(letters.view(), n) + roundings(letters.processor(), n);  // a processor acts before and after
 }
 
 }  // namespace nysalt::test
