@@ -10,6 +10,7 @@
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/flows/exact_flow.hpp"
+#include "nysalt/method.hpp"
 
 namespace examples {
 

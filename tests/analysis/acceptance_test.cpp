@@ -4,6 +4,7 @@
 // that has it, against Gaussian targets and against chains.
 #include <numeric>
 
+#include "../support/members.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "../support/seeds.hpp"
@@ -135,7 +136,7 @@ BOOST_AUTO_TEST_CASE(it_is_the_mean_over_trajectories_of_what_integrate_says) {
 // With an odd K a palindrome runs back from (q, p) by -h, and not from (q, -p).
 BOOST_AUTO_TEST_CASE(what_is_no_proposal_is_refused) {
   const trajectory_options options{.step = 0.01, .steps = 5, .trajectories = 3};
-  const member<aba3_free> one_way(aba3_free::start());
+  const tabulated one_way = start_of<aba3_free>();
   BOOST_TEST(refuses([&] { acceptance(chain, one_way, law, options); },
                      {"aba3_free", "must be reversible", "symmetric"}));
   const model warm = of_chain.in(bath::of_temperature(1.0, 1.0));

@@ -46,7 +46,7 @@ const auto stiff_energy = [](const state& x) { return same_chain.stiff_energy(x)
 const model of_chain(chain);
 
 /// Two half Verlets, and nearly McLachlan.
-const std::array<member<nystrom>, 2> pairs{member(nystrom(), {.5, .375}), member(nystrom(), {.5, .4034})};
+const std::array<tabulated, 2> pairs{member(nystrom(), {.5, .375}), member(nystrom(), {.5, .4034})};
 
 const tabulated by_verlet{verlet()};
 const tabulated by_baoab{baoab()};
@@ -141,7 +141,7 @@ struct kept_path {
     }
   }
   auto stepper_of(const tabulated& method, double step) const {
-    const auto intervals = intervals_of_noise(word_of(method), method.coefficients());
+    const auto intervals = intervals_of_noise(method.letters(), method.coefficients());
     return make_stepper(warm, method, step, along_path<double, Eigen::Dynamic>(path, intervals, step));
   }
   recorded_path<double, Eigen::Dynamic> path;
@@ -294,7 +294,7 @@ BOOST_AUTO_TEST_CASE(beside_others_and_by_its_type_a_method_has_the_error_that_i
   const auto& measure = on_the_chain.measures[3];
   const auto both = trajectory_errors(chain, fine_steps<>(5e-4), fpu_law<3>(chain), pairs, measure, options);
   const auto of_span = trajectory_errors(chain, fine_steps<>(5e-4), fpu_law<3>(chain),
-                                         std::span<const member<nystrom>>(pairs), measure, options);
+                                         std::span<const tabulated>(pairs), measure, options);
   const auto as_data = on_the_chain.judged(on_the_chain.methods, measure, options);
   BOOST_TEST((bits_of(both) == bits_of(as_data) && bits_of(of_span) == bits_of(as_data)));
   for (std::size_t n = 0; n < 2; ++n) {
@@ -514,7 +514,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
     BOOST_TEST(refuses([&] { judged(law, measure, one); },
                        {measure.name, "of systems of 6 degrees of freedom", "got 2"}));
   }
-  const tuned_method<nystrom> tuned(pairs[1], .02, of_chain.description());
+  const tabulated tuned("nystrom", pairs[1].letters(), pairs[1].coefficients(), pairs[1],
+                        method_validity{.02, of_chain.description()});
   const auto at_step = [&](double step) {
     return trajectory_errors(of_chain, fine_steps<>(5e-4), law, tuned, by_state, {.step = step, .steps = 5});
   };

@@ -10,6 +10,7 @@
 #include "../laws/compiled_specimens.hpp"
 #include "../laws/laws.hpp"
 #include "../support/allocations.hpp"
+#include "../support/members.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/ensembles/distributions.hpp"

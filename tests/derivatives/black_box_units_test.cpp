@@ -93,7 +93,7 @@ void check_kicks(const units& scales) {
       auto exact = x;
       const auto kick = [&](const auto& system, auto& y) {
         using S = std::decay_t<decltype(system)>;
-        stepper<S, word<gradient_kick>>(system, {0.0, 1.0}, h * scales.time).step(y);
+        stepper<S>(system, word("G"), {0.0, 1.0}, h * scales.time).step(y);
       };
       kick(wells.boxed, found);
       kick(wells.open, exact);

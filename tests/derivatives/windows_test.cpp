@@ -5,6 +5,7 @@
 // polynomials that enclose trace/2.
 #include "../laws/laws.hpp"
 #include "../support/dense.hpp"
+#include "../support/members.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/properties.hpp"
@@ -30,14 +31,14 @@ double spectral_radius(const tabulated& method, double z) {
 /// and errs by 2 |J| |dJ|. Letter k rounds the product P_k so far, by 2 eps |L_k| |P_k|, and the letters
 /// after it carry that on.
 double radius_rounding(const tabulated& method, double z) {
-  const auto word = word_of(method);
-  const std::string letters = word.letters();
-  const auto c = method.coefficients();
+  const word& all = method.letters();
+  const std::string_view letters = all.view();
+  const auto& c = method.coefficients();
   std::vector<Eigen::Matrix2d> so_far;
   std::vector<Eigen::Matrix2d> letter(letters.size(), Eigen::Matrix2d::Identity());
   Eigen::Matrix2d product = Eigen::Matrix2d::Identity();
   for (std::size_t k = 0; k < letters.size(); ++k) {
-    const std::size_t slot = word.first_slot(k);
+    const std::size_t slot = all.first_slot(k);
     if (letters[k] == 'B') letter[k](1, 0) = -c[slot] * z;
     if (letters[k] == 'G') letter[k](1, 0) = -c[slot] * z + 2.0 * c[slot + 1] * z * z * z;
     if (letters[k] == 'A') letter[k](0, 1) = c[slot] * z;
@@ -158,7 +159,7 @@ BOOST_AUTO_TEST_CASE(two_stages_end_by_the_formula) {
     const double expected = two_stage_limit(theta[0], theta[1]);
     if (!(expected < 2.8)) continue;  // trace/2 stays above -1, or the two windows nearly touch
     ++formula_holds;
-    BOOST_TEST(stability_limit(member<nystrom>(theta)) == expected, tolerance(1e-12));
+    BOOST_TEST(stability_limit(member_at(nystrom(), theta)) == expected, tolerance(1e-12));
   }
   BOOST_TEST(formula_holds > 50);
 }
@@ -188,7 +189,7 @@ BOOST_AUTO_TEST_CASE(windows_hold_everywhere_and_wrong_ones_do_not) {
       BOOST_TEST_CONTEXT(method.name()) BOOST_TEST(first_wrong(stability_windows(method), method) == 0.0);
     }
   }
-  const tabulated method(member(nystrom(), {0.5, 0.4}));
+  const tabulated method = member(nystrom(), {0.5, 0.4});
   BOOST_TEST(first_wrong(with_a_gap, method) == 0.0);
   BOOST_TEST(first_wrong({with_a_gap[0], {again, 1.01 * last}}, method) > last);
   BOOST_TEST(first_wrong({{0.0, last}}, method) > end);

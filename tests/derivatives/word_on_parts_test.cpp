@@ -69,7 +69,7 @@ struct springs {
 using two_parts = sum_of_parts<springs, springs>;
 
 constexpr int inner = 16;
-using respa = r_respa<0, 1, inner>;
+const r_respa<0, 1, inner> respa;
 constexpr double first_omega = 10.0;
 constexpr double second_omega = 6.0;
 /// With the first its sum and its difference are whole turns at steps where neither is half a turn alone.
@@ -126,14 +126,13 @@ phase_points points_of(std::initializer_list<state> all) {
 const phase_points of_two = points_of({{Eigen::Vector2d(0.1, -0.1), Eigen::Vector2d(0.5, 0.2)},
                                        {Eigen::Vector2d(-0.05, 0.1), Eigen::Vector2d(-0.3, 0.6)}});
 
-const auto of_respa = respa::coefficients();
-const std::vector<double> coefficients(of_respa.begin(), of_respa.end());
+const std::vector<double> coefficients = respa.coefficients();
 constexpr std::int64_t steps = 20'000;
 
 /// The guard of r-RESPA's word on a system.
 struct examined {
   two_parts system;
-  run_time_word word{respa::word{}, system};
+  nysalt::word word = respa.letters();
   stability_guard guard;
   explicit examined(const two_parts& of, std::int64_t plan = steps, const phase_points& states = of_two)
       : system(of), guard(system, states, word, plan) {
@@ -240,7 +239,7 @@ BOOST_AUTO_TEST_CASE(the_product_of_linearised_letters_has_the_eigenvalues_of_a_
   BOOST_TEST(one.guard.parts()->is_known());
   BOOST_TEST(one.guard.parts()->has_mean());
   for (const double h : {0.1, 0.31, 0.47}) {
-    const Eigen::MatrixXd step = jacobian(step_map(one.system, respa{}, h),
+    const Eigen::MatrixXd step = jacobian(step_map(one.system, respa, h),
                                           state{Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.3, 0.4)});
     const auto exact = spectrum_of(step);
     const auto found = spectrum_of(one.step(h));
@@ -382,7 +381,7 @@ BOOST_AUTO_TEST_CASE(states_that_lie_far_apart_have_no_mean_of_however_many_coor
             state{Eigen::VectorXd::Constant(size, k == 5 ? elsewhere : 1.0), Eigen::VectorXd::Ones(size)});
       }
       const two_parts system(wells, wells);
-      const word_on_parts parts(system, states, run_time_word(respa::word{}, system));
+      const word_on_parts parts(system, states, respa.letters());
       BOOST_TEST(parts.has_mean() == (elsewhere < 2.0));
     }
   }
@@ -390,16 +389,16 @@ BOOST_AUTO_TEST_CASE(states_that_lie_far_apart_have_no_mean_of_however_many_coor
 
 BOOST_AUTO_TEST_CASE(what_is_not_analysed_is_said_and_admitted) {
   const examined pair(pair_coupled_by(0.5));
-  const run_time_word word(word<lettered::turn, kick_of_part<0>, lettered::turn>{}, pair.system);
-  const stability_guard guard(pair.system, of_two, word, steps);
+  constexpr word with_turns = word_of<lettered::turn, kick_of_part<0>, lettered::turn>();
+  const stability_guard guard(with_letters<two_parts, lettered::turn>(pair.system), of_two, with_turns, steps);
   BOOST_TEST(guard.parts() == nullptr);
   BOOST_TEST(guard.description().find("was not analysed, as the letter t is neither") != std::string::npos,
              guard.description());
-  BOOST_TEST(guard.objection(word, {0.5, 1.0, 0.5}, 0.1).empty());
+  BOOST_TEST(guard.objection(with_turns, {0.5, 1.0, 0.5}, 0.1).empty());
   // A word with kicks of parts is examined by the guard that was made for it.
   BOOST_TEST(refuses(
       [&] {
-        (void)pair.guard.objection(word, {0.5, 1.0, 0.5}, 0.1);
+        (void)pair.guard.objection(with_turns, {0.5, 1.0, 0.5}, 0.1);
       },
       {"for which the guard was made", "make a guard for this word"}));
   BOOST_TEST(pair.objection(0.1).empty());

@@ -32,10 +32,12 @@ const tabulated rotation("rotation", run_time_word("RSR"), {0.5, 1.0, 0.5}, {2, 
 
 const fpu_chain<3> small(50.0);
 const fpu_chain<> large(16, 50.0);
-const member<nystrom> verlet_twice({0.5, 0.5});  // two steps of Verlet: stable up to z = 4 a step
-tuned_method<nystrom> learned_at(double step) {
-  return {verlet_twice, step, describe(small), {}, kind_of(small)};
+const tabulated verlet_twice = member(nystrom(), {0.5, 0.5});  // two steps of Verlet: stable up to z = 4 a step
+tabulated learned_on(const std::string& system, const std::string& kind, double step) {
+  return {"nystrom", verlet_twice.letters(), verlet_twice.coefficients(), verlet_twice,
+          method_validity{step, system, kind}};
 }
+tabulated learned_at(double step) { return learned_on(describe(small), kind_of(small), step); }
 
 /// Quartic wells that are the stiffer the more there are: where they rest nothing is stiff.
 struct stiffening_wells {
@@ -354,13 +356,13 @@ BOOST_AUTO_TEST_CASE(what_passes_at_another_size_runs_there_and_nowhere_else) {
   const auto learned = learned_at(0.02);  // z = 1 of the 4 that are stable
   BOOST_CHECK_THROW(make_stepper(large, learned, 0.02), std::invalid_argument);
   const auto at_size = at_size_of(large, learned, starts, {.steps = 2000});
-  BOOST_TEST(at_size.system() == describe(large));
-  BOOST_TEST((at_size.parameters() == learned.parameters()));
+  BOOST_TEST(at_size.validity()->system == describe(large));
+  BOOST_TEST((at_size.coefficients() == learned.coefficients()));
   BOOST_CHECK_NO_THROW(make_stepper(large, at_size, 0.02));
   BOOST_CHECK_THROW(make_stepper(small, at_size, 0.02), std::invalid_argument);
   BOOST_CHECK_THROW(make_stepper(large, at_size, 0.01), std::invalid_argument);
   // Where it was learned nothing is tried.
-  BOOST_TEST(at_size_of(small, learned, fpu_law<3>(small)).system() == describe(small));
+  BOOST_TEST(at_size_of(small, learned, fpu_law<3>(small)).validity()->system == describe(small));
 }
 
 BOOST_AUTO_TEST_CASE(another_kind_an_unknown_one_and_an_unstable_step_are_refused) {
@@ -368,7 +370,7 @@ BOOST_AUTO_TEST_CASE(another_kind_an_unknown_one_and_an_unstable_step_are_refuse
   const fpu_law<Eigen::Dynamic> starts(other);
   BOOST_TEST(refuses([&] { at_size_of(other, learned_at(0.02), starts); },
                      {"fpu_chain(pairs=3, omega=50)", "fpu_chain(pairs=16, omega=51)", "not of one kind"}));
-  const tuned_method<nystrom> of_no_kind(verlet_twice, 0.02, describe(small));
+  const tabulated of_no_kind = learned_on(describe(small), "", 0.02);
   BOOST_TEST(refuses([&] { at_size_of(large, of_no_kind, starts); }, {"not of one kind"}));
   // So is a step beyond the window.
   const auto beyond = learned_at(0.082);  // z = 4.1 at the stiff frequency, beyond 4
@@ -379,7 +381,7 @@ BOOST_AUTO_TEST_CASE(another_kind_an_unknown_one_and_an_unstable_step_are_refuse
 // The guard sees no stiffness where trajectories start, and admits the method at both sizes.
 BOOST_AUTO_TEST_CASE(what_only_a_trial_sees_is_refused) {
   const double step = 0.3;
-  const tabulated method(verlet_twice);
+  const tabulated& method = verlet_twice;
   for (const Eigen::Index wells : {1, 12}) {
     const stiffening_wells system{wells};
     const initial_states starts = from_the_bottom(system);
@@ -395,7 +397,7 @@ BOOST_AUTO_TEST_CASE(what_only_a_trial_sees_is_refused) {
   }
   const stiffening_wells one;
   const stiffening_wells twelve{12};
-  const tuned_method<nystrom> learned(verlet_twice, step, describe(one), {}, kind_of(one));
+  const tabulated learned = learned_on(describe(one), kind_of(one), step);
   BOOST_TEST(refuses([&] { at_size_of(twelve, learned, from_the_bottom(twelve), {.steps = 2000}); },
                      {"stiffening_wells(wells=1)", "wells=12", "trajectories are lost"}));
 }
@@ -404,7 +406,7 @@ BOOST_AUTO_TEST_CASE(a_trial_takes_fewer_trajectories_of_a_larger_system) {
   const auto judged = [](Eigen::Index pairs) {
     const fpu_chain<> chain(pairs, 50.0);
     const fpu_law<Eigen::Dynamic> law(chain);
-    return judge(chain, starts_to_judge(chain, law), tabulated(verlet_twice), 0.02,
+    return judge(chain, starts_to_judge(chain, law), verlet_twice, 0.02,
                  {.steps = 600, .work = 4'000'000});
   };
   // Two evaluations a step of 16 and of 4000 coordinates: 208 trajectories of 600 steps, and one of 500.

@@ -6,6 +6,7 @@
 #include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/learned.hpp"
+#include "../support/members.hpp"
 #include "../support/rounding.hpp"
 
 using namespace nysalt;
@@ -68,7 +69,7 @@ void check_recovery(double reach) {
     auto theta = F::start();
     for (double& x : theta) x += random.uniform(-reach, reach);
     const Eigen::VectorXd maker = column_of(theta);
-    const auto sets = made_by(fine_steps(step, member<F>(theta)), step, starts);
+    const auto sets = made_by(fine_steps(step, member_at(F(), theta)), step, starts);
     // The loss has other minima, of which some are very low: several starts find the one that is zero.
     for (const loss_choice& loss : {loss_choice{}, loss_named("state:3")}) {
       const auto found = sets.learned(family, galaxy, {.loss = loss, .random_starts = 4});
@@ -80,7 +81,7 @@ void check_recovery(double reach) {
       }
     }
     // Half the step is another map, and nothing in the family is it.
-    const auto other = made_by(fine_steps(0.5 * step, member<F>(theta)), step, starts);
+    const auto other = made_by(fine_steps(0.5 * step, member_at(F(), theta)), step, starts);
     const auto found = other.learned(family, galaxy, {.loss = loss_named("state:1")});
     BOOST_TEST(distance(found.theta, maker) > 1e-6);
   }

@@ -71,12 +71,12 @@ const run_time_family at_end = two_stages_in(placement::end);
 const run_time_family in_middle = two_stages_in(placement::middle);
 
 constexpr double h = 0.4;
-const std::vector<double> maker{0.45, 0.38};
-const std::vector<double> far{0.55, 0.42};
+const parameters_of<nystrom> maker{0.45, 0.38};
+const parameters_of<nystrom> far{0.55, 0.42};
 const in_bath<henon_heiles> warm(henon_heiles(), bath::of_sigma(0.7, 0.1));
 
 flow_map_data made(const run_time_family& family, int parts) {
-  return made_by_steps(warm, starts, member(family, maker), {.step = h, .trajectories = 20, .parts = parts});
+  return made_by_steps(warm, starts, member(family, {maker.begin(), maker.end()}), {.step = h, .trajectories = 20, .parts = parts});
 }
 
 /// The same data in fewer parts.
@@ -94,7 +94,7 @@ flow_map_data in_parts(flow_map_data data, int parts) {
   return data;
 }
 
-double loss_of(const run_time_family& family, const flow_map_data& data, const std::vector<double>& theta,
+double loss_of(const run_time_family& family, const flow_map_data& data, const parameters_of<nystrom>& theta,
                int steps = 1) {
   const metric measure(warm, data, coordinates::qp);
   const after_steps<> loss(family, warm, data, state_error(measure), {.steps = {steps}});
@@ -293,7 +293,7 @@ BOOST_AUTO_TEST_CASE(data_without_the_noise_that_is_needed_are_refused) {
 BOOST_AUTO_TEST_CASE(without_sigma_no_noise_is_needed) {
   for (const double friction : {0.0, 0.7}) {
     const in_bath<henon_heiles> quiet(henon_heiles(), bath::of_sigma(friction, 0.0));
-    auto data = made_by_steps(quiet, starts, member(symmetric, maker), {.step = h});
+    auto data = made_by_steps(quiet, starts, member(symmetric, {maker.begin(), maker.end()}), {.step = h});
     const metric measure(quiet, data, coordinates::qp);
     const auto loss = [&] {
       return loss_value(after_steps<>(symmetric, quiet, data, state_error(measure)),

@@ -398,17 +398,17 @@ BOOST_AUTO_TEST_CASE(the_law_that_is_kept) {
   for (const double z : {0.1, 0.5, 1.0, 1.5, 1.9, 1.99}) {
     for (const double g : {0.01, 0.3, 1.0, 5.0}) {
       const double v = 1.0 - z * z / 4.0;
-      check(tabulated(baoab()), z, g, 1.0, v);
-      check(tabulated(aboba()), z, g, 1.0, 1.0 / v);
-      check(tabulated(obabo()), z, g, 1.0 / v, 1.0);
-      check(tabulated(bathed_verlet<end>()), z, g, 1.0 / v, 1.0);
-      check(tabulated(baoab_2x()), z, g, 1.0, 1.0 - z * z / 16.0);
+      check(baoab(), z, g, 1.0, v);
+      check(aboba(), z, g, 1.0, 1.0 / v);
+      check(obabo(), z, g, 1.0 / v, 1.0);
+      check(thermostat(verlet(), end), z, g, 1.0 / v, 1.0);
+      check(baoab_2x(), z, g, 1.0, 1.0 - z * z / 16.0);
       const double beta1 = 0.41;  // docs/theory-langevin-optimum.md
       const double n = 1.0 - z * z * (beta1 - 0.25);
       const double x = 1.0 - 2.0 * z * z * beta1 * (1.0 - 2.0 * beta1) +
                        z * z * z * z * (1.0 - 2.0 * beta1) * (1.0 - 2.0 * beta1) * (beta1 - 0.25);
-      check(tabulated(two_stages<end>()), z, g, x / n, 1.0);
-      check(tabulated(two_stages<symmetric>()), z, g, x / n, 1.0);
+      check(two_stages(end), z, g, x / n, 1.0);
+      check(two_stages(symmetric), z, g, x / n, 1.0);
     }
   }
 }

@@ -92,21 +92,20 @@ recorded_path<T, 2> path_of(std::uint64_t trajectory, std::int64_t intervals) {
   }
   return path;
 }
-template <class T, Method M>
-along_path<T, 2> noise_of(const recorded_path<T, 2>& path, const M& method, double h = step) {
-  return {path, intervals_of_noise(word_of(method), method.coefficients()), h};
+template <class T>
+along_path<T, 2> noise_of(const recorded_path<T, 2>& path, const tabulated& method, double h = step) {
+  return {path, intervals_of_noise(method.letters(), method.coefficients()), h};
 }
-template <class T, Method M>
-auto stepper_of(const recorded_path<T, 2>& path, const M& method, double h = step) {
+template <class T>
+auto stepper_of(const recorded_path<T, 2>& path, const tabulated& method, double h = step) {
   return make_stepper(galaxy, method, h, noise_of(path, method, h));
 }
 
 /// A number of steps letter by letter, with the noise of letters O taken from the path: the momentum uses one
 /// interval of the path after the other.
-template <Method M>
-state by_hand(const recorded_path<double, 2>& path, const M& method, int steps, state x) {
+state by_hand(const recorded_path<double, 2>& path, const tabulated& method, int steps, state x) {
   const auto c = method.coefficients();
-  const std::string letters = word_of(method).letters();
+  const std::string_view letters = method.letters().view();
   std::int64_t interval = 0;
   for (int n = 0; n < steps; ++n) {
     for (std::size_t i = 0; i < letters.size(); ++i) {
@@ -125,8 +124,7 @@ state by_hand(const recorded_path<double, 2>& path, const M& method, int steps, 
   return x;
 }
 
-template <Method M>
-void check_by_hand(const M& method) {
+void check_by_hand(const tabulated& method) {
   const auto path = path_of(3, 60);
   const auto along = stepper_of(path, method);
   auto run = along.open(start, 3);

@@ -4,7 +4,6 @@
 #include "../../src/comparison/did_you_mean.hpp"
 #include "../../src/comparison/known_word.hpp"
 #include "nysalt/flows/exact_flow.hpp"
-#include "nysalt/systems/sum_of_parts.hpp"
 
 using namespace nysalt::program;
 using namespace nysalt;
@@ -30,21 +29,10 @@ tabulated table_of(const std::string& letters, std::vector<double> coefficients)
   return {"mine", run_time_word(letters), std::move(coefficients), {2, true, false}};
 }
 
-/// q^2/2 in each of three parts.
-struct spring {
-  static constexpr int dimension = 1;
-  template <class T>
-  T potential(const vector<T, 1>& q) const {
-    return q[0] * q[0] * 0.5;
-  }
-};
-
 /// kA...k with three times in each k, as a table.
 tabulated of_three_parts(const std::string& letters, std::vector<double> coefficients) {
-  static const sum_of_parts<spring, spring, spring> system{spring(), spring(), spring()};
-  using kicks = kick_of_parts<0, 1, 2>;
-  const auto word = run_time_word(nysalt::word<kicks, drift, kicks>{}, system).with_letters(letters);
-  return {"mine", word, std::move(coefficients), {2, true, false}};
+  constexpr word kicks = word_of<kick_of_parts<0, 1, 2>, drift>();
+  return {"mine", kicks.with_letters(letters), std::move(coefficients), {2, true, false}};
 }
 
 std::string known(const tabulated& method, const std::vector<tabulated>& among) {

@@ -221,10 +221,10 @@ BOOST_AUTO_TEST_CASE(derivatives_through_a_step_are_the_same_over_jets) {
     using S = std::remove_cvref_t<decltype(system)>;
     const double b1 = random.uniform(0.4, 0.6);
     const double beta1 = random.uniform(0.3, 0.5);
-    const stepper<S, nystrom::word, D2> with_dual(
-        system, nystrom::coefficients(std::array{D2::variable(b1, 0), D2::variable(beta1, 1)}), 0.05);
-    const stepper<S, nystrom::word, jet> with_jet(
-        system, nystrom::coefficients(std::array{jet(b1, 0), jet(beta1, 1)}), 0.05);
+    const auto c = nystrom::coefficients(std::array{D2::variable(b1, 0), D2::variable(beta1, 1)});
+    const auto same = nystrom::coefficients(std::array{jet(b1, 0), jet(beta1, 1)});
+    const stepper<S, D2> with_dual(system, nystrom::letters, {c.begin(), c.end()}, 0.05);
+    const stepper<S, jet> with_jet(system, nystrom::letters, {same.begin(), same.end()}, 0.05);
     const auto x = random.state(system, 0.5);
     auto a = x.template cast<D2>();
     auto b = x.template cast<jet>();
@@ -261,7 +261,7 @@ BOOST_AUTO_TEST_CASE(products_drop_what_lies_beyond_and_division_undoes_them) {
 
 BOOST_AUTO_TEST_CASE(a_step_over_series_is_its_taylor_expansion) {
   const spring system;
-  const stepper<spring, verlet::word> one(system, verlet::coefficients(), 1.0);
+  const auto one = make_stepper(system, verlet(), 1.0);
   phase_point<S, 1> x{vector<S, 1>(S(1.0)), vector<S, 1>(S(0.0))};
   one.step(x);
   BOOST_TEST((x.q[0].coefficient == std::array{1.0, -0.5, 0.0, 0.0, 0.0}));

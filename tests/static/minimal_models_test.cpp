@@ -10,6 +10,7 @@
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/reference.hpp"
+#include "nysalt/run_time_family.hpp"
 
 namespace {
 
@@ -148,7 +149,7 @@ static_assert(nysalt::NoiseSource<antithetic>);
 // [flow]
 /// The flow of -sum q_i: a uniform field pulls every coordinate, p_i += c h.
 struct pull {
-  static constexpr char letter = 'U';
+  static constexpr char letter = 'u';
   static constexpr std::size_t slots = 1;
   static constexpr nysalt::field reads = nysalt::field::none;
   static constexpr int force_derivatives = 0;
@@ -162,8 +163,8 @@ struct pull {
   static C prepare(const C& c, double h) {
     return c * h;
   }
-  template <nysalt::System S, nysalt::Scalar T, nysalt::CoefficientOf<T> C>
-  static void apply(const S&, const C& c, nysalt::flow_state<T, S::dimension>& x, auto&) {
+  template <nysalt::System S, class State, class C>
+  static void apply(const S&, const C& c, State& x, auto&) {
     for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] += c;
   }
 };
@@ -171,17 +172,16 @@ static_assert(nysalt::Flow<pull>);
 // [/flow]
 
 // [word]
-using five_letters = nysalt::word<nysalt::drift, nysalt::kick, nysalt::drift, nysalt::kick, nysalt::drift>;
-static_assert(nysalt::Word<five_letters>);
-static_assert(five_letters::merges);                     // the last A of a step and the first of the next
-static_assert(five_letters::evaluations_per_step == 2);  // however many steps
-static_assert(five_letters::evaluations_to_open == 0);
+constexpr nysalt::word five_letters("ABABA");
+static_assert(five_letters.merges);                     // the last A of a step and the first of the next
+static_assert(five_letters.evaluations_per_step == 2);  // however many steps
+static_assert(five_letters.evaluations_to_open == 0);
 // [/word]
 
 // [family]
 /// A(a) B(1/2) A(1 - 2a) B(1/2) A(a)
 struct equal_kicks : nysalt::composition<1> {
-  using word = five_letters;
+  static constexpr nysalt::word letters = five_letters;
   static constexpr std::string_view name = "equal_kicks";
   static std::array<double, 1> start() { return {0.25}; }
 
@@ -195,15 +195,8 @@ static_assert(nysalt::Family<equal_kicks>);
 // [/family]
 
 // [method]
-struct symplectic_euler {
-  using word = nysalt::word<nysalt::kick, nysalt::drift>;
-  static constexpr int order = 1;
-  static constexpr bool symmetric = false;
-  static constexpr bool requires_quadratic_kinetic = false;
-  static std::string name() { return "symplectic_euler"; }
-  static std::array<double, 2> coefficients() { return {1.0, 1.0}; }
-};
-static_assert(nysalt::Method<symplectic_euler>);
+const nysalt::tabulated symplectic_euler("symplectic_euler", nysalt::word("BA"), {1.0, 1.0},
+                                         {.order = 1, .symmetric = false, .requires_quadratic_kinetic = false});
 // [/method]
 
 // [reference]
@@ -284,7 +277,7 @@ BOOST_AUTO_TEST_CASE(a_step_in_single_precision_is_that_of_doubles_to_24_bits) {
 
 BOOST_AUTO_TEST_CASE(systems_and_their_optional_members_step) {
   // [ask]
-  nysalt::require_suited<nysalt::verlet, quartic_well>();
+  nysalt::require_suited<quartic_well>();
   // [/ask]
 
   // B(h/2) A(h) B(h/2) of the quartic well from (1, 0), by hand.
@@ -330,9 +323,8 @@ BOOST_AUTO_TEST_CASE(time_may_be_a_coordinate) {
 BOOST_AUTO_TEST_CASE(a_model_is_the_system_as_a_value) {
   // [model]
   const nysalt::model well = quartic_well();  // any system converts
-  const auto method = nysalt::tabulated(nysalt::verlet());
   auto end = nysalt::phase_point<double, Eigen::Dynamic>{Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)};
-  nysalt::make_stepper(well, method, 0.1).step(end);
+  nysalt::make_stepper(well, nysalt::verlet(), 0.1).step(end);
   // [/model]
   auto same = at(1.0, 0.0);
   const quartic_well by_type;
@@ -357,10 +349,9 @@ BOOST_AUTO_TEST_CASE(mirrored_noise_makes_a_mirrored_path) {
 }
 
 BOOST_AUTO_TEST_CASE(a_letter_of_ones_own_goes_through_the_same_loop) {
-  // U(1/2) A U(1/2) is exact in a uniform field: q = t^2/2, p = t.
-  const nysalt::detail::free_particle system;
-  using fall = nysalt::word<pull, nysalt::drift, pull>;
-  const nysalt::stepper<nysalt::detail::free_particle, fall> stepper(system, {0.5, 1.0, 0.5}, 0.125);
+  // u(1/2) A u(1/2) is exact in a uniform field: q = t^2/2, p = t.
+  const nysalt::with_letters<nysalt::detail::free_particle, pull> system;
+  const nysalt::stepper stepper(system, nysalt::word_of<pull, nysalt::drift, pull>(), {0.5, 1.0, 0.5}, 0.125);
   auto run = stepper.open(at(0.0, 0.0));
   stepper.advance(run, 16);
   const auto x = stepper.synchronous(run);
@@ -372,11 +363,11 @@ BOOST_AUTO_TEST_CASE(families_and_methods_of_ones_own_are_symplectic) {
   const quartic_well system;
   const auto x = at(0.7, 0.3);
   // Seven roundings of entries below 2.
-  BOOST_TEST(nysalt::symplecticity_defect(system, symplectic_euler(), 0.1, x) <= 64 * eps);
-  const nysalt::member<equal_kicks> some({0.2});
+  BOOST_TEST(nysalt::symplecticity_defect(system, symplectic_euler, 0.1, x) <= 64 * eps);
+  const nysalt::tabulated some = nysalt::member(equal_kicks(), {0.2});
   BOOST_TEST(nysalt::symplecticity_defect(system, some, 0.1, x) <= 64 * eps);
   auto euler = at(1.0, 0.0);
-  nysalt::make_stepper(system, symplectic_euler(), 0.5).step(euler);
+  nysalt::make_stepper(system, symplectic_euler, 0.5).step(euler);
   BOOST_TEST(euler.q[0] == 0.75);
   BOOST_TEST(euler.p[0] == -0.5);
 }

@@ -325,7 +325,7 @@ BOOST_AUTO_TEST_CASE(entries_of_a_long_chain_are_those_of_the_basis_of_a_short_o
     const bool is_same = a.coordinate == b.coordinate && mode == b.mode && a.heavy == b.heavy;
     if (!is_same) BOOST_ERROR("entry " << n << " differs");
   }
-  BOOST_TEST(detail::frequency_to_fit(longer) == 50.0);
+  BOOST_TEST(frequency_to_fit(longer) == 50.0);
 }
 
 BOOST_AUTO_TEST_CASE(entries_of_modes_that_are_not_there_are_refused) {

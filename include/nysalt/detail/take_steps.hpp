@@ -85,7 +85,9 @@ template <field F, class S, class State, class C>
       if constexpr (F == field::whole && HasKick<S, T, C>) {
         if (letter.evaluates == evaluation::unshared) return system.kick(x.q, x.p, c);
       }
-      if (letter.evaluates != evaluation::none) force_of<F, T>(system, x.q, x.f);
+      if constexpr (ForceOver<S, T, F>) {
+        if (letter.evaluates != evaluation::none) force_of<F, T>(system, x.q, x.f);
+      }
       kick_of<F>::apply(system, c, x, room);
       break;
     }
@@ -181,7 +183,7 @@ template <field F, class S, class T, class C>
 void take_steps(const S& system, state_in_place<T, S::dimension>& x, auto& room,
                 const step_program<C>& letters, std::int64_t steps, const callback& other,
                 const watch<T>& watched) {
-  if constexpr (F == field::whole && std::same_as<C, double> && !is_dual<T>) {
+  if constexpr (F == field::whole && ForceOver<S, T, F> && std::same_as<C, double> && !is_dual<T>) {
     if (!letters.pairs.empty()) return take_steps_in_pairs(system, x, room, letters, steps, watched);
   }
   watch_steps(

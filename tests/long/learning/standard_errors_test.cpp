@@ -52,9 +52,8 @@ struct repeated {
       const auto data = data_of(trajectories, first_seed + n);
       const auto held_out = data_of(trajectories, 100'000 + first_seed + n);
       const auto fit = learn(nystrom{}, chain, data, held_out, {.loss = loss_named("state:1")});
-      const Eigen::VectorXd theta = column_of(fit.method.parameters());
-      const auto naive = errors_without_weights(data, theta);
-      const auto errors = errors_of(data, held_out, theta);
+      const auto naive = errors_without_weights(data, fit.theta);
+      const auto errors = errors_of(data, held_out, fit.theta);
       for (std::size_t k = 0; k < 2; ++k) {
         const auto& p = fit.summary.parameters[k];
         const double error = errors[static_cast<Eigen::Index>(k)];
