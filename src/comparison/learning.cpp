@@ -58,10 +58,8 @@ learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& pr
       for (auto& stage : each->stages) watched(stage.loss);
     }
   }
-  auto [theta, fit] = solve(problem);
-  const tabulated method(family.name, family.letters, family.coefficients(theta),
-                         {family.order, family.symmetric, family.requires_quadratic_kinetic});
-  return {std::move(fit), method, energies};
+  auto [theta, fit, learned] = solve(problem);
+  return {std::move(fit), learned.anywhere(), energies};
 }
 
 namespace {

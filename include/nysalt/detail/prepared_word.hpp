@@ -90,7 +90,8 @@ class prepared_word {
     }
     for (auto* letters : {&run_.loop, &run_.last, &plain_.loop}) end_step(*letters);
     plain_.last = plain_.loop;
-    run_.find_pairs();
+    run_.complete();
+    plain_.complete();
   }
 
   /// The letters of an open run.
@@ -217,7 +218,7 @@ class prepared_word {
       result.loop.push_back(evaluating(with_step(w.letter(i), &c[i], h, {}), plan.in_step[i]));
     }
     result.last = result.loop;
-    result.find_pairs();
+    result.complete();
     return result;
   }
 
@@ -238,14 +239,14 @@ class prepared_word {
         cursor.next();
       }
     };
-    const detail::callback other{
-        [](void* context, int number) { (*static_cast<decltype(act)*>(context))(number); },
-        const_cast<void*>(static_cast<const void*>(&act))};
     if constexpr (ErasedSystem<S>) {
+      const detail::callback other{
+          [](void* context, int number) { (*static_cast<decltype(act)*>(context))(number); },
+          const_cast<void*>(static_cast<const void*>(&act))};
       system.template kernels<T>().advance(x.q, x.p, x.f, cursor.room, letters, steps, other, watched);
     } else {
       detail::state_in_place<T, S::dimension> in_place{x.q, x.p, x.f};
-      detail::take_steps_of_word(system, in_place, cursor.room, letters, steps, other, watched);
+      detail::take_steps_of_word(system, in_place, cursor.room, letters, steps, act, watched);
     }
   }
 

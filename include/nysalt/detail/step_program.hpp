@@ -2,6 +2,7 @@
 // The letters of a step, with their coefficients, as they are interpreted.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -49,14 +50,19 @@ struct step_program {
   std::vector<letter> undo;  ///< what takes the first letter back, of an open run
   field reads = field::none;
   int threads = 1;     ///< that share a step where the system allows it
-  bool calls = false;  ///< there are letters that are called back
+  bool calls = false;         ///< there are letters of the bath, and calls between steps
+  bool is_of_shears = false;  ///< all letters are drifts and kicks of any kind
   /// Coefficients of a loop that is drifts and kicks in turn, each force being read once: kernels keep the
   /// state in registers then. Empty of other loops.
   std::vector<std::array<C, 2>> pairs{};
   bool begins_with_kick = false;
   bool keeps_last_force = false;  ///< the last kick of a last step leaves its force known
 
-  void find_pairs() {
+  /// What follows from the letters.
+  void complete() {
+    is_of_shears = std::ranges::none_of(loop, [](const letter& one) {
+      return one.what == action::call || one.what == action::rotation;
+    });
     pairs.clear();
     if (calls || loop.empty() || loop.size() % 2 != 0) return;
     begins_with_kick = loop.front().what == action::kick;
@@ -77,6 +83,8 @@ struct step_program {
 struct callback {
   void (*call)(void* context, int number) = nullptr;
   void* context = nullptr;
+
+  void operator()(int number) const { call(context, number); }
 };
 
 /// An observer of a run: after `first` steps, and every `every` steps from there on, the synchronous state is

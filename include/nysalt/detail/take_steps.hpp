@@ -39,26 +39,21 @@ struct state_in_place {
   Eigen::Index size() const { return q.size(); }
 };
 
-template <field F, class S, class State, class C>
-[[gnu::noinline]] void apply_gradient_kick(const S& system, const step_program_letter<C>& letter, State& x,
-                                           auto& room) {
+template <class Kick, class S, class State>
+void apply_kick_with_derivative(const S& system, const auto& coefficients, evaluation evaluates, State& x,
+                                auto& room) {
   using T = typename State::scalar_type;
-  if constexpr (gradient_kick_of<F>::template serves<S, T>) {
-    const gradient_kick_coefficients<C> c = letter.gradient;
-    if (letter.evaluates != evaluation::none) force_of<F, T>(system, x.q, x.f);
-    gradient_kick_of<F>::apply(system, c, x, room);
+  if constexpr (Kick::template serves<S, T>) {
+    const auto c = coefficients;  // local: they cannot alias the state
+    if (evaluates != evaluation::none) force_of<Kick::reads, T>(system, x.q, x.f);
+    Kick::apply(system, c, x, room);
   }
 }
-
-template <class S, class State, class C>
-[[gnu::noinline]] void apply_displaced_kick(const S& system, const step_program_letter<C>& letter, State& x,
-                                            auto& room) {
-  using T = typename State::scalar_type;
-  if constexpr (displaced_kick::serves<S, T>) {
-    const displaced_kick_coefficients<C> c = letter.displaced;
-    if (letter.evaluates != evaluation::none) force<T>(system, x.q, x.f);
-    displaced_kick::apply(system, c, x, room);
-  }
+/// The same where inlining would cost more time to compile than to run.
+template <class Kick, class S, class State>
+[[gnu::noinline]] void call_kick_with_derivative(const S& system, const auto& coefficients,
+                                                 evaluation evaluates, State& x, auto& room) {
+  apply_kick_with_derivative<Kick>(system, coefficients, evaluates, x, room);
 }
 
 template <class S, class State, class C>
@@ -69,10 +64,11 @@ template <class S, class State, class C>
   }
 }
 
-/// One letter. The system is inlined: with several users of its force g++ would not.
-template <field F, class S, class State, class C>
+/// One letter. The system is inlined: with several users of its force g++ would not. Without MayCall the letter
+/// is no rotation and not called back: then nothing takes the address of the state.
+template <field F, bool MayCall, class S, class State, class C>
 [[gnu::always_inline]] inline void apply_letter(const S& system, const step_program_letter<C>& letter,
-                                                State& x, auto& room, const callback& other) {
+                                                State& x, auto& room, const auto& other) {
   using T = typename State::scalar_type;
   switch (letter.what) {
     case action::drift: {
@@ -92,16 +88,24 @@ template <field F, class S, class State, class C>
       break;
     }
     case action::gradient_kick:
-      apply_gradient_kick<F>(system, letter, x, room);
+      if constexpr (std::same_as<T, double>) {
+        apply_kick_with_derivative<gradient_kick_of<F>>(system, letter.gradient, letter.evaluates, x, room);
+      } else {
+        call_kick_with_derivative<gradient_kick_of<F>>(system, letter.gradient, letter.evaluates, x, room);
+      }
       break;
     case action::displaced_kick:
-      apply_displaced_kick(system, letter, x, room);
+      if constexpr (std::same_as<T, double>) {
+        apply_kick_with_derivative<displaced_kick>(system, letter.displaced, letter.evaluates, x, room);
+      } else {
+        call_kick_with_derivative<displaced_kick>(system, letter.displaced, letter.evaluates, x, room);
+      }
       break;
     case action::rotation:
-      apply_rotation(system, letter, x, room);
+      if constexpr (MayCall) apply_rotation(system, letter, x, room);
       break;
     case action::call:
-      other.call(other.context, letter.number);
+      if constexpr (MayCall) other(letter.number);
       break;
   }
 }
@@ -115,16 +119,32 @@ void apply_known(const S& system, const step_program_letter<C>& letter, State& x
   if (letter.what == action::rotation) apply_rotation(system, letter, x, room);
 }
 
-/// Interpreter loop: `steps` steps of any program.
+/// Interpreter loop: `steps` steps of any program. A state of a fixed dimension that nobody else reads meanwhile is
+/// a local copy, which stays in registers where it has few coordinates.
 template <field F, class S, class State, class C>
 [[gnu::flatten, gnu::noinline]] void take_any_steps(const S& system, State& x, auto& room,
                                                     const step_program<C>& letters, std::int64_t steps,
-                                                    const callback& other) {
-  for (std::int64_t n = 1; n <= steps; ++n) {
-    for (const auto& letter : n < steps ? letters.loop : letters.last) {
-      apply_letter<F>(system, letter, x, room, other);
+                                                    const auto& other) {
+  using T = typename State::scalar_type;
+  const auto take = [&]<bool MayCall>(auto& state, auto& space) __attribute__((always_inline)) {
+    for (std::int64_t n = 1; n <= steps; ++n) {
+      for (const auto& letter : n < steps ? letters.loop : letters.last) {
+        apply_letter<F, MayCall>(system, letter, state, space, other);
+      }
+    }
+  };
+  if constexpr (S::dimension != Eigen::Dynamic && std::same_as<T, double>) {
+    if (letters.is_of_shears) {
+      flow_state<T, S::dimension> local{{x.q, x.p}, x.f};
+      flow_room<T, S::dimension> space;
+      take.template operator()<false>(local, space);
+      x.q = local.q;
+      x.p = local.p;
+      x.f = local.f;
+      return;
     }
   }
+  take.template operator()<true>(x, room);
 }
 
 /// Observation: copies the state, takes the merged first letter back on the copy, and calls the observer.
@@ -181,7 +201,7 @@ template <class S, class T>
 /// `steps` steps, observed or not: by take_steps_in_pairs() where the program allows it.
 template <field F, class S, class T, class C>
 void take_steps(const S& system, state_in_place<T, S::dimension>& x, auto& room,
-                const step_program<C>& letters, std::int64_t steps, const callback& other,
+                const step_program<C>& letters, std::int64_t steps, const auto& other,
                 const watch<T>& watched) {
   if constexpr (F == field::whole && ForceOver<S, T, F> && std::same_as<C, double> && !is_dual<T>) {
     if (!letters.pairs.empty()) return take_steps_in_pairs(system, x, room, letters, steps, watched);
@@ -194,7 +214,7 @@ void take_steps(const S& system, state_in_place<T, S::dimension>& x, auto& room,
 /// The same by the field that the letters read.
 template <class S, class T, class C>
 void take_steps_of_word(const S& system, state_in_place<T, S::dimension>& x, auto& room,
-                        const step_program<C>& letters, std::int64_t steps, const callback& other,
+                        const step_program<C>& letters, std::int64_t steps, const auto& other,
                         const watch<T>& watched) {
   if constexpr (HasQuadraticPart<S> && ForceOver<S, T, field::soft>) {
     if (letters.reads == field::soft) {
