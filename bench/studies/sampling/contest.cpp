@@ -49,7 +49,7 @@ std::pair<tabulated, bool> fitted(const small_target& small, double step, const 
                            {.threads = options.threads,
                             .loss = loss_named("acceptance"),
                             .planned_steps = static_cast<std::int64_t>(4.0 * whole)});
-  return {tabulated(found.method.anywhere()), found.summary.usable};
+  return {found.method.anywhere(), found.summary.usable};
 }
 
 std::pair<tabulated, bool> fitted(int drifts, const small_target& small, double step,
