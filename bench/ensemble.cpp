@@ -17,6 +17,7 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
+#include "nysalt/run_time_family.hpp"
 #include "peers/roofs.hpp"
 #include "peers/two_stage.hpp"
 #include "races.hpp"

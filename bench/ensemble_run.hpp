@@ -11,6 +11,7 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/run_time_family.hpp"
 
 namespace nysalt::bench {
 

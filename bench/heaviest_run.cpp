@@ -17,6 +17,7 @@
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/run_time_family.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "races.hpp"
 

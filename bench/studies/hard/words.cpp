@@ -8,6 +8,7 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/s_aia.hpp"
+#include "nysalt/run_time_family.hpp"
 
 namespace nysalt::hard {
 
