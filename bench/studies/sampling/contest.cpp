@@ -46,9 +46,9 @@ std::pair<tabulated, bool> fitted(const small_target& small, double step, const 
   const auto data = make_flow_map_data(small.of.system, small.of.starts, reference, training);
   const auto unseen = make_flow_map_data(small.of.system, small.of.starts, reference, others);
   const auto found = learn(bab<Drifts>{}, small.of.system, data, unseen,
-                           {.threads = options.threads,
-                            .loss = loss_named("acceptance"),
-                            .planned_steps = static_cast<std::int64_t>(4.0 * whole)});
+                           {.loss = loss_named("acceptance"),
+                            .planned_steps = static_cast<std::int64_t>(4.0 * whole),
+                            .threads = options.threads});
   return {found.method.anywhere(), found.summary.usable};
 }
 
