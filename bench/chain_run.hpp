@@ -7,7 +7,6 @@
 
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 

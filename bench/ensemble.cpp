@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The two-stage step on an ensemble: ours by type and by data, what one writes by hand, Boost.Odeint, and the
-// arithmetic alone.
+// The two-stage step on an ensemble: ours, what one writes by hand, Boost.Odeint, and the arithmetic
+// alone.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -16,8 +16,8 @@
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
+#include "nysalt/run_time_family.hpp"
 #include "peers/roofs.hpp"
 #include "peers/two_stage.hpp"
 #include "races.hpp"
@@ -35,7 +35,8 @@ constexpr std::size_t trajectories = blocks * default_lanes;
 constexpr double rounding = 1e-9;
 
 const fpu_chain<3> chain(omega);
-const member<nystrom> method({0.5, 0.4});
+constexpr std::array<double, 2> theta{0.5, 0.4};
+const tabulated method = member(nystrom(), {theta[0], theta[1]});
 
 two_stage folded() {
   const auto c = method.coefficients();
@@ -86,10 +87,10 @@ std::vector<double> numbers(std::span<const chain_state<lanes>> states) {
   return result;
 }
 
-/// By the library: the chain as a model, letters as data.
+/// By the library: the chain as a model.
 void ours_by_library(std::span<chain_state<lanes>> states) {
   static const model system = chain;
-  const auto stepper = make_stepper(system, tabulated(method), h);
+  const auto stepper = make_stepper(system, method, h);
   phase_point<lanes, Eigen::Dynamic> x{vector<lanes, Eigen::Dynamic>(6), vector<lanes, Eigen::Dynamic>(6)};
   for (auto& state : states) {
     std::copy(state.q.begin(), state.q.end(), x.q.begin());
@@ -119,7 +120,7 @@ class entrants {
  public:
   entrants() {
     auto ends = lane_starts();
-    ours<contraction::off>(ends, omega, method.parameters(), h, steps);
+    ours<contraction::off>(ends, omega, theta, h, steps);
     ours_ = numbers(ends);
   }
 
@@ -153,13 +154,9 @@ void add_all(entrants& all, const std::string& suffix) {
   const auto singles = single_starts();
   const auto packs = lane_starts();
   const two_stage c = folded();
-  const auto theta = method.parameters();
   const double same_bits = Fused == contraction::off ? 0.0 : rounding;
   all.add(
-      "ours" + suffix, packs, [=](auto x) { ours<Fused>(x, omega, theta, h, steps); }, same_bits);
-  all.add(
-      "ours, word as data" + suffix, packs, [=](auto x) { ours_as_data<Fused>(x, omega, theta, h, steps); },
-      same_bits);
+      "ours" + suffix, packs, [](auto x) { ours<Fused>(x, omega, theta, h, steps); }, same_bits);
   all.add("hand-written" + suffix, packs, [c](auto x) { hand_written<Fused>(x, c, steps); });
   all.add("hand-written, folded" + suffix, packs, [c](auto x) { hand_folded<Fused>(x, c, steps); });
   all.add("odeint arrays" + suffix, singles, [c](auto x) { odeint_two_stage<Fused>(x, c, steps); });

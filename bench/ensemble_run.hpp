@@ -11,6 +11,7 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/run_time_family.hpp"
 
 namespace nysalt::bench {
 
@@ -43,7 +44,7 @@ void run_ensemble(states& all, const auto& stepper, std::int64_t steps, int thre
 /// The two-stage step.
 inline void run_ensemble(states& all, std::int64_t steps, int threads) {
   const fpu_chain<3> chain(50.0);
-  run_ensemble(all, make_stepper(chain, member<nystrom>({0.5, 0.4}), 0.01), steps, threads);
+  run_ensemble(all, make_stepper(chain, member(nystrom(), {0.5, 0.4}), 0.01), steps, threads);
 }
 
 inline std::vector<double> numbers(const states& all) {

@@ -30,12 +30,11 @@ std::int64_t steps_of_turn(Eigen::Index masses) { return std::max<std::int64_t>(
 
 runner chain_of(Eigen::Index masses) {
   const auto chain = std::make_shared<model>(chain_model(masses));
-  const auto opened = make_stepper(*chain, tabulated(verlet{}), chain_step).open(start_of_chain(masses));
+  const auto opened = make_stepper(*chain, verlet{}, chain_step).open(start_of_chain(masses));
   const auto run = std::make_shared<open_run<double, Eigen::Dynamic>>(opened);
   const std::int64_t steps = steps_of_turn(masses);
-  return {fmt::format("{}", masses), static_cast<double>(masses * steps), [chain, run, steps] {
-            make_stepper(*chain, tabulated(verlet{}), chain_step).advance(*run, steps);
-          }};
+  return {fmt::format("{}", masses), static_cast<double>(masses * steps),
+          [chain, run, steps] { make_stepper(*chain, verlet{}, chain_step).advance(*run, steps); }};
 }
 
 runner stream_of(Eigen::Index masses) {

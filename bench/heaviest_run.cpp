@@ -17,6 +17,7 @@
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/run_time_family.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "races.hpp"
 
@@ -30,7 +31,7 @@ constexpr std::int64_t all_trajectories = 10'000;
 
 /// Unobserved. The unit of work is the whole run: it takes so long as the time that is told, whatever share
 /// of the trajectories is run.
-runner run_of(const std::string& name, const auto& method, double step, std::int64_t trajectories,
+runner run_of(const std::string& name, const tabulated& method, double step, std::int64_t trajectories,
               int threads) {
   const auto steps = static_cast<std::int64_t>(std::ceil(end_time / step));
   const auto turn = [=] {
@@ -49,9 +50,9 @@ runner run_of(const std::string& name, const auto& method, double step, std::int
 
 /// One after the other on the same threads.
 void race_runs(const std::string& name, std::int64_t trajectories_of_baoab, int threads) {
-  const parameters_of<nystrom> learned{0.5248, 0.4155};  // for the step .019
-  const member<thermostatted_family<nystrom, placement::end>> end(learned);
-  const member<thermostatted_family<nystrom, placement::symmetric>> symmetric(learned);
+  const auto learned = member(nystrom(), {0.5248, 0.4155});  // for the step .019
+  const auto end = thermostat(learned, placement::end);
+  const auto symmetric = thermostat(learned, placement::symmetric);
   std::vector<runner> runners;
   runners.push_back(run_of("BAOAB, step .0001", baoab{}, 1e-4, trajectories_of_baoab, threads));
   runners.push_back(run_of("learned, O at the end, step .019", end, 0.019, all_trajectories, threads));

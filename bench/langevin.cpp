@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "ensemble_run.hpp"
-#include "nysalt/methods/classical.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/in_bath.hpp"
@@ -125,17 +125,17 @@ void race_langevin() {
   };
   add_stepper("ours", make_stepper(chain, baoab{}, h, counter_noise(1)));
   static const model by_library = chain;
-  add_stepper("ours, by the library", make_stepper(by_library, tabulated(baoab{}), h, counter_noise(1)));
+  add_stepper("ours, by the library", make_stepper(by_library, baoab{}, h, counter_noise(1)));
   add_peer("Boost's ziggurat", baoab_ziggurat<contraction::off>);
   add_peer("Boost's ziggurat, splitmix64", baoab_ziggurat_splitmix<contraction::off>);
   add_peer("std::normal_distribution", baoab_std<contraction::off>);
   add_peer("std::normal_distribution, splitmix64", baoab_std_splitmix<contraction::off>);
 
-  constexpr mclachlan2 two_stage;
+  const mclachlan2 two_stage;
   add_stepper("two-stage, O at the end",
-              make_stepper(chain, thermostat<placement::end>(two_stage), h, counter_noise(1)));
+              make_stepper(chain, thermostat(two_stage, placement::end), h, counter_noise(1)));
   add_stepper("two-stage, O symmetric",
-              make_stepper(chain, thermostat<placement::symmetric>(two_stage), h, counter_noise(1)));
+              make_stepper(chain, thermostat(two_stage, placement::symmetric), h, counter_noise(1)));
   add_stepper("two-stage, no bath", make_stepper(chain.base(), two_stage, h));
   runners.push_back({"noise alone", static_cast<double>(trajectories * steps), draw_noise});
   race("langevin", std::move(runners));

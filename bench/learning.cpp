@@ -116,7 +116,7 @@ class problem {
     using C = dual<counting, 2>;
     const auto c =
         nystrom::coefficients(std::array{C::variable(counting(0.5), 0), C::variable(counting(0.4), 1)});
-    const stepper<chain_type, nystrom::word, C> one(chain_, c, data_.step);
+    const stepper<chain_type, C> one(chain_, nystrom::letters, {c.begin(), c.end()}, data_.step);
     const phase_point<double, Eigen::Dynamic> first = data_.start[0];
     auto x = phase_point<double, 6>{first.q, first.p}.cast<C>();
     const phase_point<double, Eigen::Dynamic> last = data_.finish[0];

@@ -20,7 +20,7 @@ constexpr std::int64_t steps = 1000;
 
 chain_point ours(std::int64_t count) {
   const model chain = chain_model(masses);
-  const auto stepper = make_stepper(chain, tabulated(verlet{}), chain_step);
+  const auto stepper = make_stepper(chain, verlet{}, chain_step);
   auto run = stepper.open(start_of_chain(masses));
   stepper.advance(run, count);
   return stepper.synchronous(run);

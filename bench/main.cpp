@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   try {
     race_ensemble();
     race_single_trajectory();
+    race_words();
     race_long_chain();
     race_liquid();
     race_growth();

@@ -8,6 +8,7 @@ namespace nysalt::bench {
 
 void race_ensemble();
 void race_single_trajectory();
+void race_words();
 void race_long_chain();
 void race_liquid();
 void race_growth();

@@ -9,7 +9,6 @@
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "peers/two_stage.hpp"
 #include "races.hpp"
@@ -35,8 +34,8 @@ chain_state<double> start() {
   return result;
 }
 
-template <class S, class M>
-chain_state<double> ours(const S& system, const M& method, std::int64_t count) {
+template <class S>
+chain_state<double> ours(const S& system, const tabulated& method, std::int64_t count) {
   const auto stepper = make_stepper(system, method, h);
   const auto from = fpu_law<3>(chain)(1, 0);
   auto run = stepper.open(phase_point<double, S::dimension>{from.q, from.p});
@@ -85,7 +84,7 @@ void race_single_trajectory() {
                      }});
   static const model by_library = chain;
   runners.push_back({"ours, by the library", static_cast<double>(steps), [] {
-                       auto state = ours(by_library, tabulated(verlet{}), steps);
+                       auto state = ours(by_library, verlet{}, steps);
                        benchmark::DoNotOptimize(state);
                      }});
   add_peers<contraction::off>(runners, "");

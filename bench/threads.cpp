@@ -63,10 +63,10 @@ void race_one_chain() {
     // pages.
     const auto tiles = [start, steps](int threads) {
       const auto chain = std::make_shared<const model>(chain_model(start->q.size()).on_threads(threads));
-      const auto opened = make_stepper(*chain, tabulated(verlet{}), chain_step).open(*start);
+      const auto opened = make_stepper(*chain, verlet{}, chain_step).open(*start);
       const auto run = std::make_shared<open_run<double, Eigen::Dynamic>>(opened);
       return [chain, run, steps] {
-        make_stepper(*chain, tabulated(verlet{}), chain_step).advance(*run, steps);
+        make_stepper(*chain, verlet{}, chain_step).advance(*run, steps);
         return numbers(std::as_const(run->state.q));
       };
     };

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
-#include <vector>
 
 #include "c_force/morse_chain.h"
 #include "nysalt/learn.hpp"
@@ -44,22 +43,22 @@ int main() {
   // [learn]
   const auto data = make_flow_map_data(chain, starts, reference, {.step = step, .horizon = 4.0, .seed = 1});
   const auto unseen = make_flow_map_data(chain, starts, reference, {.step = step, .horizon = 4.0, .seed = 2});
-  const auto [method, fit] = learn(aba<4>{}, chain, data, unseen);
+  const fit found = learn(aba<4>{}, chain, data, unseen);
   // [/learn]
-  fmt::print("usable: {}; derivatives by {}\n", fit.usable ? "yes" : fit.reason, fit.derivatives);
+  fmt::print("usable: {}; derivatives by {}\n", found.summary.usable ? "yes" : found.summary.reason,
+             found.summary.derivatives);
 
   // At equal cost: the steps are such that each evaluates the force twenty times in a unit of time.
   const auto report = [&](const tabulated& other, double method_step, std::int64_t evaluations) {
-    const std::vector one{other};
     const auto result =
-        trajectory_errors(chain, reference, starts, one, state_measure(chain),
+        trajectory_errors(chain, reference, starts, other, state_measure(chain),
                           {.step = method_step, .steps = 80 / evaluations, .trajectories = 50, .seed = 3});
     fmt::print("{:<8} error of the state after 80 evaluations: {:.1e} +- {:.0e}\n", other.name(),
                result.methods[0].error.mean, result.methods[0].error.standard_error);
   };
-  report(tabulated(method.anywhere()), step, 4);
-  report(tabulated(pefrl{}), step, 4);
-  report(tabulated(verlet{}), step / 4, 1);
+  report(found.method.anywhere(), step, 4);
+  report(pefrl{}, step, 4);
+  report(verlet{}, step / 4, 1);
 
   // [mistake]
   try {  // grad V instead of -grad V

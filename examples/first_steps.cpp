@@ -13,8 +13,8 @@ int main() {
   const fine_steps<> accurate(1e-3);  // a reference flow
   const auto data = make_flow_map_data(chain, starts, accurate, {.step = 0.03, .seed = 1});
   const auto unseen = make_flow_map_data(chain, starts, accurate, {.step = 0.03, .seed = 2});
-  const auto [method, fit] = learn(nystrom{}, chain, data, unseen);
-  fmt::print("b1 = {:.4f}, beta1 = {:.4f}\n", fit.parameters[0].value, fit.parameters[1].value);
+  const auto [theta, summary, method] = learn(nystrom{}, chain, data, unseen);
+  fmt::print("b1 = {:.4f}, beta1 = {:.4f}\n", theta[0], theta[1]);
   const auto end = integrate(chain, method, 0.03, starts(3, 0), 1000);
   fmt::print("{}\n", end.diverged_at ? "diverged" : "still there after 1000 steps");
   // [/readme]

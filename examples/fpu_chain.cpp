@@ -20,23 +20,23 @@ int main() {
   // Learn, from data of one seed, judged on data of another.
   const auto data = make_flow_map_data(chain, law, reference, {.step = step, .seed = 1});
   const auto held_out = make_flow_map_data(chain, law, reference, {.step = step, .seed = 2});
-  const auto [method, fit] = learn(nystrom{}, chain, data, held_out, {.loss = loss_named("state:1")});
-  for (const auto& p : fit.parameters)
+  const fit found = learn(nystrom{}, chain, data, held_out, {.loss = loss_named("state:1")});
+  for (const auto& p : found.summary.parameters)
     fmt::print("{:<5} = {:.5f} +- {:.0e}\n", p.name, p.value, p.standard_error);
-  fmt::print("usable: {}\n\n", fit.usable ? "yes" : fit.reason);
+  fmt::print("usable: {}\n\n", found.summary.usable ? "yes" : found.summary.reason);
 
   // Run: one trajectory over 100 units of time, watched every 10 of them.
   const auto watch = [&](std::int64_t, double t, const auto& x) {
     fmt::print("t = {:5.1f}  I = {:.3f}\n", t, chain.stiff_energy(x));
   };
-  const auto end = integrate(chain, method, step, law(3, 0), 3330, watch, 666);
+  const auto end = integrate(chain, found.method, step, law(3, 0), 3330, watch, 666);
   fmt::print("{}\n\n", end.diverged_at ? "diverged" : "did not diverge");
 
   // Compare, each at the cost of two force evaluations per step of 0.03.
   // [measure]
   const auto measure = relative_measure(chain, [&](const auto& x) { return chain.stiff_energy(x); });
   // [/measure]
-  const auto report = [&](const auto& other, double method_step, std::int64_t steps) {
+  const auto report = [&](const tabulated& other, double method_step, std::int64_t steps) {
     const auto result =
         trajectory_errors(chain, reference, law, other, measure,
                           {.step = method_step, .steps = steps, .trajectories = 100, .seed = 3});
@@ -45,7 +45,7 @@ int main() {
                method_step, of_method.evaluations_per_time, of_method.error.mean,
                of_method.error.standard_error);
   };
-  report(method, step, 16);
+  report(found.method, step, 16);
   report(mclachlan2{}, step, 16);
   report(bcss2{}, step, 16);
   report(verlet_2x{}, step, 16);
@@ -65,7 +65,7 @@ int main() {
 // t =  99.9  I = 8.645
 // did not diverge
 //
-// learned:nystrom  step 0.030  66.7 evaluations/time  error 5.4e-03 +- 2e-04
+// nystrom          step 0.030  66.7 evaluations/time  error 5.4e-03 +- 2e-04
 // mclachlan2       step 0.030  66.7 evaluations/time  error 1.0e-02 +- 3e-04
 // bcss2            step 0.030  66.7 evaluations/time  error 8.4e-03 +- 3e-04
 // verlet_2x        step 0.030  68.8 evaluations/time  error 4.2e-02 +- 2e-03

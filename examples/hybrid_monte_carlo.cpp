@@ -99,14 +99,13 @@ int main() {
   const fine_steps<> reference(step / 40);
   const auto data = make_flow_map_data(system, starts, reference, training);
   const auto unseen = make_flow_map_data(system, starts, reference, others);
-  const auto [method, fit] = learn(aba<2>{}, system, data, unseen, {.loss = loss_named("energy:6")});
+  const fit found = learn(aba<2>{}, system, data, unseen, {.loss = loss_named("energy:6")});
   // [/learn]
-  fmt::print("a1 = {:.4f} +- {:.4f}, usable: {}\n", fit.parameters[0].value, fit.parameters[0].standard_error,
-             fit.usable ? "yes" : fit.reason);
+  fmt::print("a1 = {:.4f} +- {:.4f}, usable: {}\n", found.theta[0],
+             found.summary.parameters[0].standard_error, found.summary.usable ? "yes" : found.summary.reason);
 
   fmt::print("                accepted           <q . grad V>, {} is exact\n", N);
-  const std::vector methods{tabulated(method.anywhere()), tabulated(mclachlan2{}), tabulated(bcss2{}),
-                            tabulated(verlet_2x{})};
+  const std::vector<tabulated> methods{found.method.anywhere(), mclachlan2{}, bcss2{}, verlet_2x{}};
   const auto report = [&](const tabulated& each,
                           bool accepts_all) {  // all of them: twelve evaluations a proposal
     const auto stepper = make_stepper(system, each, step);

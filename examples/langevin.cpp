@@ -53,18 +53,18 @@ int main() {
 
   // [learn]
   // Each half of O needs the noise of its own half of the step.
-  const thermostatted_family<nystrom, placement::symmetric> family;
+  const auto nystrom_in_bath = thermostatted(run_time_family(nystrom{}), placement::symmetric);
   const data_options options{.step = step, .horizon = 1.5, .trajectories = 200, .seed = 1, .noise_parts = 2};
   data_options others = options;
   others.seed = 2;
   const auto data = make_flow_map_data(system, starts, paths, options);
-  const auto [learned, fit] = learn(family, system, data, make_flow_map_data(system, starts, paths, others));
+  const fit found = learn(nystrom_in_bath, system, data, make_flow_map_data(system, starts, paths, others));
   // [/learn]
-  fmt::print("{}: b1 = {:.3f}, beta1 = {:.3f}, usable: {}\n\n", learned.name(), fit.parameters[0].value,
-             fit.parameters[1].value, fit.usable ? "yes" : fit.reason);
+  fmt::print("{}: b1 = {:.3f}, beta1 = {:.3f}, usable: {}\n\n", found.method.name(), found.theta[0],
+             found.theta[1], found.summary.usable ? "yes" : found.summary.reason);
 
   // [judge]
-  const std::vector methods{tabulated(baoab{}), tabulated(baoab_2x{}), tabulated(learned.anywhere())};
+  const std::vector<tabulated> methods{baoab{}, baoab_2x{}, found.method.anywhere()};
   const auto along_path = path_measure(system, over_lanes([&](const auto& x) { return energy(system, x); }));
   const auto errors = trajectory_errors(system, paths, starts, methods, along_path,
                                         {.step = step, .steps = 50, .trajectories = 400, .seed = 3});
@@ -81,7 +81,7 @@ int main() {
 }
 
 // Expected output:
-// learned:nystrom_symmetric: b1 = 0.523, beta1 = 0.408, usable: yes
+// nystrom_symmetric: b1 = 0.523, beta1 = 0.408, usable: yes
 //
 //                    path error of H   energy of the bond / kT
 // baoab                        0.295          0.713 +- 0.008

@@ -38,15 +38,15 @@ int main() {
     const double step = z / omega;
     const auto data = make_flow_map_data(system, two_states, exact_linear(system),
                                          {.step = step, .horizon = step, .trajectories = 2});
-    const auto fit = learn(nystrom{}, system, data, data, {.coordinates = coordinates::energy});
-    const auto [b1, beta1] = fit.method.parameters();
+    const auto [theta, summary, method] =
+        learn(nystrom{}, system, data, data, {.coordinates = coordinates::energy});
     const auto closed = boost::math::tools::brent_find_minima(
         [&](double x) { return closed_form_error(x, z); }, 0.35, 0.45, 50);
-    fmt::print("{:4.1f} {:12.6f} {:15.7f} {:13.7f}\n", z, b1, beta1, closed.first);
+    fmt::print("{:4.1f} {:12.6f} {:15.7f} {:13.7f}\n", z, theta[0], theta[1], closed.first);
   }
 
   fmt::print("\nStable for z in");
-  const member<nystrom> method({0.5, 0.4});
+  const auto method = member(nystrom{}, {0.5, 0.4});
   for (const auto& [low, high] : stability_windows(method)) fmt::print(" [{:.6f}, {:.6f}]", low, high);
   fmt::print("; sqrt(20/3) = {:.6f}\n", std::sqrt(20.0 / 3.0));
   const phase_point<double, 1> start{vector<double, 1>(1.0), vector<double, 1>(0.0)};

@@ -27,11 +27,11 @@ int main() {
   const auto watch = [](const state& y, double t) {
     if (std::fmod(t + 1e-9, 5.0) < 1e-6) fmt::print("t = {:4.1f}  q = {:+.6f}\n", t, y.q[0]);
   };
-  odeint::integrate_const(odeint_stepper<srkn6b>(), system, x, 0.0, 20.0 + 0.5 * step, step, watch);
+  odeint::integrate_const(odeint_stepper(srkn6b{}), system, x, 0.0, 20.0 + 0.5 * step, step, watch);
   // [/drive]
 
   auto y = start;
-  odeint::integrate_n_steps(odeint_stepper<srkn6b>(), system, y, 0.0, step, 200);
+  odeint::integrate_n_steps(odeint_stepper(srkn6b{}), system, y, 0.0, step, 200);
   fmt::print("integrate_n_steps ends at the same state: {}\n", y.q == x.q && y.p == x.p ? "yes" : "no");
 
   // [reference]

@@ -95,7 +95,7 @@ double by_threads() {
        {start.p.data(), static_cast<std::size_t>(sites)});
   // [threads]
   const model shared = model(chain).on_threads(2);
-  const auto end = integrate(make_stepper(shared, tabulated(srkn6b()), h), start, steps).finish;
+  const auto end = integrate(make_stepper(shared, srkn6b(), h), start, steps).finish;
   // [/threads]
   return place_of_kink(end.q, 0);
 }

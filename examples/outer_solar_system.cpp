@@ -23,8 +23,7 @@ using namespace examples;
 const auto planets = outer_solar_system();
 const auto start = outer_solar_system_start();
 
-template <class M>
-double energy_error(const M& method, double step) {
+double energy_error(const tabulated& method, double step) {
   const double before = energy<double>(planets, start);
   double worst = 0.0;
   const auto watch = [&](std::int64_t, double, const auto& x) {
@@ -49,12 +48,12 @@ int main() {
     const data_options options{.step = 2.0 * step, .horizon = 40.0 * step, .trajectories = 4, .seed = 1};
     const auto data = make_flow_map_data(planets, states(0), reference, options);
     const auto unseen = make_flow_map_data(planets, states(4), reference, options);
-    const auto [method, fit] =
+    const auto [theta, summary, method] =
         learn(planetary<2>{}, planets, data, unseen, {.random_starts = 4, .planned_steps = 2000});
     fmt::print("{:>11}  {:.1e}  {:.1e}  {:.1e}        {:.1e} ({})\n", step, energy_error(verlet{}, step),
-               energy_error(srkn6b{}, 6.0 * step), energy_error(wisdom_holman{}, step),
+               energy_error(srkn6b{}, 6.0 * step), energy_error(wisdom_holman(), step),
                energy_error(method, 2.0 * step),
-               fit.usable ? fmt::format("a1 = {:.4f}", fit.parameters[0].value) : fit.reason);
+               summary.usable ? fmt::format("a1 = {:.4f}", theta[0]) : summary.reason);
   }
 }
 

@@ -17,7 +17,7 @@ using namespace nysalt;
 
 // [family]
 struct two_gradients : composition<2> {
-  using word = nysalt::word<drift, gradient_kick, drift, gradient_kick, drift>;
+  static constexpr word letters{"AGAGA"};
   static constexpr std::string_view name = "two_gradients";
   static constexpr int order = 2;  // as of all palindromes whose coefficients sum to one
   static constexpr bool symmetric = true;
@@ -41,13 +41,12 @@ int main() {
     const data_options others{.step = step, .horizon = 20 * step, .seed = 2};
     const auto data = make_flow_map_data(system, starts, reference, training);
     const auto unseen = make_flow_map_data(system, starts, reference, others);
-    const auto [method, fit] = learn(two_gradients{}, system, data, unseen);
-    fmt::print("step {}: a = {:.4f}, c = {:.5f}, usable: {}\n", step, fit.parameters[0].value,
-               fit.parameters[1].value, fit.usable ? "yes" : fit.reason);
+    const fit found = learn(two_gradients{}, system, data, unseen);
+    fmt::print("step {}: a = {:.4f}, c = {:.5f}, usable: {}\n", step, found.theta[0], found.theta[1],
+               found.summary.usable ? "yes" : found.summary.reason);
 
     const auto rival = learn(fg4{}, system, data, unseen);
-    const std::vector methods{tabulated(method.anywhere()), tabulated(rival.method.anywhere()),
-                              tabulated(pefrl{})};
+    const std::vector<tabulated> methods{found.method.anywhere(), rival.method.anywhere(), pefrl{}};
     const auto errors = trajectory_errors(system, reference, starts, methods, state_measure(system),
                                           {.step = step, .steps = 20, .trajectories = 100, .seed = 3});
     for (std::size_t k = 0; k < methods.size(); ++k) {

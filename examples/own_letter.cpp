@@ -55,24 +55,28 @@ struct turns : symmetric_composition<turn, cubic_kick, 7> {
 // [/family]
 
 int main() {
-  const henon_heiles system;
+  // [system]
+  const with_letters<henon_heiles, turn, cubic_kick> system;  // a system declares its letters
+  // [/system]
   const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.1);
   constexpr double step = 1.0;
   // [check]
-  const std::vector points{starts(1, 0), starts(1, 1), starts(1, 2)};
-  fmt::print("{}\n", check_letter<turn>(system, points, step).report());
-  fmt::print("{}\n", check_letter<wrong_turn>(system, points, step).report());
+  const initial_states typical = starts;
+  const std::vector points{typical(1, 0), typical(1, 1), typical(1, 2)};
+  fmt::print("{}\n", check_letter(system, 't', points, step).report());
+  const with_letters<henon_heiles, wrong_turn> wrong;
+  fmt::print("{}\n", check_letter(wrong, 't', points, step).report());
   // [/check]
   // [learn]
   const fine_steps<> reference(0.005);
   const auto data = make_flow_map_data(system, starts, reference, {.step = step, .horizon = 20, .seed = 1});
   const auto unseen = make_flow_map_data(system, starts, reference, {.step = step, .horizon = 20, .seed = 2});
-  const auto [method, fit] = learn(turns{}, system, data, unseen);
-  const auto end = integrate(system, method, step, starts(3, 0), 1000);
+  const fit found = learn(turns{}, system, data, unseen);
+  const auto end = integrate(system, found.method, step, starts(3, 0), 1000);
   // [/learn]
-  fmt::print("usable: {}; q_1 = {:.4f} after 1000 steps\n", fit.usable ? "yes" : fit.reason, end.finish.q[0]);
-  const std::vector methods{tabulated(method.anywhere(), system),
-                            tabulated(learn(aba<3>{}, system, data, unseen).method.anywhere())};
+  fmt::print("usable: {}; q_1 = {:.4f} after 1000 steps\n",
+             found.summary.usable ? "yes" : found.summary.reason, end.finish.q[0]);
+  const std::vector methods{found.method.anywhere(), learn(aba<3>{}, system, data, unseen).method.anywhere()};
   const auto errors = trajectory_errors(system, reference, starts, methods, state_measure(system),
                                         {.step = step, .steps = 20, .trajectories = 100, .seed = 3});
   for (std::size_t k = 0; k < methods.size(); ++k)

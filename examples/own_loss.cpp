@@ -18,7 +18,7 @@
 using namespace nysalt;
 
 constexpr int steps_of_revolution = 24;
-using family = fg_chin;  // B(b) A(1/2) G(1 - 2 b, c) A(1/2) B(b), three evaluations
+const fg_chin family;  // B(b) A(1/2) G(1 - 2 b, c) A(1/2) B(b), three evaluations
 
 // [loss]
 template <Scalar T>
@@ -50,12 +50,12 @@ int main() {
   const auto unseen = revolutions(2);
 
   // [learn]
-  const learn_options<family> options{.fixed = {1.0 / 6.0, std::nullopt}};
-  const auto usual = learn(family{}, system, data, unseen, options);  // the error of the state
-  const auto own = learn(family{}, system, data, unseen, options, turning);
+  const fit_options options{.fixed = {1.0 / 6.0, std::nullopt}};
+  const auto usual = learn(family, system, data, unseen, options);  // the error of the state
+  const auto own = learn(family, system, data, unseen, options, turning);
   // [/learn]
 
-  const auto report = [](const char* name, const learned<family>& found) {
+  const auto report = [](const char* name, const fit& found) {
     const auto& p = found.summary.parameters[1];
     fmt::print("{}: {} = {:.6f} +- {:.0e}, usable: {}\n", name, p.name, p.value, p.standard_error,
                found.summary.usable ? "yes" : found.summary.reason);
@@ -81,11 +81,11 @@ int main() {
                mean_and_error(distances).mean);
   };
   fmt::print("\nafter a hundred revolutions the ellipse has turned by, and the planet is off by\n");
-  follow("error of the state", tabulated(usual.method.anywhere()), step);
-  follow("turning", tabulated(own.method.anywhere()), step);
-  follow("chin4a", tabulated(chin4a{}), step);
-  follow("pefrl", tabulated(pefrl{}), step * 4 / 3);
-  follow("verlet", tabulated(verlet{}), step / 3);
+  follow("error of the state", usual.method.anywhere(), step);
+  follow("turning", own.method.anywhere(), step);
+  follow("chin4a", chin4a{}, step);
+  follow("pefrl", pefrl{}, step * 4 / 3);
+  follow("verlet", verlet{}, step / 3);
 }
 
 // Expected output:

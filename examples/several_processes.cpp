@@ -23,7 +23,8 @@ void learn_and_report(const communicator& ranks) {
     return make_flow_map_data(chain, starts, fine_steps<>(1e-3),
                               {.step = 0.03, .trajectories = 400, .seed = seed, .ranks = &ranks});
   };
-  const auto [method, fit] = learn(nystrom{}, chain, pairs(1), pairs(2), {.loss = loss_named("state:1")});
+  const auto [theta, summary, method] =
+      learn(nystrom{}, chain, pairs(1), pairs(2), {.loss = loss_named("state:1")});
   // [/learn]
 
   // How far the energy is off at t = 30, along trajectories that each process follows for itself.
@@ -39,13 +40,13 @@ void learn_and_report(const communicator& ranks) {
     if (n > 0) squares[slot] = std::pow(current_energy - at_start[slot], 2);
   };
   const auto total_energy = over_lanes([&](const auto& x) { return energy_in_lanes(chain, x); });
-  integrate_ensemble(chain, method, fit.step, starts, options, total_energy, take);
+  integrate_ensemble(chain, method, summary.step, starts, options, total_energy, take);
   const double error = std::sqrt(ours.sum(squares) / static_cast<double>(ours.total()));
   // [/share]
 
   if (!ranks.is_first()) return;  // one speaks for all
-  fmt::print("learned from {} pairs of {} trajectories\n", fit.samples, fit.trajectories);
-  fmt::print("b1 = {:.6f}, beta1 = {:.6f}\n", fit.parameters[0].value, fit.parameters[1].value);
+  fmt::print("learned from {} pairs of {} trajectories\n", summary.samples, summary.trajectories);
+  fmt::print("b1 = {:.6f}, beta1 = {:.6f}\n", theta[0], theta[1]);
   fmt::print("energy off by {:.4f} after 1000 steps\n", error);
 }
 

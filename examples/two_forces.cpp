@@ -39,28 +39,25 @@ using list = std::vector<tried>;
 fine_steps<> reference_at(double step) { return fine_steps<>(step / std::ceil(step / 0.004)); }
 
 /// Tries a method of parts, or one of the whole force, which evaluates both each time.
-template <class M>
-void try_out(list& all, const M& method, double step) {
+void try_out(list& all, const tabulated& method, double step) {
   const auto steps = static_cast<std::int64_t>(std::ceil(5.0 / step - 1e-9));
-  const auto found =
-      trajectory_errors(chain, reference_at(step), starts, std::vector{method}, state_measure(chain),
-                        {.step = step, .steps = steps, .trajectories = 64, .seed = 3});
-  using W = typename M::word;
-  constexpr bool is_of_parts = evaluations_of_part<W>(1) > 0;
-  const int whole = W::evaluations_per_step;
-  all.push_back({method.name(), step, is_of_parts ? evaluations_of_part<W>(0) : whole,
-                 is_of_parts ? evaluations_of_part<W>(1) : whole, found.methods[0].error.mean});
+  const auto found = trajectory_errors(chain, reference_at(step), starts, method, state_measure(chain),
+                                       {.step = step, .steps = steps, .trajectories = 64, .seed = 3});
+  const word& letters = method.letters();
+  const bool is_of_parts = evaluations_of_part(letters, 1) > 0;
+  const int whole = letters.evaluations_per_step;
+  all.push_back({method.name(), step, is_of_parts ? evaluations_of_part(letters, 0) : whole,
+                 is_of_parts ? evaluations_of_part(letters, 1) : whole, found.methods[0].error.mean});
 }
 
 // [learn]
-template <class F>
-void try_learned(list& all, double step) {
+void try_learned(list& all, const run_time_family& family, double step) {
   const auto data = [&](std::uint64_t seed) {
     return make_flow_map_data(chain, starts, reference_at(step),
                               {.step = step, .horizon = 24 * step, .trajectories = 16, .seed = seed});
   };
-  const auto [method, fit] = learn(F{}, chain, data(1), data(2), {.random_starts = 4});
-  if (fit.usable) try_out(all, method, step);
+  const auto [theta, summary, method] = learn(family, chain, data(1), data(2), {.random_starts = 4});
+  if (summary.usable) try_out(all, method, step);
 }
 // [/learn]
 
@@ -85,9 +82,9 @@ int main() {
     for (const double part : {1.0, 2.0, 4.0}) try_out(whole, srkn6b{}, part * step);
     for (const double part : {1.0, 2.0, 4.0}) try_out(whole, srkn14a{}, part * step);
   }
-  try_learned<nested_kicks<0, 1, 4, 2>>(learned, 0.226);
-  try_learned<nested_kicks<0, 1, 6, 2>>(learned, 0.226);
-  try_learned<nested_kicks<0, 1, 4, 2>>(learned, 0.113);
+  try_learned(learned, nested_kicks<0, 1, 4, 2>{}, 0.226);
+  try_learned(learned, nested_kicks<0, 1, 6, 2>{}, 0.226);
+  try_learned(learned, nested_kicks<0, 1, 4, 2>{}, 0.113);
   for (const double price : {3.0, 10.0, 100.0}) {
     fmt::print("price 1:{}   cost of r-RESPA, and of the others relative to it\n", price);
     for (const double error : {0.1, 0.03, 0.01, 0.003, 0.001}) {
@@ -103,20 +100,20 @@ int main() {
 
 // Expected output:
 // price 1:3   cost of r-RESPA, and of the others relative to it
-//     0.1:   238  learned:nested_4x2 at 0.226: 0.26 srkn6b at 0.0566: 1.79
-//    0.03:   336  learned:nested_4x2 at 0.226: 0.18 srkn6b at 0.0566: 1.26
-//    0.01:   618  learned:nested_6x2 at 0.226: 0.13 srkn14a at 0.1132: 0.80
-//   0.003:  1237  learned:nested_6x2 at 0.226: 0.06 srkn14a at 0.08: 0.57
-//   0.001:  2475  learned:nested_4x2 at 0.113: 0.05 srkn14a at 0.08: 0.28
+//     0.1:   238  nested_4x2 at 0.226: 0.26      srkn6b at 0.0566: 1.79
+//    0.03:   336  nested_4x2 at 0.226: 0.18      srkn6b at 0.0566: 1.26
+//    0.01:   618  nested_6x2 at 0.226: 0.13      srkn14a at 0.1132: 0.80
+//   0.003:  1237  nested_6x2 at 0.226: 0.06      srkn14a at 0.08: 0.57
+//   0.001:  2475  nested_4x2 at 0.113: 0.05      srkn14a at 0.08: 0.28
 // price 1:10   cost of r-RESPA, and of the others relative to it
-//     0.1:   325  learned:nested_4x2 at 0.226: 0.38 srkn6b at 0.0566: 3.59
-//    0.03:   459  learned:nested_4x2 at 0.226: 0.27 srkn6b at 0.0566: 2.54
-//    0.01:   742  learned:nested_6x2 at 0.226: 0.19 srkn14a at 0.1132: 1.83
-//   0.003:  1484  learned:nested_6x2 at 0.226: 0.10 srkn14a at 0.08: 1.30
-//   0.001:  2970  learned:nested_4x2 at 0.113: 0.08 srkn14a at 0.08: 0.65
+//     0.1:   325  nested_4x2 at 0.226: 0.38      srkn6b at 0.0566: 3.59
+//    0.03:   459  nested_4x2 at 0.226: 0.27      srkn6b at 0.0566: 2.54
+//    0.01:   742  nested_6x2 at 0.226: 0.19      srkn14a at 0.1132: 1.83
+//   0.003:  1484  nested_6x2 at 0.226: 0.10      srkn14a at 0.08: 1.30
+//   0.001:  2970  nested_4x2 at 0.113: 0.08      srkn14a at 0.08: 0.65
 // price 1:100   cost of r-RESPA, and of the others relative to it
-//     0.1:  1025  learned:nested_4x2 at 0.226: 0.90 srkn6b at 0.0566: 10.45
-//    0.03:  1451  learned:nested_4x2 at 0.226: 0.63 srkn6b at 0.0566: 7.38
-//    0.01:  2332  learned:nested_6x2 at 0.226: 0.40 srkn14a at 0.1132: 5.36
-//   0.003:  4100  learned:nested_6x2 at 0.226: 0.23 srkn14a at 0.08: 4.31
-//   0.001:  8200  learned:nested_4x2 at 0.113: 0.22 srkn14a at 0.08: 2.16
+//     0.1:  1025  nested_4x2 at 0.226: 0.90      srkn6b at 0.0566: 10.45
+//    0.03:  1451  nested_4x2 at 0.226: 0.63      srkn6b at 0.0566: 7.38
+//    0.01:  2332  nested_6x2 at 0.226: 0.40      srkn14a at 0.1132: 5.36
+//   0.003:  4100  nested_6x2 at 0.226: 0.23      srkn14a at 0.08: 4.31
+//   0.001:  8200  nested_4x2 at 0.113: 0.22      srkn14a at 0.08: 2.16

@@ -10,7 +10,7 @@ int main() {
   const fpu_law<3> starts(chain);
   const fine_steps<> accurate(1e-3);
   const auto data = make_flow_map_data(chain, starts, accurate, {.step = 0.03, .seed = 1});
-  const member<nystrom> method({0.5, 0.4});
+  const auto method = member(nystrom{}, {0.5, 0.4});
   fmt::print("{} pairs\n", data.pairs());
   const auto end = integrate(chain, method, 0.03, starts(3, 0), 1000);
   fmt::print("{}\n", end.diverged_at ? "diverged" : "still there after 1000 steps");

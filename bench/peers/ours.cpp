@@ -2,7 +2,7 @@
 // Ours, compiled as the peers are: fused is what NYSALT_FP_CONTRACT gives.
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/method.hpp"
+#include "nysalt/run_time_family.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "two_stage.hpp"
 
@@ -35,14 +35,7 @@ template <>
 void ours<this_build>(std::span<chain_state<lanes>> states, double omega, std::array<double, 2> theta,
                       double h, std::int64_t steps) {
   const fpu_chain<3> chain(omega);
-  advance(make_stepper(chain, member<nystrom>(theta), h), states, steps);
-}
-
-template <>
-void ours_as_data<this_build>(std::span<chain_state<lanes>> states, double omega, std::array<double, 2> theta,
-                              double h, std::int64_t steps) {
-  const fpu_chain<3> chain(omega);
-  advance(make_stepper(chain, tabulated(member<nystrom>(theta)), h), states, steps);
+  advance(make_stepper(chain, member(nystrom(), {theta[0], theta[1]}), h), states, steps);
 }
 
 }  // namespace nysalt::bench

@@ -25,13 +25,10 @@ struct two_stage {
   double k;
 };
 
-/// Our stepper, its word a type, and its word data.
+/// Our stepper.
 template <contraction>
 NYSALT_BENCH_PEER void ours(std::span<chain_state<lanes>>, double omega, std::array<double, 2> theta,
                             double h, std::int64_t steps);
-template <contraction>
-NYSALT_BENCH_PEER void ours_as_data(std::span<chain_state<lanes>>, double omega, std::array<double, 2> theta,
-                                    double h, std::int64_t steps);
 
 // Boost.Odeint, its own symplectic Nystrom stepper with our coefficients: one do_step a step. Its stages are
 // A B pairs, so the last drift brings a third evaluation with it, of coefficient 0.

@@ -42,11 +42,11 @@ struct plan {
 
 /// As many trajectories side by side as fill a block of lanes, one block after the other, unobserved until
 /// the end.
-template <class Method, class System>
-void follow(const System& system, const auto& law, const plan& of) {
+template <class System>
+void follow(const System& system, const auto& law, const tabulated& method, const plan& of) {
   constexpr int N = System::dimension;
   using lanes = pack<double>;
-  const auto stepper = make_stepper(system, Method(), of.step);
+  const auto stepper = make_stepper(system, method, of.step);
   for (std::int64_t first = 0; first < of.trajectories; first += default_lanes) {
     const auto count = static_cast<int>(std::min<std::int64_t>(default_lanes, of.trajectories - first));
     const auto start = [&](int k) { return law(seed_of_runs, static_cast<std::uint64_t>(first + k)); };
@@ -59,9 +59,9 @@ void follow(const System& system, const auto& law, const plan& of) {
 
 template <class System>
 void follow_by_name(const System& system, const auto& law, const plan& of) {
-  if (of.method == "verlet") return follow<verlet>(system, law, of);
-  if (of.method == "mclachlan2") return follow<mclachlan2>(system, law, of);
-  if (of.method == "srkn6b") return follow<classical<"srkn6b">>(system, law, of);
+  if (of.method == "verlet") return follow(system, law, verlet(), of);
+  if (of.method == "mclachlan2") return follow(system, law, mclachlan2(), of);
+  if (of.method == "srkn6b") return follow(system, law, srkn6b(), of);
   throw std::invalid_argument(fmt::format("METHOD must be verlet, mclachlan2 or srkn6b, got {}", of.method));
 }
 

@@ -24,8 +24,7 @@ inline std::vector<bar> bars_under_the_roof(const measurements& gnu, const measu
     return paired_ratio(all.of("ensemble", "same mix"), all.of("ensemble", runner)).value;
   };
   std::vector<bar> result;
-  for (const std::string runner :
-       {"ours", "hand-written", "ours, word as data", "odeint packs", "odeint arrays"}) {
+  for (const std::string runner : {"ours", "hand-written", "odeint packs", "odeint arrays"}) {
     result.push_back({runner, share(gnu, runner), share(clang, runner)});
   }
   return result;

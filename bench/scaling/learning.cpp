@@ -116,9 +116,8 @@ void race_learning(const std::deque<first_ranks>& all, std::int64_t trajectories
         size.who->take_part() ? std::make_shared<both>(make_data(size, 1), make_data(size, 2)) : nullptr;
     wait_for_all();
     runners.push_back({row_of("learn", size), size.who, [data_sets, size, &seen] {
-                         const learn_options<nystrom> options{.threads = size.threads};
-                         const auto found =
-                             learn(nystrom{}, chain, data_sets->first, data_sets->second, options);
+                         const auto found = learn(nystrom{}, chain, data_sets->first, data_sets->second,
+                                                  {.threads = size.threads});
                          require_same(seen, size.trajectories, found.summary.loss);
                        }});
   }

@@ -21,7 +21,7 @@ groups = {
     "Scalars and states": "scalar scalars/ phase_point lanes",
     "Systems": "system local_system force energy systems/ model plugin system_declaration",
     "Baths and noise": "bath noise noises/ langevin",
-    "Flows and words": "flow flows/ word run_time_word stepper",
+    "Flows and words": "flow flows/ letters word stepper",
     "Families and methods": "family families/ run_time_family method methods/",
     "Initial states": "ensemble ensembles/ initial_states",
     "References": "reference references/",

@@ -40,7 +40,7 @@ struct spring_pendulum {
 
 int main() {
   // [ask]
-  require_suited<fg_chin, spring_pendulum>();  // compiles to nothing; else a sentence says what is wrong
+  require_suited<spring_pendulum>();  // compiles to nothing; else a sentence says what is wrong
   // [/ask]
   // [data]
   const spring_pendulum system;
@@ -53,10 +53,10 @@ int main() {
   // [/data]
 
   // [learn]
-  const auto [method, fit] = learn(fg_chin{}, system, data, unseen);
-  for (const auto& p : fit.parameters) fmt::print("{} = {:.5f}\n", p.name, p.value);
-  fmt::print("usable: {}\n\n", fit.usable ? "yes" : fit.reason);
-  if (!fit.usable) return 1;
+  const fit found = learn(fg_chin{}, system, data, unseen);
+  for (const auto& p : found.summary.parameters) fmt::print("{} = {:.5f}\n", p.name, p.value);
+  fmt::print("usable: {}\n\n", found.summary.usable ? "yes" : found.summary.reason);
+  if (!found.summary.usable) return 1;
   // [/learn]
 
   // [compare]
@@ -68,18 +68,18 @@ int main() {
   };
   const auto start = starts(3, 0);
   auto finish = start;
-  const auto rival_of = [&](const auto& word, int evaluations) {
-    const auto stepper = make_stepper(system, word, step / 3 * evaluations);
+  const auto rival_of = [&](const tabulated& each, int evaluations) {
+    const auto stepper = make_stepper(system, each, step / 3 * evaluations);
     const auto run = [&, stepper, evaluations] {
       for (int n = 0; n < 1000; ++n) finish = integrate(stepper, start, 120 / evaluations).finish;
     };
-    return rival{tabulated(word), evaluations, run};
+    return rival{each, evaluations, run};
   };
   const double z = std::sqrt(system.stiffness) * step / 3;  // of the spring, an evaluation
-  const std::vector<rival> rivals{rival_of(method.anywhere(), 3),
-                                  rival_of(phase_fitted<fg_chin, chin4a>(3 * z), 3),
-                                  rival_of(phase_fitted<aba<4>, pefrl>(4 * z), 4),
-                                  rival_of(phase_fitted<aba<5>, mclachlan5>(5 * z), 5),
+  const std::vector<rival> rivals{rival_of(found.method.anywhere(), 3),
+                                  rival_of(phase_fitted(fg_chin{}, chin4a{}, 3 * z), 3),
+                                  rival_of(phase_fitted(aba<4>{}, pefrl{}, 4 * z), 4),
+                                  rival_of(phase_fitted(aba<5>{}, mclachlan5{}, 5 * z), 5),
                                   rival_of(chin4a{}, 3),
                                   rival_of(srkn6b{}, 6),
                                   rival_of(pefrl{}, 4),
@@ -91,16 +91,15 @@ int main() {
   fmt::print("{:25}error of q, p on [0, {:.1f}]   ns an evaluation (median)\n", "", 40 * step);
   std::optional<estimate> null_model;  // of what stays where it starts
   for (std::size_t i = 0; i < rivals.size(); ++i) {
-    const auto& [word, evaluations, run] = rivals[i];
-    const std::vector one{word};
-    const auto result = trajectory_errors(system, accurate, starts, one, state_measure(system),
+    const auto& [each, evaluations, run] = rivals[i];
+    const auto result = trajectory_errors(system, accurate, starts, each, state_measure(system),
                                           {.step = step / 3 * evaluations,
                                            .steps = 120 / evaluations,
                                            .trajectories = 100,
                                            .seed = 3,
                                            .null_model = true});
     const auto [error, standard_error] = result.methods[0].error;
-    fmt::print("{:<23}  {:.1e} +- {:.0e}          {:6.1f} ({:.1f}){}\n", word.name(), error, standard_error,
+    fmt::print("{:<23}  {:.1e} +- {:.0e}          {:6.1f} ({:.1f}){}\n", each.name(), error, standard_error,
                seconds[i].least / 120'000 * 1e9, seconds[i].median / 120'000 * 1e9,
                result.methods[0].diverged_at.empty() ? "" : "   some diverged");
     null_model = result.null_model;
@@ -113,7 +112,7 @@ int main() {
     fmt::print("t = {:5.1f}  x = {:+.3f}  H = {:+.4f}\n", t, x.q[0], energy<double>(system, x));
   };
   fmt::print("\n");
-  const auto end = integrate(system, method, step, starts(4, 0), 10'000, watch, 2'500);
+  const auto end = integrate(system, found.method, step, starts(4, 0), 10'000, watch, 2'500);
   fmt::print("after {} steps x = {:+.3f}{}\n", end.steps, end.finish.q[0],
              end.diverged_at ? ", diverged" : "");
   // [/run]

@@ -74,10 +74,8 @@ tabulated repeated(const tabulated& method, int times) {
 
 tabulated thermostat(const tabulated& method, placement where) {
   if (method.validity()) {
-    throw std::invalid_argument(
-        fmt::format("thermostat: the learned method {} is valid for the system that it was learned for; "
-                    "thermostat its anywhere()",
-                    method.name()));
+    throw std::invalid_argument(fmt::format(
+        "thermostat: the method must not be a learned one, got {}; take its anywhere()", method.name()));
   }
   const word letters = thermostatted(method.letters(), where);
   return tabulated(method.name(), letters,

@@ -4,8 +4,8 @@
 
 #include "energy_story.hpp"
 #include "hard_case.hpp"
-#include "nysalt/methods/classical.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/textbook.hpp"
@@ -58,7 +58,7 @@ struct moments {
 /// kT = 1, obabo: its last letter is O.
 moments moments_at(double friction, double z, std::int64_t steps) {
   const oscillator_in_bath system(harmonic_oscillator(1.0), bath::of_temperature(friction / z, 1.0));
-  const auto stepper = make_stepper(system, tabulated(obabo{}), z, counter_noise(7));
+  const auto stepper = make_stepper(system, obabo{}, z, counter_noise(7));
   auto run = stepper.open(at(0.0, 0.0));
   stepper.advance(run, 100);  // forgets where it began: q does so by 1 - z^2/2 a step
   moments sums;
@@ -134,10 +134,9 @@ verdict no_temperature(extent how) {
       return order;
     };
     // A method of order r errs by c h^r (1 + O(h)): with h omega < 1/30 the slope is r to a tenth.
-    const double of_baoab = order_of(tabulated(baoab{}), "baoab");
-    const double of_fourth =
-        order_of(thermostat(tabulated(srkn6b{}), placement::symmetric), "srkn6b_symmetric");
-    const double of_end = order_of(thermostat(tabulated(verlet{}), placement::end), "verlet_end");
+    const double of_baoab = order_of(baoab{}, "baoab");
+    const double of_fourth = order_of(thermostat(srkn6b{}, placement::symmetric), "srkn6b_symmetric");
+    const double of_end = order_of(thermostat(verlet{}, placement::end), "verlet_end");
     result.require(
         std::abs(of_baoab - 2.0) < 0.1 && std::abs(of_fourth - 2.0) < 0.1,
         fmt::format(

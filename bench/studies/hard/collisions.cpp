@@ -107,8 +107,8 @@ verdict into_the_core(extent how) {
         finite = finite && is_finite(x);
       };
       const std::int64_t steps = std::llround(6.0 / std::sqrt(energy) / step) + 4;
-      const auto done = integrate(system, tabulated(verlet{}), step, start, steps, look);
-      if (done.diverged_at != first_bad_step(system, tabulated(verlet{}), step, start, steps)) ++wrong;
+      const auto done = integrate(system, verlet{}, step, start, steps, look);
+      if (done.diverged_at != first_bad_step(system, verlet{}, step, start, steps)) ++wrong;
       if (done.diverged_at) {
         ++named;
       } else if (done.finish.q[2] < done.finish.q[0]) {
@@ -134,7 +134,7 @@ verdict into_the_core(extent how) {
   int harmed = 0;
   for (int m = 0; m < starts; ++m) {
     const auto start = about_to_collide(100.0, 3.0 + 1.5 * m / starts);
-    const auto story = follow(system, tabulated(verlet{}), 0.001, start, 700, "");
+    const auto story = follow(system, verlet{}, 0.001, start, 700, "");
     harmed += story.diverged_at || story.last > 0.001;
   }
   result.require(harmed == 0,
@@ -162,7 +162,7 @@ verdict wells_near_the_edge(extent how) {
   verdict result;
   std::vector<curve> curves;
   const auto run = [&](double step, const char* what) {
-    auto story = follow(chain, tabulated(verlet{}), step, start, std::llround(time / step),
+    auto story = follow(chain, verlet{}, step, start, std::llround(time / step),
                         fmt::format("{}, h = {:.3f}", what, step));
     curves.push_back(story.shown);
     return story;
@@ -190,7 +190,7 @@ verdict wells_near_the_edge(extent how) {
           : fmt::format("h = {:.3f}, 0.9 of the edge of frequency_bands({}): {:.2g} and {:.2g} in the halves",
                         0.9 * 2.0 / usually, of_well, between.early, between.late));
   const auto outside = run(1.1 * 2.0 / 2.0, "1.1 of the edge of the springs");
-  const auto expected = first_bad_step(chain, tabulated(verlet{}), 1.1, start, 10'000);
+  const auto expected = first_bad_step(chain, verlet{}, 1.1, start, 10'000);
   result.require(
       outside.diverged_at && outside.diverged_at == expected,
       fmt::format(

@@ -21,8 +21,8 @@
 #include "nysalt/judgement.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/learning/stability_guard.hpp"
-#include "nysalt/methods/multiple_time_steps.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/multiple_time_steps.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 namespace nysalt::hard {
@@ -99,11 +99,11 @@ outcome what_came_of(const model& system, const tabulated& method, double step, 
 
 /// The guard that learn() would have, which plans for 20,000 steps unless it is asked for another number.
 stability_guard guard_of_learn(const model& system, const flow_map_data& data, const flow_map_data& held_out,
-                               const run_time_word& word) {
+                               const word& letters) {
   constexpr std::int64_t most_steps = 10'000;  // as make_problem() has
   auto [states, typical] = some_states(system, data);
   states.append(some_states(system, held_out).states);
-  return {system, states, word, std::min(fit_options{}.planned_steps, most_steps), typical};
+  return {system, states, letters, std::min(fit_options{}.planned_steps, most_steps), typical};
 }
 
 struct counts {
@@ -153,21 +153,21 @@ struct found_on_class {
   std::vector<std::string> refused;
 };
 
-/// r-RESPA with `inner` fast kicks, as data.
-struct word_as_data {
-  std::string letters;
-  std::vector<double> coefficients;
-};
-word_as_data r_respa_of(int inner) {
-  word_as_data result{"k", {0.5 / inner, 0.5}};
+/// r-RESPA with `inner` fast kicks.
+tabulated r_respa_of(int inner) {
+  std::string letters = "k";
+  std::vector<double> coefficients{0.5 / inner, 0.5};
   for (int i = 0; i < inner; ++i) {
-    result.letters += "A";
-    result.coefficients.push_back(1.0 / inner);
-    result.letters += i + 1 < inner ? "0" : "k";
-    result.coefficients.push_back(i + 1 < inner ? 1.0 / inner : 0.5 / inner);
+    letters += "A";
+    coefficients.push_back(1.0 / inner);
+    letters += i + 1 < inner ? "0" : "k";
+    coefficients.push_back(i + 1 < inner ? 1.0 / inner : 0.5 / inner);
   }
-  result.coefficients.push_back(0.5);
-  return result;
+  coefficients.push_back(0.5);
+  return {fmt::format("r_respa({})", inner),
+          nested_word<0, 1, 2>.with_letters(letters),
+          coefficients,
+          {1, false, false}};
 }
 
 struct range_of_steps {
@@ -195,17 +195,13 @@ found_on_class try_all(const std::string& name, const S& system, const Law& law,
   };
   const auto along = data_at(range.low, 1);
   const auto held_out_along = data_at(range.low, 2);
-  const run_time_word nested(nested_word<0, 1, 2>{}, system);
-  const auto try_one = [&](counts& into, const std::string& method, const run_time_word& word,
-                           const std::vector<double>& coefficients, const stability_guard& guard,
-                           double step) {
-    const std::string objection = guard.objection(word, coefficients, step);
-    const outcome what =
-        what_came_of(erased, tabulated(method, word, coefficients, {1, false, false}), step, starts);
+  const auto try_one = [&](counts& into, const tabulated& method, const stability_guard& guard, double step) {
+    const std::string objection = guard.objection(method.letters(), method.coefficients(), step);
+    const outcome what = what_came_of(erased, method, step, starts);
     const bool grows = what == outcome::grows;
     into.add(what, !objection.empty());
     const auto line = [&] {
-      return fmt::format("{}, {} at {:.4g}, guard: {}", name, method, step,
+      return fmt::format("{}, {} at {:.4g}, guard: {}", name, method.name(), step,
                          objection.empty() ? "none" : objection);
     };
     if (grows && objection.empty()) found.missed.push_back(line());
@@ -215,12 +211,10 @@ found_on_class try_all(const std::string& name, const S& system, const Law& law,
     return count == 1 ? range.low : range.low + (range.high - range.low) * k / (count - 1);
   };
   for (const int n : inner) {
-    const auto [letters, coefficients] = r_respa_of(n);
-    const run_time_word word = nested.with_letters(letters);
-    const stability_guard guard = guard_of_learn(erased, along, held_out_along, word);
+    const tabulated respa = r_respa_of(n);
+    const stability_guard guard = guard_of_learn(erased, along, held_out_along, respa.letters());
     for (int k = 0; k < range.of_r_respa; ++k) {
-      try_one(found.of_r_respa, fmt::format("r_respa({})", n), word, coefficients, guard,
-              spread(k, range.of_r_respa));
+      try_one(found.of_r_respa, respa, guard, spread(k, range.of_r_respa));
     }
   }
   for (int k = 0; k < range.of_learned; ++k) {
@@ -228,12 +222,10 @@ found_on_class try_all(const std::string& name, const S& system, const Law& law,
     const double step = spread(k, range.of_learned);
     const auto data = data_at(step, 1);
     const auto held_out = data_at(step, 2);
-    const auto [method, fit] =
+    const fit learned =
         learn(nested_kicks<0, 1, 4, 2>{}, system, data, held_out, {.random_starts = 4, .guarded = false});
-    const auto all = method.coefficients();
-    const run_time_word word(nested_word<0, 1, 4, 2>{}, system);
-    try_one(found.of_learned, method.name(), word, {all.begin(), all.end()},
-            guard_of_learn(erased, data, held_out, word), step);
+    try_one(found.of_learned, learned.method.anywhere(),
+            guard_of_learn(erased, data, held_out, learned.method.letters()), step);
   }
   return found;
 }

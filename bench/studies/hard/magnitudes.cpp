@@ -79,7 +79,7 @@ verdict overflow(extent) {
   const harmonic_oscillator system(1.0);
   const auto diverged_at = [&](double size, double step) {
     const phase_point<double, 1> start{vector<double, 1>(size), vector<double, 1>(0.0)};
-    return integrate(system, tabulated(verlet{}), step, start, 2'000).diverged_at;
+    return integrate(system, verlet{}, step, start, 2'000).diverged_at;
   };
   const auto sound = diverged_at(1e150, 0.5);
   const auto unstable = diverged_at(1e150, 2.1);
@@ -93,7 +93,7 @@ verdict overflow(extent) {
   const fpu_chain<> chain(2, 1.0);
   const phase_point<double, Eigen::Dynamic> far{Eigen::VectorXd::Constant(4, 1e120),
                                                 Eigen::VectorXd::Zero(4)};
-  const auto quartic = integrate(chain, tabulated(verlet{}), 0.1, far, 100).diverged_at;
+  const auto quartic = integrate(chain, verlet{}, 0.1, far, 100).diverged_at;
   result.require(quartic == 1, "a quartic spring at 1e120, whose force overflows: reported at step 1");
   return result;
 }
@@ -112,12 +112,12 @@ verdict a_million(extent how) {
   // A step carries news over one bond: the middle moves as it does in a chain that is cut so far away that
   // the news of its ends do not arrive.
   const Eigen::Index middle = pairs / 2;
-  const auto whole = integrate(chain, tabulated(verlet{}), h, start, steps).finish;
+  const auto whole = integrate(chain, verlet{}, h, start, steps).finish;
   const auto equal_pairs = [&](Eigen::Index half) {
     const fpu_chain<> cut(2 * half, omega);
     const phase_point<double, Eigen::Dynamic> cut_start{start.q.segment(2 * (middle - half), 4 * half),
                                                         start.p.segment(2 * (middle - half), 4 * half)};
-    const auto x = integrate(cut, tabulated(verlet{}), h, cut_start, steps).finish;
+    const auto x = integrate(cut, verlet{}, h, cut_start, steps).finish;
     int equal = 0;
     for (Eigen::Index k = -5; k < 5; ++k) {
       equal += whole.q[2 * (middle + k)] == x.q[2 * (half + k)] &&
@@ -133,7 +133,7 @@ verdict a_million(extent how) {
   result.require(near < 10, fmt::format("cut right beside them, {} of the ten have other bits", 10 - near));
 
   const auto begin = std::chrono::steady_clock::now();
-  const auto story = follow(chain, tabulated(verlet{}), h, start, steps, "", false, 10);
+  const auto story = follow(chain, verlet{}, h, start, steps, "", false, 10);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   // The stiff springs' share varies by z^2/4/(1 - z^2/4) of itself at most, and the soft ones' by less.
   const double z = h * omega;
@@ -149,9 +149,8 @@ verdict a_million(extent how) {
   const phi4_chain<1> fixed;
   const phi4_chain<> dynamic(1);
   const auto small =
-      integrate(fixed, tabulated(srkn6b{}), 0.1, {vector<double, 1>(1.0), vector<double, 1>(0.5)}, 1000)
-          .finish;
-  const auto same = integrate(dynamic, tabulated(srkn6b{}), 0.1,
+      integrate(fixed, srkn6b{}, 0.1, {vector<double, 1>(1.0), vector<double, 1>(0.5)}, 1000).finish;
+  const auto same = integrate(dynamic, srkn6b{}, 0.1,
                               {Eigen::VectorXd::Constant(1, 1.0), Eigen::VectorXd::Constant(1, 0.5)}, 1000)
                         .finish;
   result.require(small.q[0] == same.q[0] && small.p[0] == same.p[0],

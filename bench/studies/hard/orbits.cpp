@@ -83,7 +83,7 @@ verdict ellipses(const ellipse& orbit, extent how) {
     off = std::max(off, std::abs(angular_momentum(x) - momentum));
     largest_product = std::max(largest_product, x.q.norm() * x.p.norm());
   };
-  integrate(system, tabulated(mclachlan2{}), step, start, steps, look);
+  integrate(system, mclachlan2{}, step, start, steps, look);
   const double rounding = 5.0 * static_cast<double>(steps) * 4.0 * 2.2e-16 * largest_product;
   result.require(
       off <= rounding,
@@ -125,9 +125,9 @@ verdict pericentre_missed(extent) {
             story.diverged_at ? fmt::format("reported as diverged at step {}", *story.diverged_at)
                               : "that is not reported as divergence, which begins at 2000 times here"));
   };
-  try_it(tabulated(verlet{}));
-  try_it(tabulated(mclachlan2{}));
-  const auto sound = follow(system, tabulated(verlet{}), 1e-5, at_apocentre, 1'000'000, "", false, 64);
+  try_it(verlet{});
+  try_it(mclachlan2{});
+  const auto sound = follow(system, verlet{}, 1e-5, at_apocentre, 1'000'000, "", false, 64);
   result.require(!sound.diverged_at && sound.largest < 1.0,
                  fmt::format("at a step of 1e-5 Verlet's energy is off by {:.1e} at most", sound.largest));
   return result;
@@ -188,11 +188,11 @@ verdict escapes(extent how) {
         finite = finite && is_finite(x);
         farthest = std::max(farthest, x.q.norm());
       };
-      const auto done = integrate(system, tabulated(verlet{}), step, start, steps, look);
+      const auto done = integrate(system, verlet{}, step, start, steps, look);
       if (done.diverged_at) ++escaped;
       if (done.diverged_at) soonest = std::min(soonest, *done.diverged_at);
       const auto expected =
-          done.diverged_at ? first_bad_step(system, tabulated(verlet{}), step, start, steps) : std::nullopt;
+          done.diverged_at ? first_bad_step(system, verlet{}, step, start, steps) : std::nullopt;
       if (done.diverged_at != expected) ++wrong;
     }
     into.require(

@@ -100,10 +100,10 @@ verdict absolute_value(extent how) {
   std::string powers;
   bool of_order_one = true;
   const double time = how == extent::quick ? 1'000.0 : 100'000.0;
-  for (const contender& one : {contender{"verlet", tabulated(verlet{})},
-                               {"mclachlan2", tabulated(mclachlan2{})},
-                               {"srkn6b", tabulated(srkn6b{})},
-                               {"srkn11b", tabulated(srkn11b{})}}) {
+  for (const contender& one : {contender{"verlet", verlet{}},
+                               {"mclachlan2", mclachlan2{}},
+                               {"srkn6b", srkn6b{}},
+                               {"srkn11b", srkn11b{}}}) {
     curve against_step{.label = one.label, .x = {0.02, 0.01, 0.005, 0.0025, 0.00125}, .y = {}};
     for (const double per_evaluation : against_step.x) {
       against_step.y.push_back(error_of_crossing(one.method, one.step(per_evaluation)));
@@ -125,15 +125,15 @@ verdict absolute_value(extent how) {
   // h |p| + h^2/2 - 2 q, and q < h |p| + h^2/2.
   const double h = 0.01;
   const double most = h * (std::sqrt(2.0 * (1.0 + 2.0 * h)) + h) + 0.5 * h * h;
-  const double of_verlet = error_of_crossing(tabulated(verlet{}), h);
+  const double of_verlet = error_of_crossing(verlet{}, h);
   result.require(of_verlet <= most,
                  fmt::format("Verlet's at h = 0.01 is {:.4f} at most, its bound h |p| + h^2/2 = {:.4f}",
                              of_verlet, most));
 
   // The same without a kink: the judgement knows an order when it sees one.
   const quartic smooth{1.0, 0.0, 1.0};
-  const double coarse = follow(smooth, tabulated(srkn6b{}), 0.24, on_line(1.0, 0.3), 1000, "").largest;
-  const double fine = follow(smooth, tabulated(srkn6b{}), 0.06, on_line(1.0, 0.3), 4000, "").largest;
+  const double coarse = follow(smooth, srkn6b{}, 0.24, on_line(1.0, 0.3), 1000, "").largest;
+  const double fine = follow(smooth, srkn6b{}, 0.06, on_line(1.0, 0.3), 4000, "").largest;
   const double of_smooth = std::log(coarse / fine) / std::log(4.0);
   result.require(of_smooth > 3.5, fmt::format("in a smooth well srkn6b has the order {:.2f}", of_smooth));
 
@@ -173,11 +173,10 @@ verdict head_on(extent how) {
         last = energy<double>(system, x) - initial;
         finite = finite && is_finite(x) && std::isfinite(last);
       };
-      const auto done = integrate(system, tabulated(verlet{}), step, start, steps, look, 64);
+      const auto done = integrate(system, verlet{}, step, start, steps, look, 64);
       if (done.diverged_at) ++named;
       if (!done.diverged_at && std::abs(last) > 1.0) ++silent;
-      if (done.diverged_at &&
-          done.diverged_at != first_bad_step(system, tabulated(verlet{}), step, start, steps))
+      if (done.diverged_at && done.diverged_at != first_bad_step(system, verlet{}, step, start, steps))
         ++wrong;
     }
     counts += fmt::format("{}h = {:g}: {} and {}", counts.empty() ? "" : "; ", step, named, silent);
@@ -188,11 +187,11 @@ verdict head_on(extent how) {
                   "that is off by more than |H_0| but less than 1000 of it: {}",
                   starts, counts));
   // 1 + h (p - h/2) = 0: the first step lands on the centre itself.
-  const auto on_the_spot = integrate(system, tabulated(verlet{}), 0.5, on_line(1.0, -1.75), 100).diverged_at;
+  const auto on_the_spot = integrate(system, verlet{}, 0.5, on_line(1.0, -1.75), 100).diverged_at;
   result.require(on_the_spot == 1,
                  "a step that lands on the centre itself, where the force is infinite: diverged at "
                  "step 1");
-  const auto leaving = follow(system, tabulated(verlet{}), 1e-2, on_line(1.0, 2.0), 100'000, "");
+  const auto leaving = follow(system, verlet{}, 1e-2, on_line(1.0, 2.0), 100'000, "");
   result.require(!leaving.diverged_at && leaving.largest < 1e-3,
                  fmt::format("thrown outwards faster than it can return: not reported, energy error {:.1e}",
                              leaving.largest));
@@ -211,9 +210,8 @@ verdict without_bottom(extent how) {
       how == extent::quick ? std::vector{1e-2, 1e-3} : std::vector{1e-2, 1e-3, 1e-4, 1e-5};
   for (const double step : steps) {
     const auto many = std::llround(3.0 * end / step);
-    const auto story =
-        follow(steep, tabulated(verlet{}), step, start, many, fmt::format("-q^4, h = {:g}", step));
-    const auto expected = first_bad_step(steep, tabulated(verlet{}), step, start, many);
+    const auto story = follow(steep, verlet{}, step, start, many, fmt::format("-q^4, h = {:g}", step));
+    const auto expected = first_bad_step(steep, verlet{}, step, start, many);
     const double named_at = static_cast<double>(story.diverged_at.value_or(0)) * step;
     // Verlet conserves H + h^2 (p V'' p/12 - V'^2/24) = H - (8/3) h^2 q^6 here, so that H is off by 1000
     // where q^6 = 375/h^2, at end - t = 1/(sqrt 2 q); the next term is (h rate)^2 = 12 h^2 q^2 as large,
@@ -229,9 +227,9 @@ verdict without_bottom(extent how) {
   const quartic cubic{1.0, -1.0, 0.0};  // a well with a pass of height 1/6 at q = 1
   for (const double speed : {0.9, 1.1}) {
     const auto thrown = on_line(0.0, speed * std::sqrt(1.0 / 3.0));
-    const auto story = follow(cubic, tabulated(verlet{}), 0.01, thrown, 100'000,
-                              fmt::format("cubic, {} of the pass", speed));
-    const auto expected = first_bad_step(cubic, tabulated(verlet{}), 0.01, thrown, 100'000);
+    const auto story =
+        follow(cubic, verlet{}, 0.01, thrown, 100'000, fmt::format("cubic, {} of the pass", speed));
+    const auto expected = first_bad_step(cubic, verlet{}, 0.01, thrown, 100'000);
     const bool stays = speed < 1.0;
     result.require(
         story.finite && story.diverged_at == expected && story.diverged_at.has_value() != stays,

@@ -30,8 +30,7 @@ const normal_around<masses> starts({vector<double, masses>::Zero(), vector<doubl
 using learned_word = nested_kicks<0, 1, 4, 2>;
 
 /// Largest |H - H_0| of four trajectories, those that diverge being infinite.
-template <class M>
-double largest_error(const M& method, double step, double time) {
+double largest_error(const tabulated& method, double step, double time) {
   double largest = 0.0;
   for (std::uint64_t n = 0; n < 4; ++n) {
     const auto start = starts(7, n);
@@ -52,7 +51,7 @@ flow_map_data data_at(double step, std::uint64_t seed) {
                             {.step = step, .horizon = 24 * step, .trajectories = 16, .seed = seed});
 }
 
-auto learned_at(double step, bool guarded) {
+fit learned_at(double step, bool guarded) {
   return learn(learned_word{}, chain, data_at(step, 1), data_at(step, 2),
                {.random_starts = 4, .guarded = guarded});
 }
@@ -73,15 +72,14 @@ verdict resonance_of_slow_kicks(extent how) {
   for (std::size_t k = 0; k < along.start.size(); ++k) {
     states.push_back(phase_point<double, Eigen::Dynamic>(along.start[k]));
   }
-  const run_time_word respa_word(r_respa<0, 1, 32>::word{}, chain);
-  const auto respa_coefficients = r_respa<0, 1, 32>::coefficients();
-  const stability_guard guard(erased, states, respa_word);
+  const r_respa<0, 1, 32> respa;
+  const stability_guard guard(erased, states, respa.letters());
   const auto objection_at = [&](double step) {
-    return guard.objection(respa_word, {respa_coefficients.begin(), respa_coefficients.end()}, step);
+    return guard.objection(respa.letters(), respa.coefficients(), step);
   };
   const auto try_at = [&](double step) {
     near.x.push_back(step);
-    near.y.push_back(largest_error(r_respa<0, 1, 32>{}, step, time));
+    near.y.push_back(largest_error(respa, step, time));
     if (!objection_at(step).empty()) {
       refused_near.x.push_back(step);
       refused_near.y.push_back(near.y.back());
@@ -98,7 +96,7 @@ verdict resonance_of_slow_kicks(extent how) {
     for (double step = 1.02 * resonant; step < 0.26; step *= 1.01) try_at(step);
   }
   // Growth by a factor at each step, of many in this time, against a bounded error.
-  const double beside = largest_error(r_respa<0, 1, 32>{}, 1.1 * resonant, time);
+  const double beside = largest_error(respa, 1.1 * resonant, time);
   result.require(
       at_resonance > 100.0 * beside,
       fmt::format("r-RESPA whose slow kicks are one period of the fastest mode apart, {:.3f}: energy "
@@ -115,9 +113,9 @@ verdict resonance_of_slow_kicks(extent how) {
   curve refused{
       .label = "learned, not usable by the guard or the trial run", .x = {}, .y = {}, .points_only = true};
   const auto try_learned = [&](double step, bool must_hold) {
-    const auto [method, fit] = learned_at(step, true);
-    if (!fit.usable) {
-      const auto why = fmt::format("nothing usable was learned at {}: {}", step, fit.reason);
+    const auto [theta, summary, method] = learned_at(step, true);
+    if (!summary.usable) {
+      const auto why = fmt::format("nothing usable was learned at {}: {}", step, summary.reason);
       if (must_hold)
         result.require(false, why);
       else

@@ -203,7 +203,7 @@ verdict windows_of_classical_methods(extent how) {
   const tabulated two_windows = nystrom_with_two_windows();
   const auto windows = stability_windows(two_windows);
   result.show(
-      {ends_of_window(tabulated(verlet{}), stability_windows(tabulated(verlet{})).front(), steps),
+      {ends_of_window(verlet{}, stability_windows(verlet{}).front(), steps),
        ends_of_window(two_windows, windows.at(1), steps)},
       "The ends of the only window of Verlet, and of the second one of the two-stage word (1/2, 0.4): "
       "1 % of the width inside (solid) the energy swings by a fixed factor for ever, 0.1 % outside it "

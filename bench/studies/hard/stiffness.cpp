@@ -50,12 +50,11 @@ verdict resonance(extent how) {
     const std::int64_t steps = std::llround(time / h);
     const auto start = fpu_law<3>(system)(1, 0);
     const auto learned = learned_r_aba4_at_resonance(k);
-    auto resonant = follow(system, tabulated(impulse{}), h, start, steps, "impulse");
-    auto beside =
-        follow(system, tabulated(impulse{}), h * (1.0 + 0.15 / k), start, steps, "impulse, 0.15 pi beside");
+    auto resonant = follow(system, impulse{}, h, start, steps, "impulse");
+    auto beside = follow(system, impulse{}, h * (1.0 + 0.15 / k), start, steps, "impulse, 0.15 pi beside");
     auto word = follow(system, learned, h, start, steps, "learned r_aba4", true);
     const double of_word = largest_magnification(learned, k * std::numbers::pi, h, steps);
-    const double of_impulse = largest_magnification(tabulated(impulse{}), k * std::numbers::pi, h, steps);
+    const double of_impulse = largest_magnification(impulse{}, k * std::numbers::pi, h, steps);
     result.require(
         word.finite && !word.diverged_at && word.largest <= 0.1 * resonant.largest && of_word <= 1.1,
         fmt::format("h omega = {} pi, learned r_aba4: energy error {:.1e} and {:.1e} in the halves of a time "
@@ -121,10 +120,9 @@ verdict very_stiff(extent how) {
   for (const double omega : {1e3, 1e4}) {
     const chain system(omega);
     const auto start = fpu_law<3>(system)(1, 0);
-    const double of_exact = exchanged(system, tabulated(srkn11b{}), 0.4 / omega, start, 2e3 / omega);
-    const double of_impulse = exchanged(system, tabulated(impulse{}), h, start, time);
-    auto rotated =
-        follow(system, tabulated(impulse{}), h, start, std::llround(time / h), "impulse, h = 0.02", true);
+    const double of_exact = exchanged(system, srkn11b{}, 0.4 / omega, start, 2e3 / omega);
+    const double of_impulse = exchanged(system, impulse{}, h, start, time);
+    auto rotated = follow(system, impulse{}, h, start, std::llround(time / h), "impulse, h = 0.02", true);
     result.require(rotated.has_no_trend(),
                    fmt::format("omega = {:g}: impulse at h omega = {:g} has the energy error {:.1e}; the "
                                "stiff energy varies by {:.1e}, "
@@ -135,15 +133,14 @@ verdict very_stiff(extent how) {
     // z^2/4).
     const double z = 0.1;
     const double bound = 0.25 * z * z / (1.0 - 0.25 * z * z);
-    auto plain = follow(system, tabulated(verlet{}), z / omega, start,
+    auto plain = follow(system, verlet{}, z / omega, start,
                         std::llround((how == extent::quick ? 2e3 : 2e5) / z), "verlet, h omega = 0.1");
     result.require(
         !plain.diverged_at && plain.largest <= bound,
         fmt::format("Verlet at h omega = 0.1: energy error {:.1e}, bound {:.1e}", plain.largest, bound));
-    const auto at_once = integrate(system, tabulated(verlet{}), h, start, 100).diverged_at;
-    result.require(
-        at_once == first_bad_step(system, tabulated(verlet{}), h, start, 100) && at_once.has_value(),
-        fmt::format("Verlet at 0.02 diverges at step {}", at_once.value_or(-1)));
+    const auto at_once = integrate(system, verlet{}, h, start, 100).diverged_at;
+    result.require(at_once == first_bad_step(system, verlet{}, h, start, 100) && at_once.has_value(),
+                   fmt::format("Verlet at 0.02 diverges at step {}", at_once.value_or(-1)));
     panels.push_back(
         energy_panel(fmt::format("omega = {:g}", omega), {std::move(rotated.shown), std::move(plain.shown)}));
   }
@@ -164,7 +161,7 @@ verdict strong_soft_springs(extent how) {
   const double per_evaluation = 0.5 / fastest;
   std::string errors;
   auto all = side_by_side(learned_fg4_for_fpu());
-  all.push_back({"impulse", tabulated(impulse{})});
+  all.push_back({"impulse", impulse{}});
   all.push_back({"learned r_aba4", learned_r_aba4_at_resonance(1), true});
   bool bounded = true;
   for (const auto& one : all) {
@@ -177,11 +174,10 @@ verdict strong_soft_springs(extent how) {
   result.require(bounded, fmt::format("at {:.4f} per evaluation, z = 1/2 of the band of this energy: {}",
                                       per_evaluation, errors));
   const double trap = 1.9 / ordinary;
-  const auto trapped = follow(system, tabulated(verlet{}), trap, start, std::llround(time / trap), "");
+  const auto trapped = follow(system, verlet{}, trap, start, std::llround(time / trap), "");
   result.require(
       trapped.diverged_at.has_value() &&
-          trapped.diverged_at ==
-              first_bad_step(system, tabulated(verlet{}), trap, start, std::llround(time / trap)),
+          trapped.diverged_at == first_bad_step(system, verlet{}, trap, start, std::llround(time / trap)),
       fmt::format("Verlet at z = 1.9 by the band of ordinary starts, {:.2f} by that of this energy: {}",
                   trap * fastest,
                   trapped.diverged_at ? fmt::format("diverged at step {}", *trapped.diverged_at)

@@ -8,28 +8,23 @@
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/s_aia.hpp"
+#include "nysalt/run_time_family.hpp"
 
 namespace nysalt::hard {
 
 namespace {
 
 template <Family F>
-tabulated at(const parameters_of<F>& theta) {
-  return tabulated(member<F>(theta));
+tabulated at(const std::vector<double>& theta) {
+  return member(F(), theta);
 }
 
 }  // namespace
 
 std::vector<tabulated> classical_words() {
-  return {tabulated(verlet{}),     tabulated(verlet_aba{}),
-          tabulated(verlet_2x{}),  tabulated(mclachlan2{}),
-          tabulated(bcss2{}),      tabulated(s_aia2(2.0)),
-          tabulated(bcss3{}),      tabulated(forest_ruth{}),
-          tabulated(pefrl{}),      tabulated(mclachlan_atela4{}),
-          tabulated(mclachlan5{}), tabulated(blanes_moan_s6{}),
-          tabulated(srkn6b{}),     tabulated(srkn11b{}),
-          tabulated(srkn14a{}),    tabulated(takahashi_imada{}),
-          tabulated(chin4a{})};
+  return {verlet{}, verlet_aba{},  verlet_2x{}, mclachlan2{},       bcss2{},      s_aia2(2.0),
+          bcss3{},  forest_ruth{}, pefrl{},     mclachlan_atela4{}, mclachlan5{}, blanes_moan_s6{},
+          srkn6b{}, srkn11b{},     srkn14a{},   takahashi_imada{},  chin4a{}};
 }
 
 tabulated nystrom_with_two_windows() { return at<nystrom>({0.5, 0.4}); }
@@ -74,10 +69,10 @@ std::vector<tabulated> learned_words() {
 }
 
 std::vector<contender> side_by_side(const tabulated& learned) {
-  return {{"verlet", tabulated(verlet{})},
-          {"mclachlan2", tabulated(mclachlan2{})},
-          {"srkn6b", tabulated(srkn6b{})},
-          {"srkn11b", tabulated(srkn11b{})},
+  return {{"verlet", verlet{}},
+          {"mclachlan2", mclachlan2{}},
+          {"srkn6b", srkn6b{}},
+          {"srkn11b", srkn11b{}},
           {"learned fg4", learned, true}};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The methods that are tried, as data.
+// The methods that are tried.
 #pragma once
 
 #include <string>

@@ -46,10 +46,10 @@ std::pair<tabulated, bool> fitted(const small_target& small, double step, const 
   const auto data = make_flow_map_data(small.of.system, small.of.starts, reference, training);
   const auto unseen = make_flow_map_data(small.of.system, small.of.starts, reference, others);
   const auto found = learn(bab<Drifts>{}, small.of.system, data, unseen,
-                           {.threads = options.threads,
-                            .loss = loss_named("acceptance"),
-                            .planned_steps = static_cast<std::int64_t>(4.0 * whole)});
-  return {tabulated(found.method.anywhere()), found.summary.usable};
+                           {.loss = loss_named("acceptance"),
+                            .planned_steps = static_cast<std::int64_t>(4.0 * whole),
+                            .threads = options.threads});
+  return {found.method.anywhere(), found.summary.usable};
 }
 
 std::pair<tabulated, bool> fitted(int drifts, const small_target& small, double step,

@@ -46,7 +46,7 @@ Eigen::VectorXd after_masses(Eigen::Index size, double condition, const extent& 
     frequencies[i] = std::pow(condition, 0.5 * (u - 0.5));
   }
   const target of = target_of(frequencies);
-  const auto found = hmc(of.system, tabulated(mclachlan2{}), of.starts,
+  const auto found = hmc(of.system, mclachlan2{}, of.starts,
                          {.step = 0.5,
                           .length = 1.5,
                           .burn_in = 1000,
@@ -82,11 +82,7 @@ Eigen::VectorXd log_normal(Eigen::Index size, double deviation) {
 }
 
 std::vector<contender> classical_words() {
-  return {{tabulated(verlet{}), 0.14},
-          {tabulated(mclachlan2{}), 0.9},
-          {tabulated(bcss3{}), 1.0},
-          {tabulated(bcss4{}), 3.0},
-          {tabulated(omelyan5v{}), 2.0}};
+  return {{verlet{}, 0.14}, {mclachlan2{}, 0.9}, {bcss3{}, 1.0}, {bcss4{}, 3.0}, {omelyan5v{}, 2.0}};
 }
 
 /// Steps at an acceptance of 0.9 only, of words that were learned for each spread.

@@ -28,7 +28,7 @@ target thermal(Eigen::Index side, std::int64_t chains, std::int64_t draws, const
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(side * side);
   const normal_around<Eigen::Dynamic> cold({rest, rest}, 0.4, 1.0);
   std::vector<Eigen::VectorXd> positions(static_cast<std::size_t>(chains * draws));
-  hmc(system, tabulated(omelyan5v{}), cold,
+  hmc(system, omelyan5v{}, cold,
       {.step = 0.1,
        .length = 0.5,
        .chains = chains,
@@ -139,11 +139,11 @@ void add_lattice(const extent& how, page& to, table& rows) {
   const target large = thermal(side, 8, 4, how);
   const contest_options typical{.length = 0.5, .threads = how.threads};
 
-  std::vector<contender> words{{tabulated(verlet{}), 0.016},
-                               {tabulated(mclachlan2{}), 0.05},
-                               {tabulated(bcss4{}), 0.1},
-                               {tabulated(omelyan5v{}), 0.23},
-                               {tabulated(chin4a_displaced{}), 0.13}};
+  std::vector<contender> words{{verlet{}, 0.016},
+                               {mclachlan2{}, 0.05},
+                               {bcss4{}, 0.1},
+                               {omelyan5v{}, 0.23},
+                               {chin4a_displaced{}, 0.13}};
   for (const auto& [drifts, guess] : {std::pair{5, 0.28}, {6, 0.36}}) {
     say(fmt::format("learning bab{}", drifts));
     const auto found = learned_bab(drifts, small, guess, typical);

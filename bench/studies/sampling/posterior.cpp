@@ -18,7 +18,7 @@ statistic squares_by(const target& of, double step, const contest_options& optio
   const Eigen::Index n = size(of.system);
   std::vector<Eigen::VectorXd> first(chains, Eigen::VectorXd::Zero(n));
   std::vector<Eigen::VectorXd> second = first;
-  hmc(of.system, tabulated(bcss3{}), of.starts,
+  hmc(of.system, bcss3{}, of.starts,
       {.step = step,
        .length = options.length,
        .chains = chains,
@@ -51,13 +51,10 @@ void add_posterior(const extent& how, page& to, table& rows) {
   target of{system, normal_around<Eigen::Dynamic>({rest, rest}, 0.1, 1.0)};
   const contest_options typical{.length = 0.2, .pilot = 400, .threads = how.threads};
   say("pilot chains of the posterior");
-  const double pilot_step = step_with_error(of, tabulated(bcss3{}), 0.1, energy_error_at(0.95), typical);
-  of.starts = reached_by(of, tabulated(bcss3{}), pilot_step, 16, 200, 40, typical);
+  const double pilot_step = step_with_error(of, bcss3{}, 0.1, energy_error_at(0.95), typical);
+  of.starts = reached_by(of, bcss3{}, pilot_step, 16, 200, 40, typical);
   const statistic measured = squares_by(of, pilot_step, typical, how.quick ? 2000 : 12'000);
-  std::vector<contender> words{{tabulated(verlet{}), 0.05},
-                               {tabulated(mclachlan2{}), 0.1},
-                               {tabulated(bcss3{}), 0.15},
-                               {tabulated(omelyan5v{}), 0.2}};
+  std::vector<contender> words{{verlet{}, 0.05}, {mclachlan2{}, 0.1}, {bcss3{}, 0.15}, {omelyan5v{}, 0.2}};
   say("learning bab3");
   const auto learned = learned_bab(3, {of, 1.0}, 0.18, typical);
   words.push_back({learned.word, learned.step});
