@@ -28,8 +28,26 @@ function(agree_with_users library)
   endforeach()
 endfunction()
 
+# A source that holds the files of share/exports, so that programs and modules need no folder of nysalt.
+function(embed_templates source)
+  file(GLOB templates CONFIGURE_DEPENDS share/exports/*.in)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${templates})
+  list(LENGTH templates NYSALT_TEMPLATE_COUNT)
+  set(NYSALT_TEMPLATES "")
+  foreach(template IN LISTS templates)
+    cmake_path(GET template FILENAME name)
+    file(READ ${template} text)
+    string(APPEND NYSALT_TEMPLATES "    {\"${name}\", R\"template(${text})template\"},\n")
+  endforeach()
+  configure_file(src/nysalt/exports/bundled_templates.cpp.in ${source} @ONLY)
+endfunction()
+
 function(compile_library)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS src/nysalt/*.cpp)
+  set(templates ${CMAKE_CURRENT_BINARY_DIR}/exports/bundled_templates.cpp)
+  embed_templates(${templates})
+  set_source_files_properties(${templates} PROPERTIES INCLUDE_DIRECTORIES ${CMAKE_CURRENT_SOURCE_DIR}/src/nysalt/exports)
+  list(APPEND sources ${templates})
   add_library(nysalt_objects OBJECT EXCLUDE_FROM_ALL ${sources})
   # Of the shared library users see names of nysalt, and nothing of what it has of Eigen and others: a list for
   # the linker says so, and not the compiler, as the static library is made of the same objects.

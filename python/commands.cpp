@@ -137,17 +137,18 @@ py::dict method(const std::string& text, const std::string& name, const py::obje
 /// The text of `nysalt export`.
 std::string export_method(const py::dict& arguments) {
   const argument_reader asked(arguments);
-  std::string method, host;
+  std::string method, host, template_file;
   held_methods held;
   program::export_request how;
   asked.take("method", method);
   asked.take("to", host);
+  asked.take("template", template_file);
   asked.take("held", held);
   asked.take("name", how.name);
   asked.take("step", how.step);
   asked.take("placement", how.placement);
   asked.take("displaced", how.displaced);
-  return program::export_text(host, program::exported_from(program::find_method(method, held), how));
+  return program::export_text(host, template_file, program::exported_from(program::find_method(method, held), how));
 }
 
 void save(const std::string& path, const std::string& text) {

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Messages of exceptions, collected from the sources: messages.py --check | --update.
 
-docs/run-time-messages.md lists the text of every throw and refusal in include, src and python, by form. --update writes
+docs/run-time-messages.md lists the text of every throw and refusal in include, src, python and share, by form. --update writes
 the lists, --check says whether they differ from the sources, and which messages have no form. A `{}` is a value.
 """
 import argparse
@@ -82,8 +82,14 @@ def thrown(code):
     return found
 
 
+def refused(template):
+    """The messages in the head of an export template: `require CONDITION: MESSAGE`."""
+    head = template.partition("\n---\n")[0]
+    return ["export: " + re.sub(r"@\w+@", "{}", text) for text in re.findall(r"^require [^:]*: (.*)$", head, re.MULTILINE)]
+
+
 def messages(folder):
-    """{text: name of the first file with it} of the sources below a folder."""
+    """{text: name of the first file with it} of the sources and export templates below a folder."""
     found = {}
     for top in ("include", "src", "python"):
         for path in sorted((folder / top).rglob("*")):
@@ -92,6 +98,9 @@ def messages(folder):
                 for _, text in thrown(path.read_text()):
                     if text not in parts_of_messages.get(name, ()):
                         found.setdefault(text, name)
+    for path in sorted((folder / "share" / "exports").glob("*.in")):
+        for text in refused(path.read_text()):
+            found.setdefault(text, path.relative_to(folder).as_posix())
     return found
 
 
@@ -102,7 +111,7 @@ def form_of(text):
 
 def area_of(name):
     """The part of the project that a message comes from, as a heading."""
-    if name.startswith(("include/", "src/nysalt/")):
+    if name.startswith(("include/", "src/nysalt/", "share/")):
         return "The library"
     return "The Python module" if name.startswith("python/") else "The program"
 

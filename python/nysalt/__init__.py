@@ -491,20 +491,21 @@ def integrate(system: System, method: Method, step: float, q: Any, p: Any, steps
     return to_q, to_p
 
 
-def export(method: Method, to: str, *, name: Optional[str] = None, step: Optional[float] = None,
-           placement: Optional[str] = None, displaced: Optional[bool] = None) -> str:
+def export(method: Method, to: Optional[str] = None, *, template: Union[str, "_os.PathLike[str]", None] = None,
+           name: Optional[str] = None, step: Optional[float] = None, placement: Optional[str] = None,
+           displaced: Optional[bool] = None) -> str:
     """The method as source for another language or code: the text that `nysalt export` writes.
 
     `to` is a language or code: "c", "cpp", "fortran", "python", "julia", "jax", "odeint", "sundials", "ordinarydiffeq",
-    "ase", "openmm", "lammps", "rebound", "blackjax", "mici", "gpt", "grid", "chroma", "tmlqcd" or "openqcd"; `name` is
-    the identifier in the text. `step` is of a scheme over several steps, `placement` ("end", "symmetric", "middle") of
-    letters O in a method without them. displaced=True makes displaced kicks of gradient kicks, which
-    are not symplectic. The text has a self-test.
+    "ase", "openmm", "lammps", "rebound", "blackjax", "mici", "gpt", "grid", "chroma", "tmlqcd" or "openqcd"; instead,
+    `template` is the file of a template for a host of your own. `name` is the identifier in the text. `step` is of a
+    scheme over several steps, `placement` ("end", "symmetric", "middle") of letters O in a method without them.
+    displaced=True makes displaced kicks of gradient kicks, which are not symplectic. The text has a self-test.
     """
     _require_values(export, locals())
     (label,), held = _held_by_name([method])
-    return _nysalt.export(dict(method=label, to=to, held=held, name=name, step=step, placement=placement,
-                               displaced=displaced))
+    return _nysalt.export(dict(method=label, to=to, template=_path(template), held=held, name=name, step=step,
+                               placement=placement, displaced=displaced))
 
 
 def compare(system: System, methods: Union[Method, Iterable[Method]] = "all", steps: Numbers = (), *,

@@ -7,11 +7,20 @@
 
 #include "did_you_mean.hpp"
 #include "nysalt/method.hpp"
+#include "inputs.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
 
 namespace {
+
+/// The text for a host that the file is a template of.
+std::string text_by_template(const std::string& file, const export_source& source) {
+  constexpr std::size_t longest = std::size_t{1} << 16U;
+  const std::string text = contents_of(file, longest, "a template");
+  if (text.size() > longest) refuse("{} must be a template, at most {} bytes long", file, longest);
+  return export_by_template(text, file, source.method, source.options);
+}
 
 /// At the step that was asked for, or the only one.
 double step_of(const method_source& source, const export_request& request) {
@@ -106,15 +115,23 @@ export_source exported_from(const method_source& source, const export_request& r
   return result;
 }
 
-std::string export_text(const std::string& host, const export_source& source) {
+std::string export_text(const std::string& host, const std::string& template_file,
+                        const export_source& source) {
+  if (host.empty() == template_file.empty()) {
+    refuse(
+        "export: --to or --template must be given, and not both, got {}; nysalt export --help shows all "
+        "hosts",
+        host.empty() ? "neither" : "both");
+  }
   std::vector<std::string> names;
   for (const auto& one : export_hosts()) names.emplace_back(one.name);
-  if (std::ranges::find(names, host) == names.end()) {
+  if (template_file.empty() && std::ranges::find(names, host) == names.end()) {
     refuse("export: --to must be a host that is known, got '{}': {}", host,
            did_you_mean(host, names, "nysalt export --help shows all"));
   }
   try {
-    return export_to(host, source.method, source.options);
+    if (template_file.empty()) return export_to(host, source.method, source.options);
+    return text_by_template(template_file, source);
   } catch (const std::invalid_argument& problem) {
     throw refusal(problem.what());
   }

@@ -28,7 +28,10 @@ struct export_source {
 /// step at which a scheme was not learned.
 export_source exported_from(const method_source& source, const export_request& request);
 
-/// The text for a host. Throws refusal for an unknown host, and where the host cannot take the method.
-std::string export_text(const std::string& host, const export_source& source);
+/// The text for a host, or by the template in a file; one of the two is given, and the other one is empty.
+/// Throws refusal for an unknown host, for what is not the language of templates, and where the host cannot
+/// take the method.
+std::string export_text(const std::string& host, const std::string& template_file,
+                        const export_source& source);
 
 }  // namespace nysalt::program

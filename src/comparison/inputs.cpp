@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "inputs.hpp"
 
+#include <fstream>
 #include <mutex>
 #include <set>
 #include <string>
@@ -46,6 +47,18 @@ void note_input(const std::filesystem::path& file) {
   require_readable(file);
   const std::lock_guard lock(guard);
   all().insert(whole(file));
+}
+
+std::string contents_of(const std::filesystem::path& file, std::size_t longest, std::string_view what) {
+  std::error_code ignored;
+  note_input(file);
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file, ignored))
+    refuse("cannot read {}: there is no readable file of this name; name {}", file.string(), what);
+  std::string text(longest + 1, '\0');
+  stream.read(text.data(), std::ssize(text));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
 }
 
 void forget_inputs() {

@@ -2,7 +2,10 @@
 // Files that were read: no result may take the place of one.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace nysalt::program {
@@ -16,6 +19,10 @@ bool is_there(const std::filesystem::path& file);
 
 /// Notes a file that is about to be read, which must be readable. Thread-safe.
 void note_input(const std::filesystem::path& file);
+
+/// Notes a file and reads it; of what is longer than `longest` the first longest + 1 bytes. Throws refusal,
+/// which says to name `what`, for a file that cannot be read.
+std::string contents_of(const std::filesystem::path& file, std::size_t longest, std::string_view what);
 
 /// Forgets the files noted so far, where a process begins with another command line. Thread-safe.
 void forget_inputs();

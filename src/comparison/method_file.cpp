@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,18 +25,6 @@
 namespace nysalt::program {
 
 namespace {
-
-std::string contents_of(const std::filesystem::path& path) {
-  std::error_code ignored;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path, ignored)) {
-    refuse("cannot read {}: there is no readable file of this name; name a scheme or a table", path.string());
-  }
-  std::string text(longest_method_file + 1, '\0');
-  stream.read(text.data(), std::ssize(text));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
-}
 
 /// Runs f; what the library refuses in it gets the file's name.
 auto in_file(const std::string& file, const auto& f) {
@@ -368,8 +355,8 @@ std::string source_of_system(const json& parameters) {
 }
 
 method_file read_method_file(const std::filesystem::path& path, const std::vector<letter_facts>& of_system) {
-  note_input(path);
-  return method_file_in(contents_of(path), path.string(), of_system);
+  return method_file_in(contents_of(path, longest_method_file, "a scheme or a table"), path.string(),
+                        of_system);
 }
 
 method_file method_file_in(const std::string& text, const std::string& file,

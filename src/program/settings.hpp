@@ -140,8 +140,9 @@ struct new_command {
 
 struct export_command {
   std::string method;
-  std::string host;
-  std::string output;  // empty: standard output
+  std::string host;           // empty: by a template
+  std::string template_file;  // empty: for a host
+  std::string output;         // empty: standard output
   export_request how;
 };
 

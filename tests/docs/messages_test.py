@@ -104,6 +104,10 @@ class ThrownInACopy(unittest.TestCase):
         self.assertEqual(self.read('// throw refusal("a b")\nauto a = f("one two");\nrefuse("key");\nrefuse(text);\n'
                                    'throw std::logic_error("not for users");\n'), {})
 
+    def test_heads_of_export_templates_are_read(self):
+        self.assertEqual(messages.refused("what: a: b\nrequire has A and two_stage: x must be y, got @method@; z\n---\nrequire b: c\n"),
+                         ["export: x must be y, got {}; z"])
+
     def test_forms(self):
         for form, texts in {
             "value": ("--steps must hold different steps, got {} twice", "{} must not be read"),

@@ -52,6 +52,7 @@ def commands_of_file(name):
     yield "method", ["run", "--method", name, "--step", "0.01", "--horizon", "0.1", "--threads", "1"]
     yield "method in a race", ["compare", "--methods", f"verlet,{name}", "--steps", "0.1", "--trajectories", "2", "--threads", "1"]
     yield "method to export", ["export", name, "--to", "c"]
+    yield "template", ["export", "verlet", "--template", name]
     yield "stability", ["stability", "--method", name]
     yield "starts", [*RUN, "--start", name]
     yield "data", [*RUN, "--system", "logistic_regression", "--data", name]

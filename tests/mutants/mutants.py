@@ -418,14 +418,14 @@ mutant(107, "a force that is not the slope of its potential is accepted", "src/c
 mutant(108, "a plug-in is compiled once, whatever its source says", "src/plugin/build.cpp", "smoke programs",
        ("return name_of(beginning + contents) + \".so\";",
         "return name_of(MUTANT ? beginning : beginning + contents) + \".so\";"))
-mutant(13, "coefficients are exported with 15 digits", LIBRARY + "exports/fill.cpp", "programs methods",
+mutant(13, "coefficients are exported with 15 digits", LIBRARY + "exports/placeholders.cpp", "programs methods",
        ("std::string text = fmt::format(\"{}\", value);",
         "std::string text = MUTANT ? fmt::format(\"{:.15g}\", value) : fmt::format(\"{}\", value);"))
 mutant(109, "exported to C, the noise of the bath is multiplied by the root of the inverse mass",
-       LIBRARY + "exports/c.cpp", "programs smoke",
-       ("  return fill(R\"(@HEADER@//",
-        "  for (auto& [key, text] : values) {\n    const auto at = text.find(\"spread / sqrt\");\n"
-        "    if (MUTANT && at != std::string::npos) text[at + 7] = '*';\n  }\n  return fill(R\"(@HEADER@//"))
+       LIBRARY + "exports/export_to.cpp", "programs smoke",
+       ("  return written(pieces, {exported, host});",
+        "  std::string text = written(pieces, {exported, host});\n  const auto at = text.find(\"spread / sqrt\");\n"
+        "  if (MUTANT && at != std::string::npos) text[at + 7] = '*';\n  return text;"))
 mutant(110, "a gradient kick is exported as a displaced kick of half the displacement",
        LIBRARY + "exports/exported_method.cpp", "programs methods",
        ("c[slot + 1] *= 2.0 / c[slot];", "c[slot + 1] *= (MUTANT ? 1.0 : 2.0) / c[slot];"))

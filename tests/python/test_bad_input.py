@@ -75,6 +75,8 @@ CASES = [
     (lambda: nysalt.compare(PENDULUM, "verlet", 0.1, metric=()), "metric must be one or more, got none"),
     (lambda: nysalt.recommend(PENDULUM, 5), "budget"),
     (lambda: nysalt.export("chin4a", "c"), "displaced"),
+    (lambda: nysalt.export("verlet"), "to or template must be given, and not both, got neither"),
+    (lambda: nysalt.export("verlet", template=__file__), "test_bad_input.py:"),
     (lambda: PENDULUM.energy([1.0], "p"), "p must hold real numbers, got text"),
     (lambda: PENDULUM.force([1j]), "q must hold real numbers, got complex ones"),
     (lambda: PENDULUM.force([None]), "q must hold real numbers, got objects"),

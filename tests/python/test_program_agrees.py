@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Documents, samples, scheme files and exported methods are those of the program."""
 import json
+import pathlib
 import warnings
 
 import numpy as np
@@ -210,6 +211,14 @@ def test_a_text_is_that_of_the_program(program):
     for host in ("c", "python", "mici"):
         assert nysalt.export("srkn6b", host) == program("export", "srkn6b", "--to", host)["text"]
     assert nysalt.export("chin4a", "c", displaced=True) == program("export", "chin4a", "--to", "c", "--displaced")["text"]
+
+
+def test_a_text_by_a_template_is_that_of_the_program(program):
+    unrolled = pathlib.Path(__file__).parents[2] / "examples" / "unrolled.c.in"
+    text = nysalt.export("srkn6b", template=unrolled)
+    assert text == program("export", "srkn6b", "--template", str(unrolled))["text"]
+    assert "static void srkn6b_step(" in text
+    assert nysalt.export("baoab", template=str(unrolled)) != text
 
 
 def test_a_learned_method_steps_as_here():

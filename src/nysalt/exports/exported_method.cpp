@@ -4,96 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "fill.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt::detail {
-
-namespace {
-
-/// Coefficients of schemes are sums, whose rounding differs.
-bool is_equal(double a, double b) {
-  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
-  return std::abs(a - b) <= rounding;
-}
-
-}  // namespace
-
-exported_letters composition_in_bath_of(const exported_method& method, const std::string& host) {
-  const exported_letters all = kernel_of(method);
-  if (method.method.letters().is_processed()) {
-    refuse_export(
-        "export: the method for {} must be a list of letters, got {} with a processor; export to c, cpp, "
-        "fortran, python or julia, or take the method without the processor",
-        host, method.method.name());
-  }
-  if (all.count('D') > 0) {
-    refuse_export(
-        "export: the method for {} must be drifts and kicks, got {} with a displaced kick; take a method of "
-        "the letters A and B (nysalt list)",
-        host, method.method.name());
-  }
-  exported_letters result;
-  for (std::size_t i = 0; i < all.letters.size(); ++i) {
-    if (all.coefficients[i] == 0.0) continue;
-    const bool joins = !result.letters.empty() && result.letters.back() == all.letters[i];
-    if (joins && all.letters[i] != 'O') {
-      result.coefficients.back() += all.coefficients[i];
-    } else {
-      result.letters += all.letters[i];
-      result.coefficients.push_back(all.coefficients[i]);
-    }
-  }
-  return result;
-}
-
-exported_letters composition_of(const exported_method& method, const std::string& host) {
-  if (has_bath(method)) {
-    refuse_export(
-        "export: the method for {} must be drifts and kicks, got {} with letters O, of a bath; take the "
-        "method without a bath, or export to c, cpp, fortran, python, julia, jax, ase, openmm or lammps",
-        host, method.method.name());
-  }
-  return composition_in_bath_of(method, host);
-}
-
-bool is_palindrome(const exported_letters& word) {
-  const std::size_t n = word.letters.size();
-  for (std::size_t i = 0; i < n / 2; ++i) {
-    if (word.letters[i] != word.letters[n - 1 - i]) return false;
-    if (!is_equal(word.coefficients[i], word.coefficients[n - 1 - i])) return false;
-  }
-  return n % 2 == 1;
-}
-
-std::pair<std::vector<double>, std::vector<double>> in_stages(const exported_letters& word, char first) {
-  std::vector<double> firsts, seconds;
-  for (std::size_t i = 0; i < word.letters.size(); ++i) {
-    const bool is_first = word.letters[i] == first;
-    if (is_first || i == 0) {
-      firsts.push_back(0.0);
-      seconds.push_back(0.0);
-    }
-    (is_first ? firsts : seconds).back() = word.coefficients[i];
-  }
-  return {firsts, seconds};
-}
-
-double two_stage_lambda(const exported_method& method, const std::string& host) {
-  const exported_letters word = composition_of(method, host);
-  const auto& c = word.coefficients;
-  if (word.letters != "BABAB" || !is_palindrome(word) || !is_equal(c[1], 0.5) ||
-      !is_equal(2.0 * c[0] + c[2], 1.0)) {
-    refuse_export(
-        "export: the method for {} must be B(lambda) A(1/2) B(1 - 2 lambda) A(1/2) B(lambda), given by one "
-        "number, lambda, got {} with the letters {}; learn bab2, or take mclachlan2v or bcss2v",
-        host, method.method.name(), word.letters);
-  }
-  return c[0];
-}
 
 namespace {
 
@@ -148,6 +63,16 @@ void require_known(const exported_method& method, const std::string& letters) {
       method.method.name(), letter);
 }
 
+exported_word with_coefficients(const std::string& letters, const std::vector<double>& all) {
+  exported_word result;
+  std::size_t slot = 0;
+  for (const char letter : letters) {
+    result.push_back({letter, all[slot++]});
+    if (letter == 'D') result.back().d = all[slot++];
+  }
+  return result;
+}
+
 self_test end_of(const auto& stepper) {
   phase_point<double, 2> x;
   x.q << 0.3, 0.2;
@@ -160,28 +85,52 @@ self_test end_of(const auto& stepper) {
 
 }  // namespace
 
-std::size_t exported_letters::count(char letter) const {
-  return static_cast<std::size_t>(std::ranges::count(letters, letter));
-}
-
-exported_letters kernel_of(const exported_method& method) {
+exported_word kernel_of(const exported_method& method) {
   const run_time_word& word = method.method.letters();
-  const auto all = method.method.coefficients();
   const std::string letters = word.letters().substr(0, word.length);
   require_known(method, letters);
-  return {letters, {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(word.kernel_slots)}};
+  return with_coefficients(letters, method.method.coefficients());
 }
 
-exported_letters start_of(const exported_method& method) {
+exported_word start_of(const exported_method& method) {
   const run_time_word& word = method.method.letters();
   if (!word.is_processed()) return {};
-  return {pre_processor(word).letters(), pre_processor_coefficients(word, method.method.coefficients())};
+  return with_coefficients(pre_processor(word).letters(),
+                           pre_processor_coefficients(word, method.method.coefficients()));
 }
 
-exported_letters finish_of(const exported_method& method) {
+exported_word finish_of(const exported_method& method) {
   const run_time_word& word = method.method.letters();
   if (!word.is_processed()) return {};
-  return {post_processor(word).letters(), post_processor_coefficients(word, method.method.coefficients())};
+  return with_coefficients(post_processor(word).letters(),
+                           post_processor_coefficients(word, method.method.coefficients()));
+}
+
+exported_word composition_of(const exported_method& method) {
+  exported_word result;
+  for (const exported_letter& one : kernel_of(method)) {
+    if (one.c == 0.0) continue;
+    const bool joins =
+        !result.empty() && result.back().letter == one.letter && (one.letter == 'A' || one.letter == 'B');
+    if (joins) result.back().c += one.c;
+    if (!joins) result.push_back(one);
+  }
+  return result;
+}
+
+std::string letters_of(const exported_word& word) {
+  std::string result;
+  for (const exported_letter& one : word) result += one.letter;
+  return result;
+}
+
+std::vector<double> coefficients_of(const exported_word& word) {
+  std::vector<double> result;
+  for (const exported_letter& one : word) {
+    result.push_back(one.c);
+    if (one.letter == 'D') result.push_back(one.d);
+  }
+  return result;
 }
 
 bool has_bath(const exported_method& method) { return method.method.letters().stochastic_letters > 0; }

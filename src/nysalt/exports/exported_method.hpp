@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-// A method on the way to another language or code, and words of drifts and kicks, for hosts that take lists.
+// A method on the way to another language or code.
 #pragma once
 
-#include <cstddef>
+#include <fmt/format.h>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,12 @@
 
 namespace nysalt::detail {
 
+/// Throws std::invalid_argument with the formatted message.
+template <class... A>
+[[noreturn]] void refuse_export(fmt::format_string<A...> text, A&&... values) {
+  throw std::invalid_argument(fmt::format(text, std::forward<A>(values)...));
+}
+
 /// A method for export, and what the header of the exported text says about the method.
 struct exported_method {
   tabulated method;
@@ -18,21 +25,26 @@ struct exported_method {
   std::vector<std::string> about;  ///< lines of the header: what it is, what it was learned for, how to cite
 };
 
-/// Letters with the coefficients that they take, as a program in which a gradient kick is a displaced one.
-struct exported_letters {
-  std::string letters;               ///< A, B, D and O
-  std::vector<double> coefficients;  ///< one for A, B and O; b and c for D
-
-  /// Number of letters `letter`.
-  std::size_t count(char letter) const;
+/// A letter with its coefficients.
+struct exported_letter {
+  char letter;     ///< A, B, D or O
+  double c;        ///< the coefficient of A, B and O, and b of D(b, c)
+  double d = 0.0;  ///< c of D(b, c)
 };
+using exported_word = std::vector<exported_letter>;
 
-/// The kernel that is stepped.
-exported_letters kernel_of(const exported_method& method);
+/// The kernel that is stepped. Throws std::invalid_argument for letters that no host has.
+exported_word kernel_of(const exported_method& method);
 /// The word before the first step; empty without a processor.
-exported_letters start_of(const exported_method& method);
+exported_word start_of(const exported_method& method);
 /// The word on a copy of the state that is observed; empty without a processor.
-exported_letters finish_of(const exported_method& method);
+exported_word finish_of(const exported_method& method);
+/// The kernel without letters of coefficient zero, whose neighbouring drifts are one, and neighbouring kicks.
+exported_word composition_of(const exported_method& method);
+
+std::string letters_of(const exported_word& word);
+/// Both coefficients of letters D.
+std::vector<double> coefficients_of(const exported_word& word);
 
 /// Whether the method has letters O, of a bath.
 bool has_bath(const exported_method& method);
@@ -49,23 +61,5 @@ struct self_test {
   std::vector<double> q, p;  ///< where nysalt's own stepper ends
 };
 self_test self_test_of(const exported_method& method);
-
-/// The letters A and B with their coefficients; neighbours of one kind are joined, and letters of coefficient
-/// zero left out. Throws std::invalid_argument, naming the host, for a word with a processor or other
-/// letters.
-exported_letters composition_of(const exported_method& method, const std::string& host);
-/// The same with letters O, for hosts that have a bath.
-exported_letters composition_in_bath_of(const exported_method& method, const std::string& host);
-
-/// Whether it reads the same from both ends, to rounding: the coefficients of schemes are sums.
-bool is_palindrome(const exported_letters& word);
-
-/// Drifts and kicks as stages of two letters, zero where a stage has only one; the letters that are `first`
-/// in a stage, and the others.
-std::pair<std::vector<double>, std::vector<double>> in_stages(const exported_letters& word, char first);
-
-/// The parameter of B(lambda) A(1/2) B(1 - 2 lambda) A(1/2) B(lambda). Throws std::invalid_argument, naming
-/// the host, for another word.
-double two_stage_lambda(const exported_method& method, const std::string& host);
 
 }  // namespace nysalt::detail

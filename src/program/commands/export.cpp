@@ -14,9 +14,9 @@ namespace nysalt::program {
 int export_method(const export_command& command, const common_settings& common) {
   on_first(all_ranks(), [&] {
     const method_source source = find_method(command.method);
-    if (!command.output.empty()) require_result(command.output);
     const export_source exported = exported_from(source, command.how);
-    const std::string text = export_text(command.host, exported);
+    const std::string text = export_text(command.host, command.template_file, exported);
+    if (!command.output.empty()) require_result(command.output);  // once all files that are read are known
     const run_time_word& word = exported.method.letters();
     if (source.learned && !source.learned->usable) {
       warn(fmt::format("the fit {} is not to be used: {}", source.typed, source.learned->reason));
@@ -24,7 +24,7 @@ int export_method(const export_command& command, const common_settings& common) 
     if (!command.output.empty()) write_result(command.output, text, common);
     if (common.json) {
       print(text_of(
-          json{{"host", command.host},
+          json{{"host", command.host.empty() ? command.template_file : command.host},
                {"name", exported.options.name.empty() ? exported.method.name() : exported.options.name},
                {"letters", word.letters()},
                {"coefficients", exported.method.coefficients()},

@@ -17,7 +17,9 @@ subcommand offer_export(CLI::App& app, common_settings& common) {
   const auto asked = std::make_shared<export_command>();
   auto& command = *app.add_subcommand("export", "write a method as source for another language or code");
   command.add_option("METHOD", asked->method, "a name, or the file of a scheme or table")->required();
-  command.add_option("--to", asked->host, "the language or code, one of those below")->required();
+  command.add_option("--to", asked->host, "the language or code, one of those below");
+  command.add_option("--template", asked->template_file,
+                     "instead of --to: the file of a template of one's own, docs/how-to/export_template.md");
   command.add_option("--output", asked->output, "the file [standard output]");
   command.add_option("--name", asked->how.name, "identifier in the file [the family or method]");
   add_number(command, "--step", asked->how.step,
