@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "nysalt/derivatives/check_force.hpp"
@@ -13,7 +14,38 @@
 #include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/site_kernels.hpp"
 
+// Derivatives of what cannot be differentiated otherwise.
+
 namespace nysalt::detail {
+
+/// Adapted differences err by 1e-7 of what they differentiate for one that is some r = |V|/(L |f|) = 1 of it,
+/// and by r times their rounding, 1e-11: below this for r < 10^7.
+inline double tolerance_of_differences() { return 30.0 * std::cbrt(std::numeric_limits<double>::epsilon()); }
+
+/// The derivative of function(vector), a double or a vector, along a direction whose size is that of a
+/// displacement of the motion.
+auto difference_along(const auto& function, const Eigen::VectorXd& x, const Eigen::VectorXd& direction) {
+  using result_type = std::decay_t<decltype(function(x))>;
+  const double farthest = farthest_from(x, direction);
+  if constexpr (std::is_same_v<result_type, double>) {
+    using number = Eigen::Matrix<double, 1, 1>;
+    const auto value_at = [&](double s, number& y) { y[0] = function(Eigen::VectorXd(x + s * direction)); };
+    const number middle(function(x));
+    number result(0.0);
+    adapted_difference(value_at, middle, number(1.0), noise_of_forces * std::abs(middle[0]), farthest,
+                       result);
+    return result[0];
+  } else {
+    const auto value_at = [&](double s, Eigen::VectorXd& y) {
+      y = function(Eigen::VectorXd(x + s * direction));
+    };
+    const Eigen::VectorXd middle = function(x);
+    const double noise = noise_of_forces * direction.cwiseAbs().dot(middle.cwiseAbs());
+    Eigen::VectorXd result = x;
+    adapted_difference(value_at, middle, direction, noise, farthest, result);
+    return result;
+  }
+}
 
 /// The force of a model, and derivatives of it: automatic ones, or differences.
 class force_source {

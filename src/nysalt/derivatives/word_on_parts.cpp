@@ -123,7 +123,7 @@ void word_on_parts::examine(const model& system, const phase_points& states, con
   const std::size_t count = states.size();
   constexpr std::size_t enough = 8;  // for a mean, and to say how far they lie apart
   const std::size_t some = std::min(count, enough);
-  force_jacobian<field::whole, model> jacobian(system, states);
+  force_jacobian jacobian(system, states);
   std::vector<std::vector<Eigen::MatrixXd>> parts_of_state;
   std::vector<Eigen::MatrixXd> whole_of_state;
   std::vector<std::vector<Eigen::VectorXd>> forces_of_state;
@@ -167,8 +167,7 @@ void word_on_parts::examine(const model& system, const phase_points& states, con
         }
       }
     }
-    jacobian.move_to(state.q);
-    whole_of_state.push_back(weighted(detail::potential_hessian(jacobian, state.q)));
+    whole_of_state.push_back(weighted(jacobian.potential_hessian(state.q)));
     auto f = make_vector<double>(system);
     force<double>(system, state.q, f);
     force_of_state.push_back(root.transpose() * f);

@@ -349,7 +349,7 @@ std::vector<std::size_t> stiffest_pairs(const model& system, const flow_map_data
   std::vector<double> scored;  // a score and a number, of one pair after the other
   {
     const auto motion = starts_of(data, size(system), detail::spread_pairs(data.all_pairs(), most));
-    force_jacobian<field::whole, model> jacobian(system, motion);
+    force_jacobian jacobian(system, motion);
     auto v = make_vector<double>(system);
     std::mt19937_64 bits{1};
     auto chance = v;

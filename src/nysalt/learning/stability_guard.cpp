@@ -297,7 +297,7 @@ stability_guard::stability_guard(const model& system, const phase_points& states
 
 void stability_guard::watch_rotations(const model& system, const phase_points& states) {
   const auto part = modal_coordinates::of(system);
-  watch_modes(part->frequencies(), hessian_spectrum<field::soft>(system, states).highest_frequency());
+  watch_modes(part->frequencies(), hessian_spectrum(system, states, field::soft).highest_frequency());
   const Eigen::Index n = size(system);
   if (n > most_for_all_frequencies) {
     description_ += "; pairs of modes are not examined";
@@ -311,14 +311,14 @@ void stability_guard::watch_rotations(const model& system, const phase_points& s
   const normal_modes modes = system.modes();
   mean_soft_ = Eigen::MatrixXd::Zero(n, n);
   std::size_t number = 0;
-  force_jacobian<field::soft, model> jacobian(system, states);
+  force_jacobian jacobian(system, states, field::soft);
   for (const auto& state : states) {
     // Evenly spread: the k-th of those that are examined is the state count * k / enough.
     const bool is_examined = number * enough / count != (number + 1) * enough / count;
     ++number;
     if (count > enough && !is_examined) continue;
     const Eigen::MatrixXd root = detail::kinetic_factor(system, state.p);
-    const Eigen::MatrixXd soft = root * detail::potential_hessian(jacobian, state.q) * root;
+    const Eigen::MatrixXd soft = root * jacobian.potential_hessian(state.q) * root;
     soft_.push_back(modes.basis.transpose() * soft * modes.basis);
     mean_soft_ += soft_.back();
   }
