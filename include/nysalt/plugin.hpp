@@ -106,10 +106,8 @@ declared_letter letter_on(const S& system, const std::string& description) {
       "nysalt: a letter that a system declares must be invertible and reversible, as exact_flow states; step "
       "the word by its type");
   require_letter<L, S, double>();
-  const auto check = [system](const std::vector<phase_point<double, Eigen::Dynamic>>& states, double h) {
-    std::vector<phase_point<double, S::dimension>> points;
-    for (const auto& x : states) points.push_back({x.q, x.p});
-    return check_letter<L>(system, points, h);
+  const auto check = [system](const phase_points& states, double h) {
+    return check_letter<L>(system, states, h);
   };
   return {{std::make_shared<const bound_letter<L, S>>(system, description), times_of<L>(), parts_of<L>()},
           check};

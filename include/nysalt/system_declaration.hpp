@@ -77,7 +77,7 @@ struct named_observable {
 struct declared_letter {
   detail::named_letter named;  ///< bound to the system
   /// check_letter() of the letter at some states, over the step h.
-  std::function<letter_check(const std::vector<phase_point<double, Eigen::Dynamic>>&, double h)> check;
+  std::function<letter_check(const phase_points& states, double h)> check;
 };
 
 namespace detail {

@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <limits>
+#include <vector>
+
+#include "nysalt/derivatives/properties.hpp"
 
 namespace nysalt {
 
@@ -52,29 +55,71 @@ double off(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::Vect
   return ((a - b).array().abs() / unit.array()).maxCoeff();
 }
 
-double symplecticity_defect(const Eigen::MatrixXd& j) {
-  const Eigen::Index n = j.rows() / 2;
-  Eigen::MatrixXd omega = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  omega.topRightCorner(n, n).setIdentity();
-  omega.bottomLeftCorner(n, n).diagonal().setConstant(-1.0);
+/// What a letter did from one point: columns of 2 N numbers.
+struct letter_trial {
+  Eigen::VectorXd x;           // where it began
+  Eigen::VectorXd y;           // where it led
+  Eigen::MatrixXd jacobian;    // of y by x
+  Eigen::VectorXd back;        // y after the negated coefficients
+  Eigen::VectorXd in_parts;    // x after 0.4 and 0.6 of the coefficients
+  Eigen::VectorXd reversed;    // R x(c) R x(c)
+  Eigen::VectorXd slope;       // of y by a common factor of the coefficients, by dual numbers
+  Eigen::VectorXd difference;  // the same by a central difference
+
+  letter_trial(const letter_to_check& letter, const Eigen::VectorXd& point)
+      : x(point), y(letter.over_double(x, 1.0)), jacobian(x.size(), x.size()) {
+    using D = dual<double, 1>;
+    vector<D, Eigen::Dynamic> lifted(x.size());
+    for (Eigen::Index i = 0; i < x.size(); ++i) lifted[i] = D(x[i]);
+    const auto slopes_of = [&](const vector<D, Eigen::Dynamic>& from, const D& c) {
+      const auto to = letter.over_dual(from, c);
+      return Eigen::VectorXd::NullaryExpr(to.size(), [&](Eigen::Index i) { return to[i].derivative[0]; })
+          .eval();
+    };
+    for (Eigen::Index column = 0; column < x.size(); ++column) {
+      lifted[column].derivative[0] = 1.0;
+      jacobian.col(column) = slopes_of(lifted, D(1.0));
+      lifted[column].derivative[0] = 0.0;
+    }
+    slope = slopes_of(lifted, D::variable(1.0, 0));
+    const auto turned = [](Eigen::VectorXd z) {
+      z.tail(z.size() / 2) *= -1.0;
+      return z;
+    };
+    back = letter.over_double(y, -1.0);
+    in_parts = letter.over_double(letter.over_double(x, 0.4), 0.6);
+    reversed = turned(letter.over_double(turned(y), 1.0));
+    constexpr double apart = 6e-6;  // the cube root of a rounding: its square and rounding over it are equal
+    difference = (letter.over_double(x, 1.0 + apart) - letter.over_double(x, 1.0 - apart)) / (2.0 * apart);
+  }
+
+  bool is_finite() const {
+    return y.allFinite() && jacobian.allFinite() && back.allFinite() && in_parts.allFinite() &&
+           reversed.allFinite() && slope.allFinite();
+  }
+};
+
+double relative_symplecticity_defect(const Eigen::MatrixXd& j) {
+  const Eigen::MatrixXd omega = symplectic_form(j.rows() / 2);
   const Eigen::ArrayXXd defect = (j.transpose() * omega * j - omega).array().abs();
   const Eigen::MatrixXd size = j.cwiseAbs().transpose() * omega.cwiseAbs() * j.cwiseAbs() + omega.cwiseAbs();
   return (size.array() > 0.0).select(defect / size.array(), 0.0).maxCoeff();
 }
 
-bool is_finite(const letter_trial& t) {
-  return t.y.allFinite() && t.jacobian.allFinite() && t.back.allFinite() && t.in_parts.allFinite() &&
-         t.reversed.allFinite() && t.slope.allFinite();
-}
-
 }  // namespace
 
-letter_check judge_letter(const letter_claims& claims, const std::vector<letter_trial>& trials) {
-  letter_check result{.letter = claims.letter};
+letter_check judge_letter(const letter_to_check& letter, const phase_points& points) {
+  letter_check result{.letter = letter.letter};
+  std::vector<letter_trial> trials;
+  for (const auto& point : points) {
+    Eigen::VectorXd x(2 * point.size());
+    x << point.q, point.p;
+    trials.emplace_back(letter, x);
+  }
   Eigen::VectorXd unit = Eigen::VectorXd::Zero(trials.front().x.size());
   Eigen::VectorXd unit_of_slope = unit;
   for (const auto& t : trials) {
-    if (!is_finite(t)) result.finite = false;
+    if (!t.is_finite()) result.finite = false;
     unit = unit.cwiseMax(t.x.cwiseAbs()).cwiseMax(t.y.cwiseAbs());
     unit_of_slope = unit_of_slope.cwiseMax(t.difference.cwiseAbs());
   }
@@ -86,12 +131,12 @@ letter_check judge_letter(const letter_claims& claims, const std::vector<letter_
   unit_of_slope = unit_of_slope.cwiseMax(1e-3 * unit);
   for (const auto& t : trials) {
     const Eigen::Index n = t.x.size() / 2;
-    if (!claims.moves_q && t.x.head(n) != t.y.head(n)) result.keeps_q = false;
+    if (!letter.moves_q && t.x.head(n) != t.y.head(n)) result.keeps_q = false;
     const auto keep = [](double& worst, double found) { worst = std::max(worst, found); };
-    if (claims.symplectic) keep(result.symplecticity_defect, symplecticity_defect(t.jacobian));
-    if (claims.invertible) keep(result.inverse_defect, off(t.back, t.x, unit));
-    if (claims.additive) keep(result.additivity_defect, off(t.in_parts, t.y, unit));
-    if (claims.reversible) keep(result.reversibility_defect, off(t.reversed, t.x, unit));
+    if (letter.symplectic) keep(result.symplecticity_defect, relative_symplecticity_defect(t.jacobian));
+    if (letter.invertible) keep(result.inverse_defect, off(t.back, t.x, unit));
+    if (letter.additive) keep(result.additivity_defect, off(t.in_parts, t.y, unit));
+    if (letter.reversible) keep(result.reversibility_defect, off(t.reversed, t.x, unit));
     keep(result.slope_defect, off(t.slope, t.difference, unit_of_slope));
   }
   return result;
