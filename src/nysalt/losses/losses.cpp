@@ -112,10 +112,6 @@ constinit const loss_kind trajectory_loss{.name = "trajectory",
 
 namespace {
 objective of_law(const model& system, const run_time_family& family, double step) {
-  if (!has_modes(system) || !system.bath().acts()) {
-    throw std::invalid_argument(fmt::format(
-        "covariance loss: the system must be in a bath and declare modes(), got {}", describe(system)));
-  }
   return objective_of(stationary_covariance(system, family.letters, step), family);
 }
 }  // namespace
