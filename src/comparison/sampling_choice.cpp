@@ -162,7 +162,7 @@ void sampling_choice::run_pilot() {
     }
   }
   const auto thermal = [&](auto& list) {
-    return thermal_positions<Eigen::Dynamic>(target, std::move(list), options_.temperature);
+    return thermal_positions(target, std::move(list), options_.temperature);
   };
   system_->take_starts(thermal(learned_from));
   states_ = thermal(judged_on);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt {
 
@@ -198,7 +199,7 @@ stiffness_range hessian_spectrum(const model& system, const phase_points& states
   // the state before, which are near.
   std::mt19937_64 bits{1};
   Eigen::VectorXd chance(root.size());
-  for (double& x : chance) x = static_cast<double>(bits() >> 11U) * 0x1p-53 - 0.5;
+  for (double& x : chance) x = uniform_by_bits(bits()) - 0.5;
   chance.normalize();
   Eigen::VectorXd start = chance;
 

@@ -6,14 +6,15 @@
 #include <cmath>
 #include <string>
 
+#include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
 
 namespace {
 
-/// A number between 1/4 and 1: the standard's distributions differ between libraries, its bits do not.
-double next(std::mt19937_64& bits) { return 0.25 + 0.75 * (static_cast<double>(bits() >> 11U) * 0x1p-53); }
+/// A number between 1/4 and 1.
+double next(std::mt19937_64& bits) { return 0.25 + 0.75 * uniform_by_bits(bits()); }
 
 }  // namespace
 

@@ -19,6 +19,7 @@
 #include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt::detail {
 
@@ -353,7 +354,7 @@ std::vector<std::size_t> stiffest_pairs(const model& system, const flow_map_data
     auto v = make_vector<double>(system);
     std::mt19937_64 bits{1};
     auto chance = v;
-    for (double& x : chance) x = static_cast<double>(bits() >> 11U) * 0x1p-53 - 0.5;
+    for (double& x : chance) x = uniform_by_bits(bits()) - 0.5;
     chance /= chance.norm();
     std::vector<std::pair<double, std::size_t>> scores;
     for (std::size_t pair = 0; pair < data.pairs(); ++pair) {
