@@ -96,8 +96,8 @@ letter_check check_letter(const S& system, const phase_points& points, double h,
     result << y.q, y.p;
     return result;
   };
-  detail::letter_to_check letter{L::letter, L::moves_q, detail::is_symplectic<L>(), false,
-                                 L::additive, true, after, after};
+  detail::letter_to_check letter{L::letter, L::moves_q, detail::is_symplectic<L>(), false, L::additive, true,
+                                 after,     after};
   if constexpr (requires { L::invertible; }) letter.invertible = L::invertible;
   if constexpr (requires { L::reversible; }) letter.reversible = L::reversible;
   return detail::judge_letter(letter, points);

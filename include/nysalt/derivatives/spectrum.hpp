@@ -97,12 +97,12 @@ struct stiffness_range {
   double highest_frequency() const { return std::sqrt(std::max(0.0, highest)); }
 };
 
-/// Range of the Hessian's spectrum over all states, of the whole force or of its soft part, of a system with a
-/// quadratic kinetic energy. Both ends are known to 1 % and mostly rounded outwards, see ends_of_spectrum();
-/// who needs a bound adds a percent. The same states give the same bits. Differences of a black box go a part
-/// of how far the states lie apart. Cost: some 8 to 40 directional derivatives a state, less below 8
-/// dimensions. Throws std::invalid_argument if there are no states, or one where the force has no finite
-/// derivative.
+/// Range of the Hessian's spectrum over all states, of the whole force or of its soft part, of a system with
+/// a quadratic kinetic energy. Both ends are known to 1 % and mostly rounded outwards, see
+/// ends_of_spectrum(); who needs a bound adds a percent. The same states give the same bits. Differences of a
+/// black box go a part of how far the states lie apart. Cost: some 8 to 40 directional derivatives a state,
+/// less below 8 dimensions. Throws std::invalid_argument if there are no states, or one where the force has
+/// no finite derivative.
 stiffness_range hessian_spectrum(const model& system, const phase_points& states, field of = field::whole);
 
 // All frequencies of the linearised motion at a state, for any separable Hamiltonian.

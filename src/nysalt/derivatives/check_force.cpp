@@ -287,7 +287,8 @@ class force_examination {
     found_.asymmetry_tolerance = has_exact_force(facts_) ? tolerance_of_exact() : tolerance_of_differences();
     found_.kick_tolerance = tolerance_of_exact();
     found_.derivative_tolerance = tolerance_of_differences();
-    found_.velocity_tolerance = has_exact_velocity(facts_) ? tolerance_of_exact() : tolerance_of_differences();
+    found_.velocity_tolerance =
+        has_exact_velocity(facts_) ? tolerance_of_exact() : tolerance_of_differences();
   }
 
   void examine(const column& q, const column& p) {

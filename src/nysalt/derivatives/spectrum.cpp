@@ -104,7 +104,6 @@ Eigen::MatrixXd force_jacobian::potential_hessian(const Eigen::VectorXd& q) {
   return 0.5 * (hessian + hessian.transpose());
 }
 
-
 namespace {
 
 /// An orthonormal basis of v, A v, A^2 v, ..., in which the symmetric A is tridiagonal.
@@ -192,8 +191,7 @@ spectrum_ends ends_of_spectrum(const symmetric_map& multiply, const Eigen::Vecto
 }
 
 stiffness_range hessian_spectrum(const model& system, const phase_points& states, field of) {
-  if (states.empty())
-    throw std::invalid_argument("hessian_spectrum: states must hold one or more, got none");
+  if (states.empty()) throw std::invalid_argument("hessian_spectrum: states must hold one or more, got none");
   const Eigen::VectorXd root = inverse_root_masses(system);
   // Every start has a part of chance, the same for all, so that no end can hide from it; and of the ends of
   // the state before, which are near.

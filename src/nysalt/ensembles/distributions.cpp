@@ -21,8 +21,7 @@ thermal_positions::thermal_positions(const model& system, std::vector<Eigen::Vec
     throw std::invalid_argument(
         fmt::format("thermal_positions: kT must be positive and finite, got {}", temperature));
   }
-  if (positions.empty())
-    throw std::invalid_argument("thermal_positions: there must be a position, got none");
+  if (positions.empty()) throw std::invalid_argument("thermal_positions: there must be a position, got none");
   for (std::size_t n = 0; n < positions.size(); ++n) {
     if (positions[n].size() == system.size() && positions[n].allFinite()) continue;
     throw std::invalid_argument(
@@ -34,7 +33,7 @@ thermal_positions::thermal_positions(const model& system, std::vector<Eigen::Vec
   detail::fingerprint sum;
   for (const auto& q : positions) sum.add_all(q);
   description_ = fmt::format("thermal_positions({} positions, temperature={}, fingerprint={})",
-                          positions.size(), in_digits(temperature, 6), sum.text());
+                             positions.size(), in_digits(temperature, 6), sum.text());
   positions_ = std::make_shared<const std::vector<Eigen::VectorXd>>(std::move(positions));
 }
 
@@ -57,8 +56,8 @@ fpu_starts::fpu_starts(Eigen::Index pairs, double omega, double spread, const so
   if (spread >= 0.0 && finite) return;
   throw std::invalid_argument(
       fmt::format("fpu_law: the spread must be finite and not negative, and the soft motion finite, got {}, "
-               "{} and {}",
-               spread, soft.displacement, soft.velocity));
+                  "{} and {}",
+                  spread, soft.displacement, soft.velocity));
 }
 
 phase_point<double, Eigen::Dynamic> fpu_starts::start(std::uint64_t seed, std::uint64_t n) const {
@@ -188,7 +187,8 @@ lennard_jones_liquid_law::lennard_jones_liquid_law(const lennard_jones_liquid& s
   while (4 * cells_ * cells_ * cells_ < atoms_) ++cells_;
 }
 
-phase_point<double, Eigen::Dynamic> lennard_jones_liquid_law::operator()(std::uint64_t seed, std::uint64_t n) const {
+phase_point<double, Eigen::Dynamic> lennard_jones_liquid_law::operator()(std::uint64_t seed,
+                                                                         std::uint64_t n) const {
   phase_point<double, Eigen::Dynamic> start{Eigen::VectorXd(3 * atoms_), Eigen::VectorXd(3 * atoms_)};
   const Eigen::Index sites = 4 * cells_ * cells_ * cells_;
   for (Eigen::Index i = 0; i < atoms_; ++i) {

@@ -434,8 +434,7 @@ void require_sound_force(const model& system, const flow_map_data& data) {
     points.emplace_back(state.q);
     momenta.emplace_back(state.p);
   }
-  const force_check found =
-      check_force(system, points, momenta, finishes_of(data, size(system), pairs));
+  const force_check found = check_force(system, points, momenta, finishes_of(data, size(system), pairs));
   if (found.passed()) return;
   throw std::invalid_argument(
       sentence("cannot learn on {}: {}; mend the system, or learn with check_force = false", describe(system),
