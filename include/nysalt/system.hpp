@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cxxabi.h>
+#include <algorithm>
 #include <concepts>
 #include <cstdlib>
 #include <memory>
@@ -84,6 +85,13 @@ struct frequency_band {
   double low;   ///< lower end, not negative
   double high;  ///< upper end
 };
+
+/// The upper end of the highest of these bands; 0 where there is none.
+inline double highest_frequency(const std::vector<frequency_band>& bands) {
+  double highest = 0.0;
+  for (const auto& band : bands) highest = std::max(highest, band.high);
+  return highest;
+}
 
 /// A system that can be stepped: copyable, with `static constexpr int dimension`, positive, or
 /// Eigen::Dynamic and a size().

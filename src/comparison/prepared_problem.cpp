@@ -498,9 +498,8 @@ const judgement& prepared_problem::judged_by(const tabulated& method, double ste
 int prepared_problem::derivative_calls() const { return made_.system.facts().derivative_calls; }
 
 std::optional<double> highest_frequency(const prepared_problem& system) {
-  std::optional<double> highest;
-  for (const auto& band : system.frequency_bands()) highest = std::max(highest.value_or(0.0), band.high);
-  return highest;
+  const auto bands = system.frequency_bands();
+  return bands.empty() ? std::nullopt : std::optional(nysalt::highest_frequency(bands));
 }
 
 }  // namespace nysalt::program

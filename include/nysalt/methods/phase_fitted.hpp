@@ -26,14 +26,11 @@ namespace detail {
 /// The highest frequency of the modes; of systems that declare none, the end of the highest band.
 template <System S>
 double frequency_to_fit(const S& system) {
-  double highest = 0.0;
   if constexpr (HasModes<S>) {
     if (has_modes(system)) return system.modes().frequencies.maxCoeff();
   }
-  if constexpr (HasFrequencyBands<S>) {
-    for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
-  }
-  return highest;
+  if constexpr (HasFrequencyBands<S>) return highest_frequency(system.frequency_bands());
+  return 0.0;
 }
 }  // namespace detail
 

@@ -102,9 +102,7 @@ s_aia2 s_aia2_for(const S& system, double step) {
       HasFrequencyBands<S>,
       "nysalt: s_aia2_for needs the system's highest frequency; give the system frequency_bands(), or "
       "use s_aia2(step * frequency)");
-  double highest = 0.0;
-  for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
-  return s_aia2(std::abs(step) * highest);
+  return s_aia2(std::abs(step) * highest_frequency(system.frequency_bands()));
 }
 
 }  // namespace nysalt

@@ -393,10 +393,8 @@ std::vector<stability_window> stability_guard::gaps(const run_time_word& word,
                                                     const std::vector<double>& coefficients,
                                                     double step) const {
   if (word.rotates() || !is_of_oscillators(word)) return {};
-  double highest = 0.0;
-  for (const auto& band : bands_) highest = std::max(highest, step * band.high);
   return gaps_below(stability_windows(conservative_part(word), conservative_part(word, coefficients)),
-                    highest);
+                    step * highest_frequency(bands_));
 }
 
 stability_guard::magnified_mode stability_guard::most_magnified(const run_time_word& word,
