@@ -284,7 +284,7 @@ std::string stability_guard::resonant(const run_time_word& word, const std::vect
 stability_guard::stability_guard(const model& system, const phase_points& states, const run_time_word& word,
                                  std::int64_t steps, std::size_t typical)
     : stability_guard(system, states, word.rotates(), steps, typical) {
-  if (is_of_oscillators(word)) return;
+  if (!word.has_own_letters()) return;
   const auto parts = std::make_shared<const word_on_parts>(system, states, word);
   if (parts->is_known()) {
     parts_ = parts;
@@ -333,7 +333,7 @@ bool stability_guard::admits(const run_time_word& word, const std::vector<double
 std::string stability_guard::objection(const run_time_word& word, const std::vector<double>& coefficients,
                                        double step, met which) const {
   word.require_one_for_each_slot(coefficients);
-  if (!is_of_oscillators(word)) {
+  if (word.has_own_letters()) {
     if (!parts_) return {};
     if (word.letters() != parts_->word()) {
       throw std::invalid_argument(fmt::format(
@@ -392,7 +392,7 @@ std::string stability_guard::grown_on_parts(const std::vector<double>& coefficie
 std::vector<stability_window> stability_guard::gaps(const run_time_word& word,
                                                     const std::vector<double>& coefficients,
                                                     double step) const {
-  if (word.rotates() || !is_of_oscillators(word)) return {};
+  if (word.rotates() || word.has_own_letters()) return {};
   return gaps_below(stability_windows(conservative_part(word), conservative_part(word, coefficients)),
                     step * highest_frequency(bands_));
 }
