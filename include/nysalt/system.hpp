@@ -284,12 +284,6 @@ constexpr bool has_energy(const S& system) {
   if constexpr (ErasedSystem<S>) return system.facts().has_energy;
   return HasEnergy<S>;
 }
-/// Whether V can be evaluated.
-template <System S>
-constexpr bool has_potential(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().has_potential;
-  return HasPotential<S, double>;
-}
 /// Whether K = p M^-1 p / 2.
 template <System S>
 constexpr bool has_quadratic_kinetic(const S& system) {
@@ -307,18 +301,6 @@ constexpr bool has_modes(const S& system) {
     return system.has_modes();
   }
   return HasModes<S>;
-}
-/// Whether modes and soft force are declared.
-template <System S>
-constexpr bool has_quadratic_part(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().has_quadratic_part;
-  return HasQuadraticPart<S>;
-}
-/// Whether the frequencies of its linearised motion are declared.
-template <System S>
-constexpr bool has_frequency_bands(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().has_bands;
-  return HasFrequencyBands<S>;
 }
 /// Whether its force is known for double only.
 template <System S>

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 #include <stdexcept>
-#include <type_traits>
 #include <vector>
 
 #include "nysalt/derivatives/spectrum.hpp"
@@ -103,29 +103,23 @@ double tolerance_of_exact() { return std::sqrt(std::numeric_limits<double>::epsi
 /// and by r times their rounding, 1e-11: below this for r < 10^7.
 double tolerance_of_differences() { return 30.0 * std::cbrt(std::numeric_limits<double>::epsilon()); }
 
-/// The derivative of function(vector), a double or a vector, along a direction whose size is that of a
-/// displacement of the motion.
-auto difference_along(const auto& function, const Eigen::VectorXd& x, const Eigen::VectorXd& direction) {
-  using result_type = std::decay_t<decltype(function(x))>;
-  const double farthest = farthest_from(x, direction);
-  if constexpr (std::is_same_v<result_type, double>) {
-    using number = Eigen::Matrix<double, 1, 1>;
-    const auto value_at = [&](double s, number& y) { y[0] = function(Eigen::VectorXd(x + s * direction)); };
-    const number middle(function(x));
-    number result(0.0);
-    adapted_difference(value_at, middle, number(1.0), noise_of_forces * std::abs(middle[0]), farthest,
-                       result);
-    return result[0];
-  } else {
-    const auto value_at = [&](double s, Eigen::VectorXd& y) {
-      y = function(Eigen::VectorXd(x + s * direction));
-    };
-    const Eigen::VectorXd middle = function(x);
-    const double noise = noise_of_forces * direction.cwiseAbs().dot(middle.cwiseAbs());
-    Eigen::VectorXd result = x;
-    adapted_difference(value_at, middle, direction, noise, farthest, result);
-    return result;
-  }
+/// The derivative of function(vector) along a direction whose size is that of a displacement of the motion.
+/// Errors of the function's entries count with the weights.
+column difference_along(const std::function<column(const column&)>& function, const column& x,
+                        const column& direction, const column& weights) {
+  const auto value_at = [&](double s, column& y) { y = function(x + s * direction); };
+  const column middle = function(x);
+  const double noise = noise_of_forces * weights.cwiseAbs().dot(middle.cwiseAbs());
+  column result = middle;
+  adapted_difference(value_at, middle, weights, noise, farthest_from(x, direction), result);
+  return result;
+}
+
+/// The same of a function with one value.
+double slope_by_difference(const std::function<double(const column&)>& function, const column& x,
+                           const column& direction) {
+  const auto value = [&](const column& at) { return column::Constant(1, function(at)).eval(); };
+  return difference_along(value, x, direction, column::Ones(1))[0];
 }
 
 vector<slopes, Eigen::Dynamic> lifted(const column& x, const column& v) {
@@ -167,7 +161,7 @@ void force_slope(const model& system, const column& q, const column& v, column& 
 
 double potential_slope(const model& system, const column& q, const column& v) {
   if (system.facts().has_potential_over_slopes) return system.potential(lifted(q, v)).derivative[0];
-  return difference_along([&](const column& x) { return system.potential(x); }, q, v);
+  return slope_by_difference([&](const column& x) { return system.potential(x); }, q, v);
 }
 
 void velocity_slope(const model& system, const column& p, const column& v, column& g) {
@@ -181,7 +175,7 @@ void velocity_slope(const model& system, const column& p, const column& v, colum
       system.kernels<double>().velocity(x, result);
       return result;
     };
-    g = difference_along(at, p, v);
+    g = difference_along(at, p, v, v);
   }
 }
 
@@ -189,7 +183,8 @@ double kinetic_slope(const model& system, const column& p, const column& v) {
   if (system.facts().has_kinetic_energy_over_slopes) {
     return system.kernels<slopes>().kinetic_energy(lifted(p, v)).derivative[0];
   }
-  return difference_along([&](const column& x) { return system.kernels<double>().kinetic_energy(x); }, p, v);
+  return slope_by_difference([&](const column& x) { return system.kernels<double>().kinetic_energy(x); }, p,
+                             v);
 }
 
 /// The kick p += force(q)/2 of some sites, by the kick or by the force. What is beyond the reach of the range
@@ -373,7 +368,7 @@ class force_examination {
     };
     for (const auto& v : along_) {
       system_.force_derivative(q, v, other_);
-      const column differences = difference_along(force_at, q, v);
+      const column differences = difference_along(force_at, q, v, v);
       keep(energies(other_), largest_slope_);
       keep(energies(differences), largest_slope_);
       found_.derivative_defect = std::max(found_.derivative_defect, largest(energies(other_ - differences)));

@@ -206,7 +206,7 @@ class burn_in_pilot {
   /// 0 where the system knows no potential.
   static T potential_of(const burn_in_chains& chains, const state& x) {
     const model& system = chains.system();
-    return has_potential(system) ? system.kernels<T>().potential(x.q) : T(0.0);
+    return system.facts().has_potential ? system.kernels<T>().potential(x.q) : T(0.0);
   }
 
   void follow(block& here, std::int64_t first, std::int64_t end, std::int64_t every,

@@ -79,7 +79,7 @@ std::string in_words(const std::vector<frequency_band>& bands) {
 stability_guard::stability_guard(const model& system, const phase_points& states, bool rotations,
                                  std::int64_t steps, std::size_t typical)
     : steps_(steps) {
-  if (has_frequency_bands(system)) declare(system.frequency_bands());
+  if (system.facts().has_bands) declare(system.frequency_bands());
   scan_along(frequencies_of_states(system, states), states.size(), std::min(typical, states.size()),
              has_quadratic_kinetic(system));
   const bool has_soft_derivative = system.facts().serves<double>(soft_gradient_kick::letter);

@@ -164,7 +164,7 @@ std::map<double, double> spectrum_of(const model& system) {
     for (const double omega : system.modes().frequencies) {
       if (omega > 0.0) count_of[omega] += 1.0;
     }
-  } else if (has_frequency_bands(system)) {
+  } else if (system.facts().has_bands) {
     constexpr int points = 16;  // of a band, its midpoints
     const auto bands = system.frequency_bands();
     const double share = static_cast<double>(size(system)) / static_cast<double>(points * bands.size());
