@@ -43,6 +43,8 @@ parts_of_messages = {
     "python/arguments.cpp": {"True or False", "a number", "a text", "a text of whole characters", "a whole number",
                              "a whole number that can be counted"},
     "src/nysalt/learning/reach.cpp": {"the systems are not of one kind"},
+    "src/nysalt/derivatives/word_on_parts.cpp": {"K''(p) is not positive semidefinite",
+                                                 "the letter {} is neither a drift nor a kick"},
     "src/nysalt/ensembles/burn_in.hpp": {"be that of equipartition", "not change afterwards"},
     "src/nysalt/run_time_family.cpp": {"have a part of H for each coefficient", "leave out what follows |",
                                        "not have two equal neighbours", "read the same from both ends"},

@@ -31,6 +31,18 @@ concept MakesBlocks =
     };
 
 namespace detail {
+/// An ensemble of N coordinates, by a law of a dimension that is known at run time, whose start(seed, n) is
+/// the start of trajectory n.
+template <class Law, int N>
+class in_dimension : public Law {
+ public:
+  using Law::Law;
+  phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
+    const phase_point<double, Eigen::Dynamic> x = this->start(seed, n);
+    return {x.q, x.p};
+  }
+};
+
 /// "q2 is nan": the first entry that is not finite; empty if there is none.
 template <int N>
 std::string not_finite_in(const phase_point<double, N>& x) {

@@ -316,13 +316,6 @@ void force_along(const S& system, const vector<T, S::dimension>& q, const vector
 template <System S>
 inline constexpr int derivative_calls = BlackBoxForce<S> && !HasForceDerivative<S> ? 2 : 1;
 
-/// Cost of a derivative of any system.
-template <System S>
-constexpr int calls_of_derivative(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().derivative_calls;
-  return derivative_calls<S>;
-}
-
 /// Origin of the derivatives of the force, for reports.
 template <SeparableSystem S>
 constexpr const char* derivative_source() {

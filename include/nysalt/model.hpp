@@ -92,7 +92,7 @@ class model {
     result.system_ = system_->clone();
     return result;
   }
-  /// Members that the system offers: has_energy(system) and its like ask it.
+  /// Members that the system offers.
   const detail::model_facts& facts() const { return *facts_; }
   /// Force evaluations of this copy so far, of a black box.
   std::int64_t calls() const { return system_->calls(); }
@@ -143,7 +143,7 @@ class model {
     lifted_room<T, dimension> room(size());
     kernels<T>().force_along(field::whole, q, v, g, room, detail::part_of_displacement);
   }
-  /// V(q), if the system has_potential().
+  /// V(q), if the system has a potential.
   template <detail::Served T>
   T potential(const vector<T, dimension>& q) const {
     return kernels<T>().potential(q);

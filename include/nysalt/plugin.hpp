@@ -230,9 +230,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
     };
     std::apply([&](const auto&... piece) { (take(piece), ...); }, all);
     if constexpr (HasFrequencyBands<S>) {
-      if (highest == 0.0) {
-        for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
-      }
+      if (highest == 0.0) highest = highest_frequency(system.frequency_bands());
     }
     initial_value_problem made = [&] {
       constexpr bool declares_kind = detail::TellsKind<S>;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cxxabi.h>
+#include <algorithm>
 #include <concepts>
 #include <cstdlib>
 #include <memory>
@@ -84,6 +85,13 @@ struct frequency_band {
   double low;   ///< lower end, not negative
   double high;  ///< upper end
 };
+
+/// The upper end of the highest of these bands; 0 where there is none.
+inline double highest_frequency(const std::vector<frequency_band>& bands) {
+  double highest = 0.0;
+  for (const auto& band : bands) highest = std::max(highest, band.high);
+  return highest;
+}
 
 /// A system that can be stepped: copyable, with `static constexpr int dimension`, positive, or
 /// Eigen::Dynamic and a size().
@@ -276,12 +284,6 @@ constexpr bool has_energy(const S& system) {
   if constexpr (ErasedSystem<S>) return system.facts().has_energy;
   return HasEnergy<S>;
 }
-/// Whether V can be evaluated.
-template <System S>
-constexpr bool has_potential(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().has_potential;
-  return HasPotential<S, double>;
-}
 /// Whether K = p M^-1 p / 2.
 template <System S>
 constexpr bool has_quadratic_kinetic(const S& system) {
@@ -299,18 +301,6 @@ constexpr bool has_modes(const S& system) {
     return system.has_modes();
   }
   return HasModes<S>;
-}
-/// Whether modes and soft force are declared.
-template <System S>
-constexpr bool has_quadratic_part(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().has_quadratic_part;
-  return HasQuadraticPart<S>;
-}
-/// Whether the frequencies of its linearised motion are declared.
-template <System S>
-constexpr bool has_frequency_bands(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().has_bands;
-  return HasFrequencyBands<S>;
 }
 /// Whether its force is known for double only.
 template <System S>

@@ -16,6 +16,8 @@
 #include "method_file_format.hpp"
 #include "nysalt/derivatives/properties.hpp"
 #include "nysalt/letters.hpp"
+#include "nysalt/derivatives/taylor_order.hpp"
+#include "nysalt/letters.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/method.hpp"
@@ -237,7 +239,7 @@ int order_of(const tabulated& method, std::string times) {
   if (!are_two) return method.symmetric ? 2 : 1;
   std::ranges::transform(times, times.begin(),
                          [first = times[0]](char part) { return part == first ? 'A' : 'B'; });
-  return taylor_order(tabulated("", run_time_word(times), method.coefficients(), method)).any_kinetic;
+  return taylor_order(run_time_word(times), method.coefficients()).any_kinetic;
 }
 
 /// A table with letters of the system.

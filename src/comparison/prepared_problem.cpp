@@ -89,7 +89,7 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
   if (made_.frequency == 0.0) made_.frequency = conditions.frequency.value_or(0.0);
   require_square_of_frequency(description(), made_.frequency);
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
-  const bool is_unknown = is_black_box(made_.system) && !has_frequency_bands(made_.system);
+  const bool is_unknown = is_black_box(made_.system) && !made_.system.facts().has_bands;
   if (start_ == start::gibbs && is_start_usual_ && is_unknown) {
     take_law(
         "chains that find it would call the force of a black box some million times; take --start gibbs for "
@@ -142,7 +142,7 @@ std::string in_words(const fitted_frequency& frequency) {
 
 std::optional<fitted_frequency> prepared_problem::frequency_to_fit() const {
   if (frequency_asked_) return fitted_frequency{*frequency_asked_, "as given"};
-  if (has_modes(made_.system) || has_frequency_bands(made_.system))
+  if (has_modes(made_.system) || made_.system.facts().has_bands)
     return fitted_frequency{nysalt::frequency_to_fit(made_.system), "declared"};
   const seen_frequencies& seen = highest_seen();
   if (!(seen.median > 0.0)) return std::nullopt;
@@ -150,7 +150,7 @@ std::optional<fitted_frequency> prepared_problem::frequency_to_fit() const {
 }
 
 bool prepared_problem::is_frequency_seen() const {
-  return !frequency_asked_ && !has_modes(made_.system) && !has_frequency_bands(made_.system);
+  return !frequency_asked_ && !has_modes(made_.system) && !made_.system.facts().has_bands;
 }
 
 std::optional<fitted_frequency> prepared_problem::frequency_to_cover() const {
@@ -201,8 +201,7 @@ void prepared_problem::prepare_starts(std::uint64_t seed) {
       starts_.emplace(gibbs_of_modes<Eigen::Dynamic>(base, made_.system.bath().temperature()));
     } else if (start_ == start::gibbs) {
       burn_in_options options;
-      if (!has_frequency_bands(made_.system))
-        options.most_steps = most_steps_of_pilots(made_.system, options);
+      if (!made_.system.facts().has_bands) options.most_steps = most_steps_of_pilots(made_.system, options);
       starts_.emplace(gibbs(made_.system, made_.starts, options));
     } else {
       starts_.emplace(one_long_trajectory<Eigen::Dynamic>(made_.system, made_.starts, {.seed = seed}));
@@ -412,7 +411,7 @@ const prepared_problem::seen_frequencies& prepared_problem::highest_seen() const
 const std::vector<frequency_band>& prepared_problem::bands_along_motion() const {
   return kept_in(bands_along_motion_, [&]() -> std::vector<frequency_band> {
     const model system = made_.system.base();
-    if (has_frequency_bands(system) || size(system) > most_for_all_frequencies || is_black_box(system))
+    if (system.facts().has_bands || size(system) > most_for_all_frequencies || is_black_box(system))
       return {};
     std::vector<frequency_band> bands;
     const states_in_double states = states_along_motion();
@@ -497,9 +496,8 @@ const judgement& prepared_problem::judged_by(const tabulated& method, double ste
 int prepared_problem::derivative_calls() const { return made_.system.facts().derivative_calls; }
 
 std::optional<double> highest_frequency(const prepared_problem& system) {
-  std::optional<double> highest;
-  for (const auto& band : system.frequency_bands()) highest = std::max(highest.value_or(0.0), band.high);
-  return highest;
+  const auto bands = system.frequency_bands();
+  return bands.empty() ? std::nullopt : std::optional(nysalt::highest_frequency(bands));
 }
 
 }  // namespace nysalt::program

@@ -62,7 +62,7 @@ void sampling_choice::require_sound_options() {
     refuse("--for sampling: {} must have no bath, in which H is not kept; leave --friction away",
            system_->description());
   }
-  if (!has_quadratic_kinetic(target) || !has_potential(target)) {
+  if (!has_quadratic_kinetic(target) || !target.facts().has_potential) {
     refuse("--for sampling: {} must have a potential and a kinetic energy that is quadratic in p",
            system_->description());
   }
@@ -162,7 +162,7 @@ void sampling_choice::run_pilot() {
     }
   }
   const auto thermal = [&](auto& list) {
-    return thermal_positions<Eigen::Dynamic>(target, std::move(list), options_.temperature);
+    return thermal_positions(target, std::move(list), options_.temperature);
   };
   system_->take_starts(thermal(learned_from));
   states_ = thermal(judged_on);

@@ -16,6 +16,7 @@
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/steps_in.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt {
 
@@ -222,7 +223,7 @@ std::vector<std::size_t> spread_pairs(std::size_t all, std::size_t most) {
   for (std::size_t k = 0; k < most; ++k) {
     const std::size_t from = all / most * k + all % most * k / most;
     const std::size_t to = all / most * (k + 1) + all % most * (k + 1) / most;
-    const double share = static_cast<double>(bits() >> 11U) * 0x1p-53;
+    const double share = uniform_by_bits(bits());
     if (from == to) continue;
     result.push_back(from + static_cast<std::size_t>(share * static_cast<double>(to - from)));
   }

@@ -294,7 +294,7 @@ initial_states starts_in(const std::string& file, const initial_value_problem& m
   std::vector<vector<double, Eigen::Dynamic>> positions;
   for (auto& x : states) positions.push_back(std::move(x.q));
   try {
-    return thermal_positions<Eigen::Dynamic>(made.system, std::move(positions), temperature);
+    return thermal_positions(made.system, std::move(positions), temperature);
   } catch (const std::invalid_argument& problem) {
     refuse("cannot take --start {}: {}", file, problem.what());
   }

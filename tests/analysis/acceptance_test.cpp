@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(it_is_the_mean_over_trajectories_of_what_integrate_says) {
   for (const double step : {0.03, 0.05}) {
     const trajectory_options options{
         .step = step, .steps = step == 0.03 ? 70 : 3, .trajectories = 37, .seed = 3};
-    const auto all = acceptance(chain, verlet(), law, options, 0.1);
+    const auto all = acceptance(chain, by_verlet, law, options, 0.1);
     BOOST_REQUIRE(all.of_each.size() == 37U);
     double sum = 0.0;
     std::size_t lost = 0;
@@ -144,14 +144,14 @@ BOOST_AUTO_TEST_CASE(what_is_no_proposal_is_refused) {
   const model at_rest = of_chain.in(bath::of_sigma(0.0, 0.0));
   BOOST_TEST(acceptance(at_rest, by_verlet, initial_states(law), options).of_each.size() == 3U);
   for (const double temperature : {0.0, -1.0, infinite, std::nan("")}) {
-    BOOST_TEST(refuses([&] { acceptance(chain, verlet(), law, options, temperature); }, {"kT", "positive"}));
+    BOOST_TEST(refuses([&] { acceptance(chain, by_verlet, law, options, temperature); }, {"kT", "positive"}));
   }
-  BOOST_TEST(refuses([&] { acceptance(chain, verlet(), law, {.step = 0.01, .steps = 0}); },
+  BOOST_TEST(refuses([&] { acceptance(chain, by_verlet, law, {.step = 0.01, .steps = 0}); },
                      {"0 steps", "at least 1"}));
 
   const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 1.0, 1.0);
   const auto with = [&](double tilt, double bend) {
-    return acceptance(tilted{tilt, bend}, verlet(), starts, options).of_each.size();
+    return acceptance(tilted{tilt, bend}, by_verlet, starts, options).of_each.size();
   };
   BOOST_TEST(with(0.0, 0.0) == 3U);
   for (const auto& odd : {std::pair(1e-3, 0.0), std::pair(0.0, 1e-3), std::pair(-1.0, 0.3)}) {

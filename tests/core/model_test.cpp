@@ -252,12 +252,12 @@ BOOST_AUTO_TEST_CASE(facts_are_those_of_the_concepts) {
     BOOST_TEST_CONTEXT(describe(system)) {
       BOOST_TEST(size(erased) == size(system));
       BOOST_TEST(describe(erased) == describe(system));
-      BOOST_TEST(has_potential(erased) == (HasPotential<S, double>));
+      BOOST_TEST(erased.facts().has_potential == (HasPotential<S, double>));
       BOOST_TEST(has_energy(erased) == HasEnergy<S>);
       BOOST_TEST(has_quadratic_kinetic(erased) == NystromSystem<S>);
       BOOST_TEST(has_modes(erased) == HasModes<S>);
-      BOOST_TEST(has_quadratic_part(erased) == HasQuadraticPart<S>);
-      BOOST_TEST(has_frequency_bands(erased) == HasFrequencyBands<S>);
+      BOOST_TEST(erased.facts().has_quadratic_part == HasQuadraticPart<S>);
+      BOOST_TEST(erased.facts().has_bands == HasFrequencyBands<S>);
       BOOST_TEST(is_black_box(erased) == BlackBoxForce<S>);
       BOOST_TEST(erased.facts().derivative_calls == derivative_calls<S>);
       BOOST_TEST(erased.facts().derivative_source == std::string(derivative_source<S>()));

@@ -17,7 +17,7 @@ struct in_both {
   boxed_wells<N> boxed;
   open_wells<N> open;
   std::vector<phase_point<double, N>> states;
-  std::vector<vector<double, N>> points;
+  std::vector<Eigen::VectorXd> points;
 
   explicit in_both(const units& scales) {
     boxed.scales = scales;
@@ -25,7 +25,7 @@ struct in_both {
     const starts_in_units<N> starts(boxed);
     for (std::uint64_t n = 0; n < 12; ++n) {
       states.push_back(starts(1, n));
-      points.push_back(states.back().q);
+      points.emplace_back(states.back().q);
     }
   }
   /// The largest coordinate, each times the length of it.

@@ -193,7 +193,7 @@ BOOST_AUTO_TEST_CASE(where_all_curvature_is_negative_the_highest_frequency_is_ze
 BOOST_AUTO_TEST_CASE(soft_stiffness_is_that_without_the_quadratic_part) {
   const with_quadratic_part system(henon_heiles(), Eigen::MatrixXd::Identity(2, 2));
   const std::vector states{phase_point<double, 2>{vector<double, 2>(0.3, -0.2), vector<double, 2>(0.0, 0.0)}};
-  const auto soft = hessian_spectrum<field::soft>(system, states);
+  const auto soft = hessian_spectrum(system, states, field::soft);
   const auto all = hessian_spectrum(system, states);
   BOOST_TEST(std::abs(all.highest - soft.highest - 1.0) < 20.0 * eps);  // some ten operations
   BOOST_TEST(std::abs(all.lowest - soft.lowest - 1.0) < 20.0 * eps);
@@ -235,7 +235,7 @@ BOOST_AUTO_TEST_CASE(a_kinetic_energy_of_any_kind_counts) {
   for (const double p : {0.0, 0.5, 2.0}) {
     for (const double q : {0.0, 0.3, 1.0}) {
       const auto found =
-          frequencies_at(fast_particle{}, phase_point<double, 1>{vector<double, 1>(q), vector<double, 1>(p)});
+          frequencies_at(fast_particle{}, {Eigen::VectorXd::Constant(1, q), Eigen::VectorXd::Constant(1, p)});
       const double expected = std::sqrt((100.0 + 240.0 * q * q) * std::pow(1.0 + p * p, -1.5));
       BOOST_TEST(std::abs(found[0] / expected - 1.0) < 1e-14);
     }

@@ -119,7 +119,7 @@ shears shears_at(const model& system, const any_state& x) {
   const Eigen::MatrixXd whole = hessian_of(system, x.q);
   const auto rate = [&](const auto& p, auto& v) { over.velocity(p, v); };
   shears result{norm(whole), norm(derivative_of(rate, x.p)), 0.0};
-  if (has_quadratic_part(system)) {
+  if (system.facts().has_quadratic_part) {
     const auto minus = [&](const auto& q, auto& f) { over.force(field::soft, q, f); };
     const Eigen::MatrixXd soft = -derivative_of(minus, x.q);
     result.potential = std::max({result.potential, norm(soft), norm(whole - soft)});

@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(the_declared_order_is_the_measured_one) {
     for (const auto& one : specimens_with([](const model& system) {
            const std::string name = describe(system);
            return name.starts_with(split_pendulum) || name.starts_with(galaxy) ||
-                  (has_quadratic_part(system) && !system.has_unit_mass() && system.size() == 2) ||
+                  (system.facts().has_quadratic_part && !system.has_unit_mass() && system.size() == 2) ||
                   !has_quadratic_kinetic(system);
          })) {
       if (!suits(one.system, method)) continue;

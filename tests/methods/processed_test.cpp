@@ -3,7 +3,7 @@
 #include "../laws/laws.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/analysis/cost_against_error.hpp"
-#include "nysalt/derivatives/properties.hpp"
+#include "nysalt/derivatives/taylor_order.hpp"
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/gradient_composition.hpp"

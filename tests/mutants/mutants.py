@@ -323,7 +323,7 @@ mutant(81, "the evaluations of a reference are those of one lane", LIBRARY + "re
        "references data",
        ("return count * evaluations_of(", "return (MUTANT ? 1 : count) * evaluations_of("))
 mutant(82, "the burn-in is kept as initial states", LIBRARY + "ensembles/gibbs.cpp", "ensembles",
-       ("if (n >= first) states_.push_back(x);", "if (MUTANT || n >= first) states_.push_back(x);"))
+       ("if (n >= first) kept.push_back(x);", "if (MUTANT || n >= first) kept.push_back(x);"))
 mutant(83, "a burn-in is a tenth as long", LIBRARY + "ensembles/burn_in.hpp", "ensembles",
        ("options_.length > 0.0 ? options_.length : times_of_tau() * report.tau;",
         "options_.length > 0.0 ? options_.length : (MUTANT ? 0.1 : 1.0) * times_of_tau() * report.tau;"))
@@ -458,6 +458,6 @@ mutant(119, "the error of a mean acceptance is half as large", LIBRARY + "analys
 mutant(120, "standard errors of parameters lack the factor 2 of the gradient of a square",
        HEADERS + "losses/squares.hpp", "learning losses",
        ("r.slope(k, i) * 2.0;", "r.slope(k, i) * (MUTANT ? 1.0 : 2.0);"))
-mutant(121, "another seed is a shift of the numbers of trajectories", HEADERS + "ensembles/distributions.hpp", "ensembles",
-       ("state normals(2 * pairs_);\n    standard_normals(seed, {.trajectory = n,",
-        "state normals(2 * pairs_);\n    standard_normals(MUTANT ? 0 : seed, {.trajectory = MUTANT ? seed + n : n,"))
+mutant(121, "another seed is a shift of the numbers of trajectories", LIBRARY + "ensembles/distributions.cpp", "ensembles",
+       ("Eigen::VectorXd normals(2 * pairs_);\n  standard_normals(seed, {.trajectory = n,",
+        "Eigen::VectorXd normals(2 * pairs_);\n  standard_normals(MUTANT ? 0 : seed, {.trajectory = MUTANT ? seed + n : n,"))

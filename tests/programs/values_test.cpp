@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(acceptances_are_those_of_the_library) {
         std::string("--seed 5 --horizon 2") + (temperature == 1.0 ? "" : " --hmc-temperature 0.2"));
     const auto& theta = all["fits"][0]["parameters"];
     const auto is_of = [&](const auto& row, const auto& method) {
-      const auto expected = acceptance(chain, method, law, options, temperature);
+      const auto expected = acceptance(chain, tabulated(method), law, options, temperature);
       BOOST_TEST(row["acceptance"] == expected.probability.mean);
       BOOST_TEST(row["standard_error"] == expected.probability.standard_error);
       BOOST_TEST(row["evaluations_per_time"] == expected.evaluations_per_time);

@@ -226,7 +226,7 @@ BOOST_AUTO_TEST_CASE(modes_diagonalise_the_quadratic_part_and_leave_the_soft_for
         wrong.basis(0, 0) *= 1.0 + 1e-6;
         BOOST_TEST(modes_defect(system, wrong) > 10.0);
       }
-      if (!has_quadratic_part(system)) continue;
+      if (!system.facts().has_quadratic_part) continue;
       ++tried;
       for (int n = 0; n < 20; ++n) {
         const auto q = one.at_random(random).q;

@@ -151,7 +151,7 @@ initial_states reached_by(const target& of, const tabulated& word, double step, 
   hmc(of.system, word, of.starts, how, [&](const hmc_draw& draw) {
     positions[static_cast<std::size_t>(draw.chain * draws + draw.number)] = draw.q;
   });
-  return thermal_positions<Eigen::Dynamic>(of.system, std::move(positions), 1.0);
+  return thermal_positions(of.system, std::move(positions), 1.0);
 }
 
 }  // namespace nysalt::sampling_benchmark

@@ -39,7 +39,7 @@ target thermal(Eigen::Index side, std::int64_t chains, std::int64_t draws, const
       [&](const hmc_draw& draw) {
         positions[static_cast<std::size_t>(draw.chain * draws + draw.number)] = draw.q;
       });
-  return {system, thermal_positions<Eigen::Dynamic>(system, std::move(positions), 1.0)};
+  return {system, thermal_positions(system, std::move(positions), 1.0)};
 }
 
 /// The square of the power of each mode; its mean and variance are estimated by long chains of a word.
@@ -106,7 +106,7 @@ void add_steps_on(Eigen::Index side, double lambda, const target& smaller, std::
         large[r * side + c] = q[(r % small_side) * small_side + c % small_side];
     }
   }
-  target of{system, thermal_positions<Eigen::Dynamic>(system, std::move(tiled), 1.0)};
+  target of{system, thermal_positions(system, std::move(tiled), 1.0)};
   const auto word =
       std::ranges::find(words, "omelyan5v", [](const contender& one) { return one.word.name(); });
   of.starts = reached_by(of, word->word, 0.7 * word->step, 4, 60, 1, options);

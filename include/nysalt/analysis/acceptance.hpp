@@ -24,11 +24,6 @@ struct acceptance_result {
   double evaluations_per_time = 0.0;             ///< force evaluations per unit time, start-up included
 };
 
-namespace detail {
-acceptance_result acceptance(const model& system, const tabulated& method, const initial_states& ensemble,
-                             const trajectory_options& options, double temperature);
-}  // namespace detail
-
 /// The probability that Metropolis' rule accepts where a trajectory of n steps leads
 /// [duane_kennedy_pendleton_roweth_1987],
 ///
@@ -41,15 +36,10 @@ acceptance_result acceptance(const model& system, const tabulated& method, const
 /// ranks change a bit, and all ranks get the result.
 ///
 /// Memory: 32 bytes a trajectory on each rank. Throws std::invalid_argument if the method is not symmetric,
-/// K(-p) is not K(p) at some start of the first 16, the system is in a bath that acts (H is not its own
+/// K(-p) is not K(p) at some start of the first 16, H cannot be evaluated, the system is in a bath that acts (H is not its own
 /// then), kT is not positive and finite, there is not one step or trajectory, or a start does not fit.
-template <SeparableSystem S, Ensemble<S> E>
-  requires HasEnergy<S>
-acceptance_result acceptance(const S& system, const tabulated& method, const E& ensemble,
-                             const trajectory_options& options, double temperature = 1.0) {
-  return detail::acceptance(system, method, ensemble, options,
-                            temperature);
-}
+acceptance_result acceptance(const model& system, const tabulated& method, const initial_states& ensemble,
+                             const trajectory_options& options, double temperature = 1.0);
 
 // The step at which proposals of Hybrid Monte Carlo are accepted with a given probability.
 

@@ -58,11 +58,6 @@ struct force_check {
 
 // A check of what users write by hand.
 
-namespace detail {
-force_check check_force(const model& system, const std::vector<Eigen::VectorXd>& points,
-                        const std::vector<Eigen::VectorXd>& momenta, const phase_points& seen);
-}  // namespace detail
-
 /// Compares force with -grad V, kick with force, soft_force with the force less the quadratic part (up to 64
 /// coordinates), and force_derivative with differences of the force, and checks the symmetry of f'(q), at
 /// the given points; at the momenta compares a velocity of the system's own with grad K, or checks the
@@ -75,16 +70,9 @@ force_check check_force(const model& system, const std::vector<Eigen::VectorXd>&
 ///
 /// Throws std::invalid_argument if there are no points, if there is not a momentum for each, if one has not
 /// the system's dimension, or if a function of the system changes how numbers are rounded.
-template <SeparableSystem S>
-force_check check_force(const S& system, const std::vector<vector<double, S::dimension>>& points,
-                        const std::vector<vector<double, S::dimension>>& momenta,
-                        const phase_points& seen = {}) {
-  return detail::check_force(system, {points.begin(), points.end()}, {momenta.begin(), momenta.end()}, seen);
-}
+force_check check_force(const model& system, const std::vector<Eigen::VectorXd>& points,
+                        const std::vector<Eigen::VectorXd>& momenta, const phase_points& seen = {});
 /// Checks with the same numbers as points and as momenta.
-template <SeparableSystem S>
-force_check check_force(const S& system, const std::vector<vector<double, S::dimension>>& points) {
-  return check_force(system, points, points);
-}
+force_check check_force(const model& system, const std::vector<Eigen::VectorXd>& points);
 
 }  // namespace nysalt

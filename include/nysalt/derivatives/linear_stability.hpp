@@ -2,8 +2,6 @@
 // Linear stability: the windows of z = h omega in which a method is stable, and the distance from their ends.
 #pragma once
 
-#include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "nysalt/method.hpp"
@@ -27,24 +25,10 @@ struct stability_chart {
 };
 
 /// Whether all z in low..high lie in one window.
-inline bool is_stable(const std::vector<stability_window>& windows, double low, double high) {
-  return std::any_of(windows.begin(), windows.end(),
-                     [&](const auto& window) { return window.low <= low && high <= window.high; });
-}
+bool is_stable(const std::vector<stability_window>& windows, double low, double high);
 
 /// The parts of 0..highest that lie in no window.
-inline std::vector<stability_window> gaps_below(const std::vector<stability_window>& windows,
-                                                double highest) {
-  std::vector<stability_window> gaps;
-  double last = 0.0;
-  for (const auto& window : windows) {
-    const double next = std::min(window.low, highest);
-    if (last < next) gaps.push_back({last, next});
-    last = window.high;
-  }
-  if (last < highest) gaps.push_back({last, highest});
-  return gaps;
-}
+std::vector<stability_window> gaps_below(const std::vector<stability_window>& windows, double highest);
 
 // Stability margin: the distance of a step from the ends of the windows of stability.
 
@@ -52,17 +36,7 @@ inline std::vector<stability_window> gaps_below(const std::vector<stability_wind
 /// window has a beginning above 0 also 1 - beginning/low, whichever is less. A step may grow by the factor
 /// 1/(1 - margin) before it is unstable. Negative if some z is unstable: then the end is that of the last
 /// window which holds z before it; minus infinity if there is none.
-inline double stability_margin(const std::vector<stability_window>& windows, double low, double high) {
-  double end = 0.0;
-  double margin_below = 1.0;
-  for (const auto& window : windows) {
-    if (!(window.low <= low)) break;
-    end = window.high;
-    margin_below = window.low > 0.0 ? 1.0 - window.low / low : 1.0;
-  }
-  if (!(end > 0.0)) return -std::numeric_limits<double>::infinity();
-  return std::min(1.0 - high / end, margin_below);
-}
+double stability_margin(const std::vector<stability_window>& windows, double low, double high);
 
 /// Steps from low to high.
 struct step_range {
@@ -71,26 +45,8 @@ struct step_range {
 };
 
 /// Every step at which each band lies in a window, from small to large. Without bands all steps.
-inline std::vector<step_range> stable_steps(const std::vector<stability_window>& windows,
-                                            const std::vector<frequency_band>& bands) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<step_range> result{{0.0, infinity}};
-  for (const auto& band : bands) {
-    if (!(band.high > 0.0)) continue;
-    std::vector<step_range> both;
-    for (const auto& window : windows) {
-      if (band.low == 0.0 && window.low > 0.0) continue;
-      const double low = band.low > 0.0 ? window.low / band.low : 0.0;
-      const double high = window.high / band.high;
-      for (const auto& range : result) {
-        const step_range common{std::max(low, range.low), std::min(high, range.high)};
-        if (common.low < common.high) both.push_back(common);
-      }
-    }
-    result = both;
-  }
-  return result;
-}
+std::vector<step_range> stable_steps(const std::vector<stability_window>& windows,
+                                     const std::vector<frequency_band>& bands);
 
 // For which z = h omega a method is stable on the harmonic oscillator, exactly.
 
@@ -102,10 +58,7 @@ inline std::vector<step_range> stable_steps(const std::vector<stability_window>&
 /// slot.
 stability_chart chart_stability(const word& letters, const std::vector<double>& coefficients);
 /// Only the windows of chart_stability().
-inline std::vector<stability_window> stability_windows(const word& letters,
-                                                       const std::vector<double>& coefficients) {
-  return chart_stability(letters, coefficients).windows;
-}
+std::vector<stability_window> stability_windows(const word& letters, const std::vector<double>& coefficients);
 
 /// The windows of a method, at its own coefficients.
 inline std::vector<stability_window> stability_windows(const tabulated& method) {

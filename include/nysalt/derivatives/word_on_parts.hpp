@@ -15,9 +15,6 @@
 
 namespace nysalt {
 
-/// Whether all letters of a word are known on an oscillator of one frequency: A, B, D, G, R, S, H and O.
-bool is_of_oscillators(const run_time_word& word);
-
 /// Transient growth of the linearised motion of a word, as energies.
 struct growth_of_energy {
   /// Largest (|M^n|^2 - 1) of up to early_steps steps: the energy error of oscillations, relative to their
@@ -81,13 +78,17 @@ class word_on_parts {
   double displacement(const std::vector<double>& coefficients, double step) const;
 
  private:
+  /// A letter of the word that is not of the bath.
   struct letter {
+    std::size_t kind;  // number of the letter among those that differ
+    std::size_t first_slot;
+    std::size_t slots;
+  };
+  struct kind {
     bool drifts = false;
-    bool acts = true;
-    std::size_t first_slot = 0;
-    std::size_t slots = 1;
     std::size_t first_kick = 0;  // number of the first Hessian
   };
+  struct motion;
   /// The linearised step in the coordinates in which the whole Hessian is diagonal.
   struct linearised {
     Eigen::VectorXd squares;                 // of frequencies, from low to high
@@ -95,15 +96,22 @@ class word_on_parts {
     std::vector<Eigen::VectorXd> force;      // of each slot of a kick, about the equilibrium
   };
 
-  static linearised diagonal(const Eigen::MatrixXd& whole, const std::vector<Eigen::MatrixXd>& parts,
-                             const std::vector<Eigen::VectorXd>& forces, const Eigen::VectorXd& force);
-  void examine(const model& system, const phase_points& states, const run_time_word& word);
+  static linearised diagonal(const motion& about);
+  /// Each letter that differs from those before it, as a word by itself. This and the two functions below
+  /// throw std::invalid_argument where the linearised motion is not known, and say why.
+  std::vector<run_time_word> kinds_of(const model& system, const run_time_word& word);
+  /// Finds of which kind a letter is, and adds what it does about a state, root root^T = K''.
+  static void add_letter(const model& system, const run_time_word& single, kind& of,
+                         const phase_point<double, Eigen::Dynamic>& at, const Eigen::MatrixXd& root,
+                         motion& to);
+  void examine(const model& system, const phase_points& states, const std::vector<run_time_word>& kinds);
   const linearised& of_state(std::size_t state) const { return state < at_.size() ? at_[state] : mean_; }
   void apply(const linearised& at, const std::vector<double>& coefficients, double step,
              Eigen::Ref<Eigen::MatrixXd> x, Eigen::VectorXd* affine) const;
 
   std::string word_;
   std::vector<letter> letters_;
+  std::vector<kind> kinds_;
   std::size_t slots_ = 0;
   std::vector<linearised> at_;
   linearised mean_;

@@ -3,25 +3,18 @@
 // trajectory.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "nysalt/detail/kernels.hpp"
 #include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/noises/counter_noise.hpp"
-#include "nysalt/references/exact_linear.hpp"
 
 namespace nysalt {
 
@@ -83,27 +76,22 @@ struct burn_in_report {
 
 namespace detail {
 
-/// The chains of gibbs.
-class gibbs_chains {
+/// The ends of burnt-in chains, of a dimension that is known at run time.
+class gibbs_states {
  public:
-  gibbs_chains(const model& in_bath, initial_states from, const burn_in_options& options);
+  gibbs_states(const model& in_bath, const initial_states& from, const burn_in_options& options);
 
+  /// The burn-in of the chains, and what was checked.
   const burn_in_report& report() const { return report_; }
-  template <class T>
-  phase_point<T, Eigen::Dynamic> block(std::uint64_t seed, std::int64_t first, int count) const;
-  std::string description() const;
+  phase_point<double, Eigen::Dynamic> start(std::uint64_t seed, std::uint64_t n) const {
+    return chains_(seed, n);
+  }
+  std::string description() const { return chains_.description(); }
 
- private:
-  model base_;
-  initial_states from_;
-  double temperature_;
+ protected:
   burn_in_report report_;
+  initial_states chains_;
 };
-
-extern template phase_point<double, Eigen::Dynamic> gibbs_chains::block<double>(std::uint64_t, std::int64_t,
-                                                                                int) const;
-extern template phase_point<lanes, Eigen::Dynamic> gibbs_chains::block<lanes>(std::uint64_t, std::int64_t,
-                                                                              int) const;
 
 }  // namespace detail
 
@@ -123,7 +111,7 @@ extern template phase_point<lanes, Eigen::Dynamic> gibbs_chains::block<lanes>(st
 ///
 /// Cost of a state: report().steps steps of BAOAB; many trajectories at a time in the lanes of packs.
 template <int N>
-class gibbs {
+class gibbs : public detail::in_dimension<detail::gibbs_states, N> {
  public:
   /// The Gibbs distribution of a system in a bath. Throws std::invalid_argument if the bath has no
   /// temperature or that is zero, if an option is out of range, or if there are neither a step nor
@@ -132,32 +120,15 @@ class gibbs {
   template <HasBath S, Ensemble<S> E>
     requires(NystromSystem<S> && S::dimension == N)
   gibbs(const S& system, const E& from, const burn_in_options& options = {})
-      : chains_(std::make_shared<detail::gibbs_chains>(system, from, options)) {}
-
-  /// The burn-in of the chains, and what was checked.
-  const burn_in_report& report() const { return chains_->report(); }
-
-  /// The start of trajectory n. Throws std::runtime_error if its chain diverges.
-  phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
-    return block<double>(seed, static_cast<std::int64_t>(n), 1);
-  }
+      : detail::in_dimension<detail::gibbs_states, N>(system, from, options) {}
 
   /// Initial states of `count` trajectories from the first on, one in each lane of T, with the bits that each
   /// has without the others. Throws std::runtime_error if one diverges.
   template <class T>
   phase_point<T, N> block(std::uint64_t seed, std::int64_t first, int count) const {
-    if constexpr (std::same_as<T, double> || std::same_as<T, detail::lanes>) {
-      const auto x = chains_->block<T>(seed, first, count);
-      return {x.q, x.p};
-    } else {
-      return gather<T, N>(count, [&](int k) { return (*this)(seed, static_cast<std::uint64_t>(first + k)); });
-    }
+    const auto x = this->chains_.template block<T>(seed, first, count);
+    return {x.q, x.p};
   }
-
-  std::string description() const { return chains_->description(); }
-
- private:
-  std::shared_ptr<const detail::gibbs_chains> chains_;
 };
 
 /// Takes the dimension from the system.
@@ -167,50 +138,33 @@ gibbs(const S&, const E&) -> gibbs<S::dimension>;
 template <HasBath S, class E>
 gibbs(const S&, const E&, const burn_in_options&) -> gibbs<S::dimension>;
 
+namespace detail {
+
+/// The law of gibbs_of_modes.
+class modal_gibbs {
+ public:
+  modal_gibbs(const model& system, double temperature);
+  phase_point<double, Eigen::Dynamic> start(std::uint64_t seed, std::uint64_t n) const;
+  std::string description() const;
+
+ private:
+  double temperature_;
+  std::shared_ptr<const modal_coordinates> modes_;
+};
+
+}  // namespace detail
+
 /// Independent states from exp(-H/kT) of a linear system, mode by mode: omega_k x_k and y_k are normal with
 /// variance kT. Exact, and nothing has to be burned in.
 template <int N>
-class gibbs_of_modes {
+class gibbs_of_modes : public detail::in_dimension<detail::modal_gibbs, N> {
  public:
   /// Throws std::invalid_argument unless the force is the linear one of the modes, all of these have a
   /// frequency, and the temperature is finite and positive.
   template <HasModes S>
     requires(S::dimension == N)
-  gibbs_of_modes(const S& system, double temperature) : temperature_(temperature) {
-    const exact_linear linear(system);  // refuses any other
-    modes_ = modal_coordinates::of(system);
-    if (!(temperature > 0.0) || !std::isfinite(temperature) ||
-        !(std::ranges::min(modes_->frequencies()) > 0.0)) {
-      throw std::invalid_argument(
-          sentence("gibbs_of_modes: temperature and the frequency of each mode must be above 0, got {} at "
-                   "temperature {}",
-                   describe(system), temperature));
-    }
-  }
-
-  phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
-    vector<double, N> x(modes_->size());
-    vector<double, N> y(modes_->size());
-    noise_counter at = {.trajectory = n, .purpose = noise_purpose::initial_state};
-    standard_normals(seed, at, x);
-    at.slot += slots_for(static_cast<std::uint64_t>(x.size()));
-    standard_normals(seed, at, y);
-    const double deviation = std::sqrt(temperature_);
-    for (Eigen::Index k = 0; k < x.size(); ++k) {
-      x[k] *= deviation / modes_->frequencies()[static_cast<std::size_t>(k)];
-      y[k] *= deviation;
-    }
-    phase_point<double, N> state{vector<double, N>(x.size()), vector<double, N>(x.size())};
-    modes_->from_modes(x, y, state.q, state.p);
-    return state;
-  }
-  std::string description() const {
-    return sentence("gibbs_of_modes(temperature={})", in_digits(temperature_, 6));
-  }
-
- private:
-  double temperature_;
-  std::shared_ptr<const modal_coordinates> modes_;
+  gibbs_of_modes(const S& system, double temperature)
+      : detail::in_dimension<detail::modal_gibbs, N>(system, temperature) {}
 };
 
 /// Length of the trajectory, and the number of states kept.
@@ -224,20 +178,21 @@ struct long_trajectory_options {
 
 namespace detail {
 
-/// The states of one_long_trajectory.
+/// The law of one_long_trajectory.
 class long_trajectory {
  public:
   long_trajectory(const model& in_bath, const initial_states& from, const long_trajectory_options& options);
 
-  std::size_t states() const { return states_.size(); }
-  const phase_point<double, Eigen::Dynamic>& operator()(std::uint64_t seed, std::uint64_t n) const;
+  std::size_t states() const { return states_->size(); }  ///< number of states kept
+  /// One of the states.
+  const phase_point<double, Eigen::Dynamic>& start(std::uint64_t seed, std::uint64_t n) const;
   std::string description() const;
 
  private:
   long_trajectory_options options_;
   std::string from_;
   double step_ = 0.0;
-  std::vector<phase_point<double, Eigen::Dynamic>> states_;
+  std::shared_ptr<const std::vector<phase_point<double, Eigen::Dynamic>>> states_;
 };
 
 }  // namespace detail
@@ -248,27 +203,14 @@ class long_trajectory {
 /// down from the start stays among them; independent states of the invariant distribution are gibbs. On-step
 /// momenta are those of BAOAB, whose variance is low by (omega h)^2/4. Memory: the states that are kept.
 template <int N>
-class one_long_trajectory {
+class one_long_trajectory : public detail::in_dimension<detail::long_trajectory, N> {
  public:
   /// Throws std::invalid_argument if the options are out of range, or there are neither a step nor
   /// frequencies or forces at the starts; std::runtime_error if the trajectory diverges.
   template <HasBath S, Ensemble<S> E>
     requires(S::dimension == N)
   one_long_trajectory(const S& system, const E& from, const long_trajectory_options& options = {})
-      : held_(std::make_shared<detail::long_trajectory>(system, from, options)) {}
-
-  std::size_t states() const { return held_->states(); }  ///< number of states kept
-
-  /// The start of trajectory n: one of the states.
-  phase_point<double, N> operator()(std::uint64_t seed, std::uint64_t n) const {
-    const auto& x = (*held_)(seed, n);
-    return {x.q, x.p};
-  }
-
-  std::string description() const { return held_->description(); }
-
- private:
-  std::shared_ptr<const detail::long_trajectory> held_;
+      : detail::in_dimension<detail::long_trajectory, N>(system, from, options) {}
 };
 
 /// Takes the dimension from the system.

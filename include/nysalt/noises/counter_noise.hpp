@@ -356,6 +356,17 @@ void standard_normals(std::uint64_t seed, const noise_counter& first, vector<T, 
   standard_normals<T>(seed, first, std::span<T>(out.data(), static_cast<std::size_t>(out.size())));
 }
 
+/// The uniform number between 0 and 1 that is as likely not exceeded as a standard normal one.
+inline double uniform_by_normal(double normal) { return 0.5 * std::erfc(-normal / std::numbers::sqrt2); }
+/// One of the numbers below `count`, each as likely, by a standard normal one.
+inline std::size_t index_by_normal(double normal, std::size_t count) {
+  const double place = uniform_by_normal(normal) * static_cast<double>(count);
+  return std::min(static_cast<std::size_t>(place), count - 1);
+}
+/// The uniform number between 0 and 1 of the upper 53 of 64 random bits: distributions of the standard differ
+/// between libraries, bits of the same engine do not.
+inline double uniform_by_bits(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-53; }
+
 /// Fresh noise: a pure function of seed, trajectory, step and letter. Two runs with one seed see the same
 /// numbers at the same places, for any lanes, threads and order.
 class counter_noise {

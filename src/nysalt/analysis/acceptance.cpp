@@ -18,7 +18,7 @@
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/shard.hpp"
 
-namespace nysalt::detail {
+namespace nysalt {
 
 namespace {
 
@@ -50,7 +50,11 @@ void require_even_kinetic(const model& system, const Eigen::VectorXd& p, std::in
 
 acceptance_result acceptance(const model& system, const tabulated& method, const initial_states& ensemble,
                              const trajectory_options& options, double temperature) {
-  require_metropolis_applies("acceptance", system, method, temperature);
+  detail::require_metropolis_applies("acceptance", system, method, temperature);
+  if (!has_energy(system)) {
+    throw std::invalid_argument(sentence(
+        "acceptance: H must be known, got {} without a potential; give the system one", describe(system)));
+  }
   collectively(*options.ranks, [&] { require_room(options, 1, 1); });
   if (!has_quadratic_kinetic(system)) {
     constexpr std::int64_t enough = 16;
@@ -80,7 +84,7 @@ acceptance_result acceptance(const model& system, const tabulated& method, const
                                    .progress = options.progress,
                                    .ranks = options.ranks};
   const auto stepper = make_stepper(system, method, options.step);
-  const auto diverged = with_scalar_of(
+  const auto diverged = detail::with_scalar_of(
       system, [&]<class T>(T) { return integrate_ensemble<T>(stepper, ensemble, both_ends, 1, read, take); });
   shard(options.trajectories, *options.ranks).gather(of_each);
 
@@ -94,10 +98,6 @@ acceptance_result acceptance(const model& system, const tabulated& method, const
   result.evaluations_per_time = static_cast<double>(evaluations) / time;
   return result;
 }
-
-}  // namespace nysalt::detail
-
-namespace nysalt {
 
 double acceptance_at(double energy_error) {
   return energy_error > 0.0 ? std::erfc(0.5 * std::sqrt(energy_error)) : 1.0;

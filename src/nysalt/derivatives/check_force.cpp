@@ -4,15 +4,18 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 #include <stdexcept>
 #include <vector>
 
-#include "force_source.hpp"
+#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/rounding.hpp"
+#include "nysalt/detail/site_kernels.hpp"
 
 namespace nysalt {
 
@@ -84,6 +87,154 @@ std::string force_check::objection() const {
 
 }  // namespace nysalt
 
+// Derivatives of the functions of a model: automatic ones, or differences.
+
+namespace nysalt::detail {
+
+namespace {
+
+using column = Eigen::VectorXd;
+
+/// Exact derivatives of a formula of a hundred operations, whose terms exceed their sum up to 7e5 times, err
+/// by less than 100 * 7e5 eps = sqrt(eps) of it.
+double tolerance_of_exact() { return std::sqrt(std::numeric_limits<double>::epsilon()); }
+
+/// Adapted differences err by 1e-7 of what they differentiate for one that is some r = |V|/(L |f|) = 1 of it,
+/// and by r times their rounding, 1e-11: below this for r < 10^7.
+double tolerance_of_differences() { return 30.0 * std::cbrt(std::numeric_limits<double>::epsilon()); }
+
+/// The derivative of function(vector) along a direction whose size is that of a displacement of the motion.
+/// Errors of the function's entries count with the weights.
+column difference_along(const std::function<column(const column&)>& function, const column& x,
+                        const column& direction, const column& weights) {
+  const auto value_at = [&](double s, column& y) { y = function(x + s * direction); };
+  const column middle = function(x);
+  const double noise = noise_of_forces * weights.cwiseAbs().dot(middle.cwiseAbs());
+  column result = middle;
+  adapted_difference(value_at, middle, weights, noise, farthest_from(x, direction), result);
+  return result;
+}
+
+/// The same of a function with one value.
+double slope_by_difference(const std::function<double(const column&)>& function, const column& x,
+                           const column& direction) {
+  const auto value = [&](const column& at) { return column::Constant(1, function(at)).eval(); };
+  return difference_along(value, x, direction, column::Ones(1))[0];
+}
+
+vector<slopes, Eigen::Dynamic> lifted(const column& x, const column& v) {
+  vector<slopes, Eigen::Dynamic> result(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    result[i] = slopes(x[i]);
+    result[i].derivative[0] = v[i];
+  }
+  return result;
+}
+column first_slopes(const vector<slopes, Eigen::Dynamic>& x) {
+  column result(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) result[i] = x[i].derivative[0];
+  return result;
+}
+
+/// Whether slopes of the force are automatic derivatives, and so those of its potential.
+bool has_exact_force(const model_facts& facts) { return !facts.is_black_box; }
+bool has_exact_potential(const model_facts& facts) {
+  return facts.has_potential_over_slopes && !facts.is_black_box;
+}
+/// Whether slopes of the velocity, or of the kinetic energy that it comes from, are automatic derivatives.
+bool has_exact_velocity(const model_facts& facts) {
+  return facts.has_own_kinetic_energy ? facts.has_kinetic_energy_over_slopes : facts.has_velocity_over_slopes;
+}
+
+/// Of the force along v, which is as long as a displacement of the motion, as all directions are.
+void force_slope(const model& system, const column& q, const column& v, column& g) {
+  if (system.facts().is_black_box) {
+    column f(q.size());
+    system.force(q, f);
+    system.directional_derivative(q, v, f, g);
+  } else {
+    vector<slopes, Eigen::Dynamic> result(q.size());
+    system.force(lifted(q, v), result);
+    g = first_slopes(result);
+  }
+}
+
+double potential_slope(const model& system, const column& q, const column& v) {
+  if (system.facts().has_potential_over_slopes) return system.potential(lifted(q, v)).derivative[0];
+  return slope_by_difference([&](const column& x) { return system.potential(x); }, q, v);
+}
+
+void velocity_slope(const model& system, const column& p, const column& v, column& g) {
+  if (system.facts().has_velocity_over_slopes) {
+    vector<slopes, Eigen::Dynamic> result(p.size());
+    system.kernels<slopes>().velocity(lifted(p, v), result);
+    g = first_slopes(result);
+  } else {
+    const auto at = [&](const column& x) {
+      column result(x.size());
+      system.kernels<double>().velocity(x, result);
+      return result;
+    };
+    g = difference_along(at, p, v, v);
+  }
+}
+
+double kinetic_slope(const model& system, const column& p, const column& v) {
+  if (system.facts().has_kinetic_energy_over_slopes) {
+    return system.kernels<slopes>().kinetic_energy(lifted(p, v)).derivative[0];
+  }
+  return slope_by_difference([&](const column& x) { return system.kernels<double>().kinetic_energy(x); }, p,
+                             v);
+}
+
+/// The kick p += force(q)/2 of some sites, by the kick or by the force. What is beyond the reach of the range
+/// is not a number.
+void kick_in_range(const site_kernels& sites, Eigen::Index begin, Eigen::Index end, bool by_force,
+                   const column& q, column& p) {
+  const site_layout layout = sites.layout();
+  const auto is_there = [&](Eigen::Index i) { return layout.is_periodic || (0 <= i && i < layout.sites); };
+  Eigen::Index first = begin - layout.reach;
+  Eigen::Index last = end + layout.reach;
+  if (!is_there(first)) first = 0;
+  if (!is_there(last - 1)) last = layout.sites;
+  const Eigen::Index margin = 3 * layout.reach + 16;
+  const Eigen::Index stride = last - first + 2 * margin;
+  std::vector<double> values(static_cast<std::size_t>(3 * layout.components * stride),
+                             std::numeric_limits<double>::quiet_NaN());
+  const auto part = [&](Eigen::Index number) {
+    return columns(values.data() + number * layout.components * stride, first - margin, stride);
+  };
+  const tile x{
+      part(0), part(1), part(2), first, last, first == begin - layout.reach, last == end + layout.reach};
+  for (Eigen::Index c = 0; c < layout.components; ++c) {
+    for (Eigen::Index i = first; i < last; ++i) {
+      const Eigen::Index site = (i % layout.sites + layout.sites) % layout.sites;
+      x.q(c, i) = q[layout.components * site + c];
+      x.p(c, i) = p[layout.components * site + c];
+    }
+  }
+  const std::array<tile_letter, 1> letter{{{.coefficient = 0.5, .is_kick = true, .keeps_force = by_force}}};
+  sites.advance(x, letter);
+  for (Eigen::Index c = 0; c < layout.components; ++c) {
+    for (Eigen::Index i = begin; i < end; ++i) p[layout.components * i + c] = x.p(c, i);
+  }
+}
+
+/// p += force(q)/2 in four ranges of sites, by the kick and by the force in turn.
+void kick_in_ranges(const site_kernels& sites, const column& q, column& p) {
+  const site_layout layout = sites.layout();
+  const Eigen::Index rows = layout.sites / layout.sites_of_row;
+  constexpr Eigen::Index ranges = 4;
+  for (Eigen::Index k = 0; k < ranges; ++k) {
+    kick_in_range(sites, layout.sites_of_row * (rows * k / ranges),
+                  layout.sites_of_row * (rows * (k + 1) / ranges), k % 2 == 1, q, p);
+  }
+}
+
+}  // namespace
+
+}  // namespace nysalt::detail
+
 // Compares, at one point after the other, what a system says of its force in several ways.
 
 namespace nysalt::detail {
@@ -116,36 +267,36 @@ std::vector<Eigen::VectorXd> directions_to_examine(const Eigen::VectorXd& length
 /// Forces are compared as the energies that they are over the lengths of coordinates, and velocities over
 /// those of momenta: then no unit of a coordinate matters.
 class force_examination {
-  using column = Eigen::VectorXd;
-
  public:
-  force_examination(const force_source& source, const column& lengths, const column& lengths_of_momenta)
-      : source_(source),
+  force_examination(const model& system, const column& lengths, const column& lengths_of_momenta)
+      : system_(system),
+        facts_(system.facts()),
         lengths_(lengths),
         lengths_of_momenta_(lengths_of_momenta),
         along_(directions_to_examine(lengths)),
         along_momenta_(directions_to_examine(lengths_of_momenta)),
-        f_(source.size),
-        other_(source.size) {
-    found_.has_potential = source.has_potential;
-    found_.tolerance = source.has_exact_potential ? tolerance_of_exact() : tolerance_of_differences();
-    found_.asymmetry_tolerance = source.has_exact_force ? tolerance_of_exact() : tolerance_of_differences();
+        f_(facts_.size),
+        other_(facts_.size) {
+    found_.has_potential = facts_.has_potential;
+    found_.tolerance = has_exact_potential(facts_) ? tolerance_of_exact() : tolerance_of_differences();
+    found_.asymmetry_tolerance = has_exact_force(facts_) ? tolerance_of_exact() : tolerance_of_differences();
     found_.kick_tolerance = tolerance_of_exact();
     found_.derivative_tolerance = tolerance_of_differences();
-    found_.velocity_tolerance = source.has_exact_velocity ? tolerance_of_exact() : tolerance_of_differences();
+    found_.velocity_tolerance =
+        has_exact_velocity(facts_) ? tolerance_of_exact() : tolerance_of_differences();
   }
 
   void examine(const column& q, const column& p) {
-    source_.force(q, f_);
+    system_.force(q, f_);
     keep(energies(f_), largest_force_);
-    if (source_.has_potential) examine_potential(q);
-    if (source_.has_kick) examine_kick(q);
-    if (source_.has_ranges) examine_ranges(q);
-    if (source_.has_soft_force && source_.size <= examined_singly) examine_soft_force(q);
-    const auto slope = [&](const column& v) { source_.force_slope(q, v, other_); };
+    if (facts_.has_potential) examine_potential(q);
+    if (facts_.has_own_kick) examine_kick(q);
+    if (system_.sites() != nullptr) examine_ranges(q);
+    if (facts_.has_quadratic_part && facts_.size <= examined_singly) examine_soft_force(q);
+    const auto slope = [&](const column& v) { force_slope(system_, q, v, other_); };
     examine_symmetry(along_, lengths_, slope, found_.asymmetry, largest_slope_);
-    if (source_.has_derivative) examine_derivative(q);
-    if (source_.has_velocity) examine_velocity(p);
+    if (facts_.has_own_derivative) examine_derivative(q);
+    if (facts_.has_own_velocity) examine_velocity(p);
   }
 
   force_check result() const {
@@ -167,20 +318,20 @@ class force_examination {
  private:
   void examine_potential(const column& q) {
     for (std::size_t j = 0; j < along_.size(); ++j) {
-      const double defect = f_.dot(along_[j]) + source_.potential_slope(q, along_[j]);
+      const double defect = f_.dot(along_[j]) + potential_slope(system_, q, along_[j]);
       note_along(defect, j, found_.gradient_defect, found_.coordinate);
     }
   }
 
   void examine_kick(const column& q) {
     other_ = f_;
-    source_.kick(q, other_);
+    system_.own_kick(q, other_, 0.5);
     note(energies(other_ - 1.5 * f_), found_.kick_defect, found_.kick_coordinate);
   }
 
   void examine_ranges(const column& q) {
     other_ = f_;
-    source_.kick_in_ranges(q, other_);
+    kick_in_ranges(*system_.sites(), q, other_);
     const column defects = energies(other_ - 1.5 * f_);
     for (Eigen::Index i = 0; i < defects.size(); ++i) {
       const double defect =
@@ -193,31 +344,31 @@ class force_examination {
 
   /// With K q = M^{1/2} U omega^2 x, x = U^T M^{1/2} q.
   void examine_soft_force(const column& q) {
-    const auto modes = source_.modes();
-    const column rest = column::Zero(source_.size);
-    column x(source_.size);
-    column y(source_.size);
+    const auto modes = modal_coordinates::of(system_);
+    const column rest = column::Zero(facts_.size);
+    column x(facts_.size);
+    column y(facts_.size);
     modes->to_modes(q, rest, x, y);
-    for (Eigen::Index k = 0; k < source_.size; ++k) {
+    for (Eigen::Index k = 0; k < facts_.size; ++k) {
       const double omega = modes->frequencies()[static_cast<std::size_t>(k)];
       y[k] = omega * omega * x[k];
     }
-    column back(source_.size);  // q itself
-    column quadratic(source_.size);
+    column back(facts_.size);  // q itself
+    column quadratic(facts_.size);
     modes->from_modes(x, y, back, quadratic);
-    source_.soft_force(q, other_);
+    system_.soft_force(q, other_);
     note(energies(other_ - f_ - quadratic), found_.soft_defect, found_.soft_coordinate);
   }
 
   void examine_derivative(const column& q) {
     const auto force_at = [&](const column& x) {
       column y(x.size());
-      source_.force(x, y);
+      system_.force(x, y);
       return y;
     };
     for (const auto& v : along_) {
-      source_.derivative(q, v, other_);
-      const column differences = difference_along(force_at, q, v);
+      system_.force_derivative(q, v, other_);
+      const column differences = difference_along(force_at, q, v, v);
       keep(energies(other_), largest_slope_);
       keep(energies(differences), largest_slope_);
       found_.derivative_defect = std::max(found_.derivative_defect, largest(energies(other_ - differences)));
@@ -225,17 +376,17 @@ class force_examination {
   }
 
   void examine_velocity(const column& p) {
-    column v(source_.size);
-    source_.velocity(p, v);
+    column v(facts_.size);
+    system_.kernels<double>().velocity(p, v);
     keep(v.cwiseProduct(lengths_of_momenta_), largest_velocity_);
-    if (!source_.has_kinetic_energy) {
-      const auto slope = [&](const column& along) { source_.velocity_slope(p, along, other_); };
+    if (!facts_.has_own_kinetic_energy) {
+      const auto slope = [&](const column& along) { velocity_slope(system_, p, along, other_); };
       examine_symmetry(along_momenta_, lengths_of_momenta_, slope, found_.velocity_asymmetry,
                        largest_velocity_slope_);
       return;
     }
     for (std::size_t j = 0; j < along_momenta_.size(); ++j) {
-      const double defect = v.dot(along_momenta_[j]) - source_.kinetic_slope(p, along_momenta_[j]);
+      const double defect = v.dot(along_momenta_[j]) - kinetic_slope(system_, p, along_momenta_[j]);
       note_along(defect, j, found_.velocity_defect, found_.velocity_coordinate);
     }
   }
@@ -274,10 +425,11 @@ class force_examination {
     found_.finite = found_.finite && std::isfinite(defect);
     if (std::abs(defect) <= most) return;
     most = std::abs(defect);
-    coordinate = source_.size <= examined_singly ? static_cast<Eigen::Index>(j) : -1;
+    coordinate = facts_.size <= examined_singly ? static_cast<Eigen::Index>(j) : -1;
   }
 
-  const force_source& source_;
+  const model& system_;
+  const model_facts& facts_;
   column lengths_;
   column lengths_of_momenta_;
   std::vector<column> along_;
@@ -292,6 +444,10 @@ class force_examination {
 };
 
 }  // namespace
+
+}  // namespace nysalt::detail
+
+namespace nysalt {
 
 /// At all points; what fails is checked once more at a small distance from them.
 force_check check_force(const model& system, const std::vector<Eigen::VectorXd>& points,
@@ -315,18 +471,17 @@ force_check check_force(const model& system, const std::vector<Eigen::VectorXd>&
         fmt::format("check_force: a state must have {} coordinates, as the system has, got {}", size(system),
                     seen.dimension()));
   }
-  const usual_rounding rounding;
+  const detail::usual_rounding rounding;
   std::vector<Eigen::VectorXd> places = points;
   std::vector<Eigen::VectorXd> all_momenta = momenta;
   for (const auto& x : seen) {
     places.emplace_back(x.q);
     all_momenta.emplace_back(x.p);
   }
-  const Eigen::VectorXd lengths = lengths_of(places);
-  const Eigen::VectorXd lengths_of_momenta = lengths_of(all_momenta);
-  const force_source source(system);
+  const Eigen::VectorXd lengths = detail::lengths_of(places);
+  const Eigen::VectorXd lengths_of_momenta = detail::lengths_of(all_momenta);
   const auto examined = [&](double away) {
-    force_examination examination(source, lengths, lengths_of_momenta);
+    detail::force_examination examination(system, lengths, lengths_of_momenta);
     std::minstd_rand random(1);
     const auto beside = [&](Eigen::VectorXd x, const Eigen::VectorXd& length) {
       for (Eigen::Index i = 0; i < x.size(); ++i) x[i] += (random() % 2 == 0 ? away : -away) * length[i];
@@ -345,4 +500,8 @@ force_check check_force(const model& system, const std::vector<Eigen::VectorXd>&
   return result;
 }
 
-}  // namespace nysalt::detail
+force_check check_force(const model& system, const std::vector<Eigen::VectorXd>& points) {
+  return check_force(system, points, points);
+}
+
+}  // namespace nysalt

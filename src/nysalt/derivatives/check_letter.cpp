@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "nysalt/derivatives/properties.hpp"
+#include "nysalt/detail/served_letters.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
@@ -154,9 +156,7 @@ double off(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::Vect
 
 double symplecticity_defect(const Eigen::MatrixXd& j) {
   const Eigen::Index n = j.rows() / 2;
-  Eigen::MatrixXd omega = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  omega.topRightCorner(n, n).setIdentity();
-  omega.bottomLeftCorner(n, n).diagonal().setConstant(-1.0);
+  const Eigen::MatrixXd omega = symplectic_form(n);
   const Eigen::ArrayXXd defect = (j.transpose() * omega * j - omega).array().abs();
   const Eigen::MatrixXd size = j.cwiseAbs().transpose() * omega.cwiseAbs() * j.cwiseAbs() + omega.cwiseAbs();
   return (size.array() > 0.0).select(defect / size.array(), 0.0).maxCoeff();
@@ -197,7 +197,7 @@ letter_check judge_letter(const letter_facts& claims, const std::vector<letter_t
 
 }  // namespace
 
-letter_check check_letter(const model& system, char letter, const std::vector<state>& points, double h,
+letter_check check_letter(const model& system, char letter, const phase_points& points, double h,
                           std::vector<double> coefficients) {
   const word letters(std::string_view(&letter, 1), system.facts().own_letters);
   require_served<model, double>(letters, system);
@@ -209,11 +209,11 @@ letter_check check_letter(const model& system, char letter, const std::vector<st
   }
   const tried_letter tried(system, letters, std::move(coefficients), h);
   std::vector<letter_trial> trials;
-  for (const state& x : points) trials.push_back(tried.from(x));
+  for (const auto& x : points) trials.push_back(tried.from(x));
   return judge_letter(letters.facts(0), trials);
 }
 
-void require_sound_letters(const model& system, const word& letters, const std::vector<state>& points,
+void require_sound_letters(const model& system, const word& letters, const phase_points& points,
                            double h) {
   for (const letter_facts& own : letters.own()) {
     const letter_check found = check_letter(system, own.letter, points, h);

@@ -20,6 +20,56 @@
 
 namespace nysalt {
 
+bool is_stable(const std::vector<stability_window>& windows, double low, double high) {
+  return std::any_of(windows.begin(), windows.end(),
+                     [&](const auto& window) { return window.low <= low && high <= window.high; });
+}
+
+std::vector<stability_window> gaps_below(const std::vector<stability_window>& windows, double highest) {
+  std::vector<stability_window> gaps;
+  double last = 0.0;
+  for (const auto& window : windows) {
+    const double next = std::min(window.low, highest);
+    if (last < next) gaps.push_back({last, next});
+    last = window.high;
+  }
+  if (last < highest) gaps.push_back({last, highest});
+  return gaps;
+}
+
+double stability_margin(const std::vector<stability_window>& windows, double low, double high) {
+  double end = 0.0;
+  double margin_below = 1.0;
+  for (const auto& window : windows) {
+    if (!(window.low <= low)) break;
+    end = window.high;
+    margin_below = window.low > 0.0 ? 1.0 - window.low / low : 1.0;
+  }
+  if (!(end > 0.0)) return -std::numeric_limits<double>::infinity();
+  return std::min(1.0 - high / end, margin_below);
+}
+
+std::vector<step_range> stable_steps(const std::vector<stability_window>& windows,
+                                     const std::vector<frequency_band>& bands) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<step_range> result{{0.0, infinity}};
+  for (const auto& band : bands) {
+    if (!(band.high > 0.0)) continue;
+    std::vector<step_range> both;
+    for (const auto& window : windows) {
+      if (band.low == 0.0 && window.low > 0.0) continue;
+      const double low = band.low > 0.0 ? window.low / band.low : 0.0;
+      const double high = window.high / band.high;
+      for (const auto& range : result) {
+        const step_range common{std::max(low, range.low), std::min(high, range.high)};
+        if (common.low < common.high) both.push_back(common);
+      }
+    }
+    result = both;
+  }
+  return result;
+}
+
 namespace {
 
 using detail::dense_polynomial;
@@ -265,6 +315,11 @@ stability_chart chart_stability(const run_time_word& word, const std::vector<dou
   }
   for (auto& window : windows) window = {std::sqrt(window.low), std::sqrt(window.high)};
   return chart;
+}
+
+std::vector<stability_window> stability_windows(const run_time_word& word,
+                                                const std::vector<double>& coefficients) {
+  return chart_stability(word, coefficients).windows;
 }
 
 }  // namespace nysalt

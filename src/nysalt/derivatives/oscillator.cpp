@@ -26,22 +26,28 @@ bernstein_polynomial half_trace(const run_time_word& word, const std::vector<dou
 
 namespace {
 
-/// A and B + C of a step; or their derivatives by a coefficient.
+/// A and B + C of a step.
 struct turn_of_step {
   double half_trace;
   double defect;
+
+  turn_of_step(const run_time_word& word, const std::vector<double>& coefficients, double z) {
+    const auto m = matrix_on_oscillator(word, coefficients, z * z);
+    half_trace = m.half_trace();
+    defect = m.qp * z + m.pq / z;
+  }
+  /// 1 - A^2, of which the sign says whether the step turns.
+  double rotation() const { return (1.0 - half_trace) * (1.0 + half_trace); }
 };
 
-turn_of_step turn(const run_time_word& word, const std::vector<double>& coefficients, double z) {
-  const auto m = matrix_on_oscillator(word, coefficients, z * z);
-  return {m.half_trace(), m.qp * z + m.pq / z};
-}
-
-void require_plain(const run_time_word& word) {
-  if (!word.rotates() && !word.is_processed() && word.stochastic_letters == 0) return;
-  throw std::invalid_argument(fmt::format(
-      "energy_error_on_oscillator: the word must have no rotation, no letter O and no processor, got {}",
-      word.letters()));
+turn_of_step turn_of_plain(const run_time_word& word, const std::vector<double>& coefficients, double z) {
+  if (word.rotates() || word.is_processed() || word.stochastic_letters > 0) {
+    throw std::invalid_argument(fmt::format(
+        "energy_error_on_oscillator: the word must have no rotation, no letter O and no processor, got {}",
+        word.letters()));
+  }
+  word.require_one_for_each_slot(coefficients);
+  return {word, coefficients, z};
 }
 
 }  // namespace
@@ -52,22 +58,20 @@ namespace detail {
 /// derivative.
 energy_defect energy_defect_on_oscillator(const run_time_word& word, const std::vector<double>& coefficients,
                                           double z) {
-  require_plain(word);
-  word.require_one_for_each_slot(coefficients);
-  const auto [half_trace, defect] = turn(word, coefficients, z);
+  const turn_of_step turn = turn_of_plain(word, coefficients, z);
   energy_defect result{std::numeric_limits<double>::infinity(),
                        Eigen::VectorXd::Zero(std::ssize(coefficients))};
-  const double rotation = (1.0 - half_trace) * (1.0 + half_trace);
+  const double rotation = turn.rotation();
   if (!(rotation > 0.0)) return result;
   const double factor = 1.0 / (std::numbers::sqrt2 * std::sqrt(rotation));
-  result.value = factor * defect;
+  result.value = factor * turn.defect;
   auto changed = coefficients;
   for (std::size_t i = 0; i < changed.size(); ++i) {
     changed[i] += 1.0;
-    const auto other = turn(word, changed, z);
+    const turn_of_step other(word, changed, z);
     changed[i] = coefficients[i];
-    result.slopes[static_cast<Eigen::Index>(i)] =
-        factor * (other.defect - defect + defect * half_trace * (other.half_trace - half_trace) / rotation);
+    const double by_trace = turn.defect * turn.half_trace * (other.half_trace - turn.half_trace) / rotation;
+    result.slopes[static_cast<Eigen::Index>(i)] = factor * (other.defect - turn.defect + by_trace);
   }
   return result;
 }
@@ -76,12 +80,10 @@ energy_defect energy_defect_on_oscillator(const run_time_word& word, const std::
 
 double energy_error_on_oscillator(const run_time_word& word, const std::vector<double>& coefficients,
                                   double z) {
-  require_plain(word);
-  word.require_one_for_each_slot(coefficients);
-  const auto [half_trace, defect] = turn(word, coefficients, z);
-  const double rotation = (1.0 - half_trace) * (1.0 + half_trace);
+  const turn_of_step turn = turn_of_plain(word, coefficients, z);
+  const double rotation = turn.rotation();
   if (!(rotation > 0.0)) return std::numeric_limits<double>::infinity();
-  return 0.5 * defect * defect / rotation;
+  return 0.5 * turn.defect * turn.defect / rotation;
 }
 
 std::optional<resonance> near_resonance(const run_time_word& word, const std::vector<double>& coefficients,
@@ -139,11 +141,18 @@ double growth_of_pair(const run_time_word& word, const std::vector<double>& coef
 
 namespace {
 
-/// Of (a, b; c, d): the square of its Frobenius norm and its determinant give both singular values.
-double spectral_norm(double a, double b, double c, double d) {
-  const double squares = a * a + b * b + c * c + d * d;
-  const double twice = 2.0 * std::abs(a * d - b * c);
-  return 0.5 * (std::sqrt(squares + twice) + std::sqrt(std::max(0.0, squares - twice)));
+/// Largest singular value. Of two rows the square of the Frobenius norm and the determinant give both.
+template <class Matrix>
+double spectral_norm(const Matrix& m) {
+  if (m.rows() == 2) {
+    const double a = m(0, 0), b = m(0, 1), c = m(1, 0), d = m(1, 1);
+    const double squares = a * a + b * b + c * c + d * d;
+    const double twice = 2.0 * std::abs(a * d - b * c);
+    return 0.5 * (std::sqrt(squares + twice) + std::sqrt(std::max(0.0, squares - twice)));
+  }
+  const Eigen::MatrixXd square = m.transpose() * m;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(square, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
 }
 
 }  // namespace
@@ -172,7 +181,8 @@ double transient_growth(const run_time_word& word, const std::vector<double>& co
     cosine = std::cosh(angle);
     ratio = std::sinh(angle) / sine;
   }
-  const double last = spectral_norm(cosine + ratio * a, ratio * b, ratio * c, cosine - ratio * a);
+  const double last =
+      spectral_norm(Eigen::Matrix2d{{cosine + ratio * a, ratio * b}, {ratio * c, cosine - ratio * a}});
   return last < 1.0 ? 1.0 : last;
 }
 
@@ -197,13 +207,6 @@ Eigen::MatrixXcd krein_form(const Eigen::MatrixXcd& vectors) {
 double distance(double a, double b) {
   const double apart = std::abs(a - b);
   return std::min(apart, 2.0 * std::numbers::pi - apart);
-}
-
-/// Largest singular value.
-double spectral_norm(const Eigen::MatrixXd& m) {
-  const Eigen::MatrixXd square = m.transpose() * m;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(square, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
 }
 
 }  // namespace

@@ -7,9 +7,102 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <random>
+#include <stdexcept>
 #include <vector>
 
+#include "nysalt/detail/sentence.hpp"
+#include "nysalt/noises/counter_noise.hpp"
+
 namespace nysalt {
+
+namespace {
+
+/// M^{-1/2} of a system with a quadratic kinetic energy.
+Eigen::VectorXd inverse_root_masses(const model& system) {
+  Eigen::VectorXd root(system.size());
+  for (Eigen::Index i = 0; i < root.size(); ++i) root[i] = std::sqrt(system.inverse_mass(i));
+  return root;
+}
+
+}  // namespace
+
+namespace detail {
+
+Eigen::VectorXd lengths_of(const std::vector<Eigen::VectorXd>& points) {
+  Eigen::VectorXd low = points.front();
+  Eigen::VectorXd high = points.front();
+  for (const auto& x : points) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const Eigen::VectorXd size = low.cwiseAbs().cwiseMax(high.cwiseAbs());
+  constexpr double rounding = 1e-9;  // of where a coordinate is: less cannot be divided into steps
+  Eigen::VectorXd result = high - low;
+  for (Eigen::Index i = 0; i < result.size(); ++i) {
+    if (!(result[i] > rounding * size[i])) result[i] = 0.0;
+  }
+  double instead = result.maxCoeff();
+  if (!(instead > 0.0)) instead = size.maxCoeff();
+  if (!(instead > 0.0) || !std::isfinite(instead)) instead = 1.0;
+  for (double& length : result) {
+    if (!(length > 0.0) || !std::isfinite(length)) length = instead;
+  }
+  return result;
+}
+
+Eigen::MatrixXd kinetic_factor(const model& system, const Eigen::VectorXd& p) {
+  if (system.facts().has_quadratic_kinetic) return inverse_root_masses(system).asDiagonal();
+  const Eigen::MatrixXd hessian = system.kinetic_hessian(p);
+  if (!hessian.allFinite()) return {};
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (hessian + hessian.transpose()));
+  const Eigen::VectorXd& squares = solver.eigenvalues();
+  constexpr double rounding = 1e-12;  // a coordinate that runs at constant speed has none
+  if (squares.minCoeff() < -rounding * std::abs(squares.maxCoeff())) return {};
+  return solver.eigenvectors() * squares.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+}  // namespace detail
+
+force_jacobian::force_jacobian(const model& system, const phase_points& states, field of)
+    : system_(system),
+      field_(of),
+      differs_(of == field::whole && system.facts().derivative_calls == 2),
+      room_(system.size()),
+      q_(Eigen::VectorXd::Zero(system.size())),
+      v_(q_),
+      f_(q_),
+      g_(q_) {
+  if (!differs_ || states.empty()) return;
+  std::vector<Eigen::VectorXd> points;
+  for (const auto& state : states) points.emplace_back(state.q);
+  lengths_ = detail::lengths_of(points);
+}
+
+void force_jacobian::move_to(const Eigen::VectorXd& q) {
+  q_ = q;
+  if (differs_) system_.force(q_, f_);
+}
+
+const Eigen::VectorXd& force_jacobian::times(const Eigen::VectorXd& v) {
+  if (differs_) {
+    const double displacements = v.cwiseQuotient(lengths_).cwiseAbs().maxCoeff();
+    v_ = v / displacements;
+    system_.directional_derivative(q_, v_, f_, g_);
+    g_ *= displacements;
+  } else {
+    system_.kernels<double>().force_along(field_, q_, v, g_, room_, detail::part_of_displacement);
+  }
+  return g_;
+}
+
+Eigen::MatrixXd force_jacobian::potential_hessian(const Eigen::VectorXd& q) {
+  const Eigen::Index n = q.size();
+  move_to(q);
+  Eigen::MatrixXd hessian(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) hessian.col(j) = -times(Eigen::VectorXd::Unit(n, j));
+  return 0.5 * (hessian + hessian.transpose());
+}
 
 namespace {
 
@@ -97,23 +190,78 @@ spectrum_ends ends_of_spectrum(const symmetric_map& multiply, const Eigen::Vecto
   return {nan, nan, start, start, static_cast<int>(space.size())};
 }
 
-}  // namespace nysalt
+stiffness_range hessian_spectrum(const model& system, const phase_points& states, field of) {
+  if (states.empty()) throw std::invalid_argument("hessian_spectrum: states must hold one or more, got none");
+  const Eigen::VectorXd root = inverse_root_masses(system);
+  // Every start has a part of chance, the same for all, so that no end can hide from it; and of the ends of
+  // the state before, which are near.
+  std::mt19937_64 bits{1};
+  Eigen::VectorXd chance(root.size());
+  for (double& x : chance) x = uniform_by_bits(bits()) - 0.5;
+  chance.normalize();
+  Eigen::VectorXd start = chance;
 
-namespace nysalt::detail {
-
-Eigen::MatrixXd factor_of(const Eigen::MatrixXd& A) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
-  const Eigen::VectorXd& squares = solver.eigenvalues();
-  constexpr double rounding = 1e-12;  // a coordinate that runs at constant speed has none
-  if (squares.minCoeff() < -rounding * std::abs(squares.maxCoeff())) return {};
-  return solver.eigenvectors() * squares.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  stiffness_range found;
+  force_jacobian jacobian(system, states, of);
+  for (const auto& state : states) {
+    jacobian.move_to(state.q);
+    const auto multiply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+      return -root.cwiseProduct(jacobian.times(root.cwiseProduct(x)));
+    };
+    const auto ends = ends_of_spectrum(multiply, start);
+    if (!std::isfinite(ends.lowest) || !std::isfinite(ends.highest)) {
+      throw std::invalid_argument(
+          sentence("hessian_spectrum: the force must have a finite derivative at each state, got none "
+                   "at state {}; leave that state out",
+                   found.states));
+    }
+    found.lowest = std::min(found.lowest, ends.lowest);
+    found.highest = std::max(found.highest, ends.highest);
+    found.highest_of_state.push_back(ends.highest);
+    found.evaluations += ends.products;
+    ++found.states;
+    start = chance + ends.lowest_direction + ends.highest_direction;
+  }
+  return found;
 }
 
-std::vector<double> frequencies_of(const Eigen::MatrixXd& stiffness) {
+namespace {
+
+std::vector<double> frequencies_of(const model& system, force_jacobian& jacobian,
+                                   const phase_point<double, Eigen::Dynamic>& state) {
+  const Eigen::MatrixXd factor = detail::kinetic_factor(system, state.p);
+  if (factor.size() == 0) return {};
+  const Eigen::MatrixXd stiffness = factor.transpose() * jacobian.potential_hessian(state.q) * factor;
+  if (!stiffness.allFinite()) {
+    throw std::invalid_argument(
+        "frequencies_at: the force must have a finite derivative at the state, got none");
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness);
   std::vector<double> result;
   for (const double x : solver.eigenvalues()) result.push_back(std::sqrt(std::max(0.0, x)));
   return result;
 }
 
-}  // namespace nysalt::detail
+}  // namespace
+
+std::vector<double> frequencies_at(const model& system, const phase_point<double, Eigen::Dynamic>& state) {
+  force_jacobian jacobian(system, std::vector{state});
+  return frequencies_of(system, jacobian, state);
+}
+
+frequencies_along frequencies_of_states(const model& system, const phase_points& states) {
+  frequencies_along result;
+  const auto& facts = system.facts();
+  if (facts.size <= most_for_all_frequencies && facts.has_differentiable_velocity) {
+    result.are_complete = true;
+    force_jacobian jacobian(system, states);
+    for (const auto& state : states) result.of_state.push_back(frequencies_of(system, jacobian, state));
+  } else if (!states.empty() && facts.has_quadratic_kinetic) {
+    for (const double square : hessian_spectrum(system, states).highest_of_state) {
+      result.of_state.push_back({std::sqrt(std::max(0.0, square))});
+    }
+  }
+  return result;
+}
+
+}  // namespace nysalt

@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <stdexcept>
-#include <string_view>
 
 #include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
@@ -73,13 +71,41 @@ std::size_t most_states(Eigen::Index n) {
   return static_cast<std::size_t>(std::max(operations / (size * size * size), 1.0));
 }
 
+/// A Hessian in coordinates in which K'' = root root^T is the identity.
+Eigen::MatrixXd weighted(const Eigen::MatrixXd& root, const Eigen::MatrixXd& hessian) {
+  const Eigen::MatrixXd product = root.transpose() * hessian * root;
+  return 0.5 * (product + product.transpose());
+}
+
+using state = phase_point<double, Eigen::Dynamic>;
+
 }  // namespace
 
-bool is_of_oscillators(const run_time_word& word) {
-  constexpr std::string_view known{"ABDGRSHO|"};
-  return std::ranges::all_of(word.letters(),
-                             [&](char letter) { return known.find(letter) != std::string_view::npos; });
-}
+/// The linearised motion about a state, in coordinates in which K'' is the identity.
+struct word_on_parts::motion {
+  Eigen::MatrixXd whole;                // V''
+  Eigen::VectorXd force;                // -V'
+  std::vector<Eigen::MatrixXd> parts;   // V'' of each slot of a kick
+  std::vector<Eigen::VectorXd> forces;  // by which each slot of a kick changes p
+
+  static motion mean(const std::vector<motion>& all) {
+    motion sum = all.front();
+    const auto count = static_cast<double>(all.size());
+    for (std::size_t k = 1; k < all.size(); ++k) {
+      sum.whole += all[k].whole;
+      sum.force += all[k].force;
+      for (std::size_t i = 0; i < sum.parts.size(); ++i) {
+        sum.parts[i] += all[k].parts[i];
+        sum.forces[i] += all[k].forces[i];
+      }
+    }
+    sum.whole /= count;
+    sum.force /= count;
+    for (auto& part : sum.parts) part /= count;
+    for (auto& force : sum.forces) force /= count;
+    return sum;
+  }
+};
 
 word_on_parts::word_on_parts(const model& system, const phase_points& states, const run_time_word& word)
     : word_(word.letters()), slots_(word.slots) {
@@ -90,146 +116,98 @@ word_on_parts::word_on_parts(const model& system, const phase_points& states, co
   } else if (nysalt::size(system) > most_for_all_frequencies) {
     why_not_ = sentence("of more than {} degrees of freedom", most_for_all_frequencies);
   } else {
-    examine(system.base(), states, word);
+    try {
+      examine(system.base(), states, kinds_of(system.base(), word));
+    } catch (const std::invalid_argument& missing) {
+      why_not_ = missing.what();
+    }
   }
 }
 
-void word_on_parts::examine(const model& system, const phase_points& states, const run_time_word& word) {
-  const Eigen::Index n = nysalt::size(system);
-  std::map<char, std::size_t> known;
-  std::vector<run_time_word> singles;
-  std::vector<letter> kinds;
+std::vector<run_time_word> word_on_parts::kinds_of(const model& system, const run_time_word& word) {
+  std::string names;
+  std::vector<run_time_word> kinds;
   for (std::size_t i = 0; i < word.length; ++i) {
     const char name = word.letters()[i];
-    letter one{.first_slot = word.first_slot(i), .slots = word.slots_of(i)};
-    if (name == ornstein_uhlenbeck::letter) {
-      one.acts = false;
-    } else {
-      one.first_kick = known.try_emplace(name, known.size()).first->second;  // of the letter, for now
-      if (one.first_kick == singles.size()) {
-        singles.push_back(word.with_letters(std::string(1, name)));
-        kinds.push_back(one);
-      }
-    }
-    letters_.push_back(one);
+    if (name == ornstein_uhlenbeck::letter) continue;
+    letters_.push_back({std::min(names.find(name), names.size()), word.first_slot(i), word.slots_of(i)});
+    if (letters_.back().kind < names.size()) continue;
+    names += name;
+    kinds.push_back(word.with_letters(std::string(1, name)));
+    require_served<model, slopes>(kinds.back(), system);
   }
-  try {
-    for (const auto& single : singles) require_served<model, slopes>(single, system);
-  } catch (const std::invalid_argument& missing) {
-    why_not_ = missing.what();
-    return;
-  }
+  kinds_.resize(kinds.size());
+  return kinds;
+}
 
-  const std::size_t count = states.size();
-  constexpr std::size_t enough = 8;  // for a mean, and to say how far they lie apart
-  const std::size_t some = std::min(count, enough);
-  force_jacobian<field::whole, model> jacobian(system, states);
-  std::vector<std::vector<Eigen::MatrixXd>> parts_of_state;
-  std::vector<Eigen::MatrixXd> whole_of_state;
-  std::vector<std::vector<Eigen::VectorXd>> forces_of_state;
-  std::vector<Eigen::VectorXd> force_of_state;
-  double momenta = 0.0;
-  for (std::size_t k = 0; k < some; ++k) {
-    const phase_point<double, Eigen::Dynamic> state = states[k * count / some];
-    const Eigen::MatrixXd root = detail::kinetic_factor(system, state.p);
-    if (root.size() == 0) {
-      why_not_ = "K''(p) is not positive semidefinite";
-      return;
+void word_on_parts::add_letter(const model& system, const run_time_word& single, kind& of, const state& at,
+                               const Eigen::MatrixXd& root, motion& to) {
+  const Eigen::Index n = at.q.size();
+  for (std::size_t slot = 0; slot < single.slots; ++slot) {
+    const auto one = linearise(system, single, slot, 1.0, 1.0, at);
+    const auto less = linearise(system, single, slot, 0.5, 0.5, at);
+    const Eigen::MatrixXd to_q = one.jacobian.topRightCorner(n, n);
+    const Eigen::MatrixXd to_p = one.jacobian.bottomLeftCorner(n, n);
+    const bool keeps = one.jacobian.allFinite() && is_identity(one.jacobian.topLeftCorner(n, n)) &&
+                       is_identity(one.jacobian.bottomRightCorner(n, n));
+    const bool is_drift = keeps && single.slots == 1 && to_p.isZero(0.0) &&
+                          is_near(to_q, root * root.transpose()) &&
+                          is_near(less.jacobian.topRightCorner(n, n), 0.25 * to_q);
+    const bool is_kick = keeps && to_q.isZero(0.0) && is_near(to_p, to_p.transpose()) &&
+                         is_near(less.jacobian.bottomLeftCorner(n, n), 0.25 * to_p);
+    if (!is_kick && !is_drift) {
+      throw std::invalid_argument(sentence("the letter {} is neither a drift nor a kick", single.letters()));
     }
-    const auto weighted = [&](const Eigen::MatrixXd& hessian) -> Eigen::MatrixXd {
-      const Eigen::MatrixXd product = root.transpose() * hessian * root;
-      return 0.5 * (product + product.transpose());
-    };
-    std::vector<Eigen::MatrixXd> parts;
-    std::vector<Eigen::VectorXd> forces;
-    for (std::size_t s = 0; s < singles.size(); ++s) {
-      for (std::size_t slot = 0; slot < singles[s].slots; ++slot) {
-        const auto at = linearise(system, singles[s], slot, 1.0, 1.0, state);
-        const auto less = linearise(system, singles[s], slot, 0.5, 0.5, state);
-        const Eigen::MatrixXd to_q = at.jacobian.topRightCorner(n, n);
-        const Eigen::MatrixXd to_p = at.jacobian.bottomLeftCorner(n, n);
-        const bool keeps = at.jacobian.allFinite() && is_identity(at.jacobian.topLeftCorner(n, n)) &&
-                           is_identity(at.jacobian.bottomRightCorner(n, n));
-        const bool is_drift = keeps && singles[s].slots == 1 && to_p.isZero(0.0) &&
-                              is_near(to_q, root * root.transpose()) &&
-                              is_near(less.jacobian.topRightCorner(n, n), 0.25 * to_q);
-        const bool is_kick = keeps && to_q.isZero(0.0) && is_near(to_p, to_p.transpose()) &&
-                             is_near(less.jacobian.bottomLeftCorner(n, n), 0.25 * to_p);
-        if (!is_kick && !is_drift) {
-          why_not_ = sentence("the letter {} is neither a drift nor a kick", singles[s].letters());
-          return;
-        }
-        kinds[s].drifts = is_drift && !is_kick;
-        if (slot == 0) kinds[s].first_kick = parts.size();
-        if (is_kick) {
-          parts.push_back(weighted(-to_p));
-          forces.push_back(root.transpose() * at.kick);
-        }
-      }
-    }
-    jacobian.move_to(state.q);
-    whole_of_state.push_back(weighted(detail::potential_hessian(jacobian, state.q)));
-    auto f = make_vector<double>(system);
-    force<double>(system, state.q, f);
-    force_of_state.push_back(root.transpose() * f);
-    const Eigen::VectorXd velocity = root.transpose() * state.p;
-    momenta += velocity.squaredNorm();
-    parts_of_state.push_back(std::move(parts));
-    forces_of_state.push_back(std::move(forces));
-  }
-  for (auto& one : letters_) {
-    if (!one.acts) continue;
-    const letter& kind = kinds[one.first_kick];
-    one.drifts = kind.drifts;
-    one.first_kick = kind.first_kick;
-  }
-
-  const auto mean_of = [&](const auto& all) {
-    auto sum = all.front();
-    for (std::size_t k = 1; k < all.size(); ++k) sum += all[k];
-    return (sum / static_cast<double>(all.size())).eval();
-  };
-  const Eigen::MatrixXd whole = mean_of(whole_of_state);
-  double farthest = 0.0;
-  for (const auto& one : whole_of_state)
-    farthest = std::max(farthest, (one - whole).cwiseAbs().rowwise().sum().maxCoeff());
-  std::vector<Eigen::MatrixXd> parts;
-  std::vector<Eigen::VectorXd> forces;
-  for (std::size_t k = 0; k < parts_of_state.front().size(); ++k) {
-    Eigen::MatrixXd part = Eigen::MatrixXd::Zero(n, n);
-    Eigen::VectorXd of_part = Eigen::VectorXd::Zero(n);
-    for (std::size_t s = 0; s < some; ++s) {
-      part += parts_of_state[s][k] / static_cast<double>(some);
-      of_part += forces_of_state[s][k] / static_cast<double>(some);
-    }
-    parts.push_back(part);
-    forces.push_back(of_part);
-  }
-  mean_ = diagonal(whole, parts, forces, mean_of(force_of_state));
-  has_mean_ = farthest < 0.5 * mean_.squares[n - 1];
-  amplitude_ = std::sqrt(2.0 * momenta / static_cast<double>(some));
-  const std::size_t half = (some + 1) / 2;  // near the mean fewer are enough
-  const std::size_t examined = std::min(has_mean_ ? half : some, most_states(n));
-  for (std::size_t k = 0; k < examined; ++k) {
-    const std::size_t state = k * some / examined;
-    at_.push_back(diagonal(whole_of_state[state], parts_of_state[state], {}, {}));
+    of.drifts = is_drift && !is_kick;
+    if (slot == 0) of.first_kick = to.parts.size();
+    if (!is_kick) continue;
+    to.parts.push_back(weighted(root, -to_p));
+    to.forces.push_back(root.transpose() * one.kick);
   }
 }
 
-word_on_parts::linearised word_on_parts::diagonal(const Eigen::MatrixXd& whole,
-                                                  const std::vector<Eigen::MatrixXd>& parts,
-                                                  const std::vector<Eigen::VectorXd>& forces,
-                                                  const Eigen::VectorXd& force) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(whole);
+void word_on_parts::examine(const model& system, const phase_points& states,
+                            const std::vector<run_time_word>& kinds) {
+  constexpr std::size_t enough = 8;  // for a mean, and to say how far they lie apart
+  const std::size_t some = std::min(states.size(), enough);
+  force_jacobian jacobian(system, states);
+  std::vector<motion> motions(some);
+  double momenta = 0.0;
+  for (std::size_t k = 0; k < some; ++k) {
+    const state at = states[k * states.size() / some];
+    const Eigen::MatrixXd root = detail::kinetic_factor(system, at.p);
+    if (root.size() == 0) throw std::invalid_argument("K''(p) is not positive semidefinite");
+    for (std::size_t s = 0; s < kinds.size(); ++s)
+      add_letter(system, kinds[s], kinds_[s], at, root, motions[k]);
+    motions[k].whole = weighted(root, jacobian.potential_hessian(at.q));
+    Eigen::VectorXd f(at.q.size());
+    system.force(at.q, f);
+    motions[k].force = root.transpose() * f;
+    momenta += (root.transpose() * at.p).squaredNorm();
+  }
+  const motion mean = motion::mean(motions);
+  mean_ = diagonal(mean);
+  double farthest = 0.0;
+  for (const auto& one : motions)
+    farthest = std::max(farthest, (one.whole - mean.whole).cwiseAbs().rowwise().sum().maxCoeff());
+  has_mean_ = farthest < 0.5 * mean_.squares[mean_.squares.size() - 1];
+  amplitude_ = std::sqrt(2.0 * momenta / static_cast<double>(some));
+  const std::size_t half = (some + 1) / 2;  // near the mean fewer are enough
+  const std::size_t examined = std::min(has_mean_ ? half : some, most_states(mean_.squares.size()));
+  for (std::size_t k = 0; k < examined; ++k) at_.push_back(diagonal(motions[k * some / examined]));
+}
+
+/// Forces about the equilibrium, where the whole force is zero.
+word_on_parts::linearised word_on_parts::diagonal(const motion& about) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(about.whole);
   const Eigen::MatrixXd& basis = solver.eigenvectors();
   linearised result{.squares = solver.eigenvalues(), .stiffness = {}, .force = {}};
-  for (const auto& part : parts) result.stiffness.push_back(basis.transpose() * part * basis);
-  for (std::size_t k = 0; k < forces.size(); ++k) {
-    // About the equilibrium, where the force is zero.
-    Eigen::VectorXd rest = basis.transpose() * force;
-    for (Eigen::Index i = 0; i < rest.size(); ++i)
-      rest[i] = result.squares[i] > 0.0 ? rest[i] / result.squares[i] : 0.0;
-    result.force.push_back(basis.transpose() * forces[k] - result.stiffness[k] * rest);
+  Eigen::VectorXd rest = basis.transpose() * about.force;
+  for (Eigen::Index i = 0; i < rest.size(); ++i)
+    rest[i] = result.squares[i] > 0.0 ? rest[i] / result.squares[i] : 0.0;
+  for (std::size_t k = 0; k < about.parts.size(); ++k) {
+    result.stiffness.push_back(basis.transpose() * about.parts[k] * basis);
+    result.force.push_back(basis.transpose() * about.forces[k] - result.stiffness[k] * rest);
   }
   return result;
 }
@@ -240,8 +218,8 @@ void word_on_parts::apply(const linearised& at, const std::vector<double>& coeff
   const Eigen::VectorXd root = at.squares.tail(m).cwiseSqrt();
   const Eigen::VectorXd inverse = root.cwiseInverse();
   for (const auto& one : letters_) {
-    if (!one.acts) continue;
-    if (one.drifts) {
+    const kind& of = kinds_[one.kind];
+    if (of.drifts) {
       const double by = step * coefficients[one.first_slot];
       x.topRows(m) += by * (root.asDiagonal() * x.bottomRows(m));
       if (affine != nullptr) affine->head(m) += by * root.cwiseProduct(affine->tail(m));
@@ -250,10 +228,10 @@ void word_on_parts::apply(const linearised& at, const std::vector<double>& coeff
     for (std::size_t k = 0; k < one.slots; ++k) {
       const double by = step * coefficients[one.first_slot + k];
       const Eigen::MatrixXd kick =
-          at.stiffness[one.first_kick + k].bottomRightCorner(m, m) * inverse.asDiagonal();
+          at.stiffness[of.first_kick + k].bottomRightCorner(m, m) * inverse.asDiagonal();
       x.bottomRows(m) -= by * (kick * x.topRows(m));
       if (affine == nullptr) continue;
-      affine->tail(m) += by * (at.force[one.first_kick + k].tail(m) - kick * affine->head(m));
+      affine->tail(m) += by * (at.force[of.first_kick + k].tail(m) - kick * affine->head(m));
     }
   }
 }

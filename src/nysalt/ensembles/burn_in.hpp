@@ -206,7 +206,7 @@ class burn_in_pilot {
   /// 0 where the system knows no potential.
   static T potential_of(const burn_in_chains& chains, const state& x) {
     const model& system = chains.system();
-    return has_potential(system) ? system.kernels<T>().potential(x.q) : T(0.0);
+    return system.facts().has_potential ? system.kernels<T>().potential(x.q) : T(0.0);
   }
 
   void follow(block& here, std::int64_t first, std::int64_t end, std::int64_t every,
@@ -376,7 +376,8 @@ class burn_in_search {
   /// The friction with the least tau, of omega/4, omega/16, ... with the highest frequency omega: strong
   /// friction makes slow motion creep, weak friction leaves energies what they were.
   double best_friction(double step) {
-    const double omega = highest_frequency(*base_).value_or(0.5 / step);
+    const double declared = highest_frequency(base_->frequency_bands());
+    const double omega = declared > 0.0 ? declared : 0.5 / step;
     double best = 0.0;
     double least = std::numeric_limits<double>::infinity();
     for (const double part : {1.0 / 64, 1.0 / 16, 1.0 / 4, 1.0 / 256}) {

@@ -9,11 +9,13 @@
 #include <utility>
 
 #include "burn_in.hpp"
+#include "nysalt/detail/modal_coordinates.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/references/exact_linear.hpp"
 #include "step_of_motion.hpp"
 
 namespace nysalt::detail {
@@ -32,40 +34,90 @@ double temperature_to_sample(const bath& in) {
       "of the potential; start from another ensemble");
 }
 
+/// The chains of gibbs.
+class gibbs_chains {
+ public:
+  gibbs_chains(model base, initial_states from, double temperature, burn_in_report report)
+      : base_(std::move(base)),
+        from_(std::move(from)),
+        temperature_(temperature),
+        report_(std::move(report)) {}
+
+  phase_point<double, Eigen::Dynamic> operator()(std::uint64_t seed, std::uint64_t n) const {
+    return block<double>(seed, static_cast<std::int64_t>(n), 1);
+  }
+  template <class T>
+  phase_point<T, Eigen::Dynamic> block(std::uint64_t seed, std::int64_t first, int count) const {
+    const burn_in_chains chains(base_, temperature_, report_.friction, report_.step, seed);
+    auto run = chains.open(sound_starts<T>(base_, from_, seed, first, count), first, count);
+    run.go_on(report_.steps);
+    for (int k = 0; k < count; ++k) {
+      if (!run.diverged_at(k)) continue;
+      throw std::runtime_error(fmt::format(
+          "gibbs: the motion of {} must be confined, got chain {} of seed {} that diverged at time {}",
+          describe(base_), first + k, seed,
+          in_digits(static_cast<double>(*run.diverged_at(k)) * report_.step, 6)));
+    }
+    auto x = run.synchronous();
+    chains.draw_momenta(x, first, report_.steps);
+    return x;
+  }
+  std::string description() const {
+    return fmt::format("gibbs(temperature={}, from {}, burned in for {} with friction {} and step {})",
+                       in_digits(temperature_, 6), from_.description(), in_digits(report_.length, 4),
+                       in_digits(report_.friction, 4), in_digits(report_.step, 4));
+  }
+
+ private:
+  model base_;
+  initial_states from_;
+  double temperature_;
+  burn_in_report report_;
+};
+
+burn_in_report found(const model& base, double temperature, const initial_states& from,
+                     const burn_in_options& options) {
+  return with_scalar_of(
+      base, [&]<class T>(T) { return burn_in_search<T>(base, temperature, from, options).find(); });
+}
+
 }  // namespace
 
-gibbs_chains::gibbs_chains(const model& in_bath, initial_states from, const burn_in_options& options)
-    : base_(in_bath.base()), from_(std::move(from)), temperature_(temperature_to_sample(in_bath.bath())) {
-  report_ = with_scalar_of(
-      base_, [&]<class T>(T) { return burn_in_search<T>(base_, temperature_, from_, options).find(); });
-}
+gibbs_states::gibbs_states(const model& in_bath, const initial_states& from, const burn_in_options& options)
+    : report_(found(in_bath.base(), temperature_to_sample(in_bath.bath()), from, options)),
+      chains_(gibbs_chains(in_bath.base(), from, in_bath.bath().temperature(), report_)) {}
 
-template <class T>
-phase_point<T, Eigen::Dynamic> gibbs_chains::block(std::uint64_t seed, std::int64_t first, int count) const {
-  const burn_in_chains chains(base_, temperature_, report_.friction, report_.step, seed);
-  auto run = chains.open(sound_starts<T>(base_, from_, seed, first, count), first, count);
-  run.go_on(report_.steps);
-  for (int k = 0; k < count; ++k) {
-    if (!run.diverged_at(k)) continue;
-    throw std::runtime_error(fmt::format(
-        "gibbs: the motion of {} must be confined, got chain {} of seed {} that diverged at time {}",
-        describe(base_), first + k, seed,
-        in_digits(static_cast<double>(*run.diverged_at(k)) * report_.step, 6)));
+modal_gibbs::modal_gibbs(const model& system, double temperature) : temperature_(temperature) {
+  const exact_linear linear(system);  // refuses any other
+  modes_ = modal_coordinates::of(system);
+  if (!(temperature > 0.0) || !std::isfinite(temperature) ||
+      !(std::ranges::min(modes_->frequencies()) > 0.0)) {
+    throw std::invalid_argument(
+        fmt::format("gibbs_of_modes: temperature and the frequency of each mode must be above 0, got {} at "
+                    "temperature {}",
+                    describe(system), temperature));
   }
-  auto x = run.synchronous();
-  chains.draw_momenta(x, first, report_.steps);
-  return x;
 }
 
-template phase_point<double, Eigen::Dynamic> gibbs_chains::block<double>(std::uint64_t, std::int64_t,
-                                                                         int) const;
-template phase_point<lanes, Eigen::Dynamic> gibbs_chains::block<lanes>(std::uint64_t, std::int64_t,
-                                                                       int) const;
+phase_point<double, Eigen::Dynamic> modal_gibbs::start(std::uint64_t seed, std::uint64_t n) const {
+  Eigen::VectorXd x(modes_->size());
+  Eigen::VectorXd y(modes_->size());
+  noise_counter at = {.trajectory = n, .purpose = noise_purpose::initial_state};
+  standard_normals(seed, at, x);
+  at.slot += slots_for(static_cast<std::uint64_t>(x.size()));
+  standard_normals(seed, at, y);
+  const double deviation = std::sqrt(temperature_);
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    x[k] *= deviation / modes_->frequencies()[static_cast<std::size_t>(k)];
+    y[k] *= deviation;
+  }
+  phase_point<double, Eigen::Dynamic> state{Eigen::VectorXd(x.size()), Eigen::VectorXd(x.size())};
+  modes_->from_modes(x, y, state.q, state.p);
+  return state;
+}
 
-std::string gibbs_chains::description() const {
-  return fmt::format("gibbs(temperature={}, from {}, burned in for {} with friction {} and step {})",
-                     in_digits(temperature_, 6), from_.description(), in_digits(report_.length, 4),
-                     in_digits(report_.friction, 4), in_digits(report_.step, 4));
+std::string modal_gibbs::description() const {
+  return fmt::format("gibbs_of_modes(temperature={})", in_digits(temperature_, 6));
 }
 
 namespace {
@@ -92,8 +144,9 @@ long_trajectory::long_trajectory(const model& in_bath, const initial_states& fro
   const auto steps = static_cast<std::int64_t>(options.length / step_);
   const auto first = static_cast<std::int64_t>(std::ceil(options.burn_in / step_));
   const std::int64_t every = (steps - first) / options.most_states + 1;
+  std::vector<phase_point<double, Eigen::Dynamic>> kept;
   const auto keep = [&](std::int64_t n, double, const phase_point<double, Eigen::Dynamic>& x) {
-    if (n >= first) states_.push_back(x);
+    if (n >= first) kept.push_back(x);
   };
   const auto stepper =
       make_stepper(in_bath, tabulated(baoab{}), step_, counter_noise(options.seed, noise_purpose::burn_in));
@@ -104,21 +157,19 @@ long_trajectory::long_trajectory(const model& in_bath, const initial_states& fro
         "that diverged at time {} with the step {}",
         describe(in_bath), in_digits(static_cast<double>(*end.diverged_at) * step_, 6), in_digits(step_, 6)));
   }
-  if (states_.empty()) {
+  if (kept.empty()) {
     throw std::invalid_argument(fmt::format(
         "one_long_trajectory: the length must leave a state to keep after a burn-in of {}, got {}; "
         "take more states or less burn-in",
         options.burn_in, options.length));
   }
+  states_ = std::make_shared<const std::vector<phase_point<double, Eigen::Dynamic>>>(std::move(kept));
 }
 
-const phase_point<double, Eigen::Dynamic>& long_trajectory::operator()(std::uint64_t seed,
-                                                                       std::uint64_t n) const {
+const phase_point<double, Eigen::Dynamic>& long_trajectory::start(std::uint64_t seed, std::uint64_t n) const {
   vector<double, 1> normal;
   standard_normals(seed, {.trajectory = n, .purpose = noise_purpose::initial_state}, normal);
-  const double uniform = 0.5 * std::erfc(-normal[0] * std::sqrt(0.5));
-  const auto index = static_cast<std::size_t>(uniform * static_cast<double>(states()));
-  return states_[std::min(index, states() - 1)];
+  return (*states_)[index_by_normal(normal[0], states())];
 }
 
 std::string long_trajectory::description() const {

@@ -46,7 +46,7 @@ double thermal_rate_at(const model& system, const states_in_double& states, doub
 
 double step_of_motion(const model& system, const initial_states& from, double temperature, double z,
                       const std::string& who) {
-  if (const auto omega = highest_frequency(system)) return z / *omega;
+  if (const double omega = highest_frequency(system.frequency_bands()); omega > 0.0) return z / omega;
   constexpr std::int64_t some = 8;
   states_in_double states;
   for (std::int64_t n = 0; n < std::min(some, from.size()); ++n) {

@@ -19,6 +19,7 @@
 #include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
+#include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt::detail {
 
@@ -349,11 +350,11 @@ std::vector<std::size_t> stiffest_pairs(const model& system, const flow_map_data
   std::vector<double> scored;  // a score and a number, of one pair after the other
   {
     const auto motion = starts_of(data, size(system), detail::spread_pairs(data.all_pairs(), most));
-    force_jacobian<field::whole, model> jacobian(system, motion);
+    force_jacobian jacobian(system, motion);
     auto v = make_vector<double>(system);
     std::mt19937_64 bits{1};
     auto chance = v;
-    for (double& x : chance) x = static_cast<double>(bits() >> 11U) * 0x1p-53 - 0.5;
+    for (double& x : chance) x = uniform_by_bits(bits()) - 0.5;
     chance /= chance.norm();
     std::vector<std::pair<double, std::size_t>> scores;
     for (std::size_t pair = 0; pair < data.pairs(); ++pair) {
@@ -433,8 +434,7 @@ void require_sound_force(const model& system, const flow_map_data& data) {
     points.emplace_back(state.q);
     momenta.emplace_back(state.p);
   }
-  const force_check found =
-      detail::check_force(system, points, momenta, finishes_of(data, size(system), pairs));
+  const force_check found = check_force(system, points, momenta, finishes_of(data, size(system), pairs));
   if (found.passed()) return;
   throw std::invalid_argument(
       sentence("cannot learn on {}: {}; mend the system, or learn with check_force = false", describe(system),

@@ -38,10 +38,8 @@ namespace {
 /// The frequency that was given, or that of the highest mode; where neither is, the highest that is met
 /// often.
 double frequency_to_fit(const learning_problem& problem) {
-  double highest = problem.frequency_to_fit;
-  if (highest > 0.0) return highest;
-  for (const auto& band : problem.guard.frequencies(met::often)) highest = std::max(highest, band.high);
-  return highest;
+  if (problem.frequency_to_fit > 0.0) return problem.frequency_to_fit;
+  return highest_frequency(problem.guard.frequencies(met::often));
 }
 
 /// The member of the family whose step is exact on an oscillator of the frequency to fit; nothing if there is

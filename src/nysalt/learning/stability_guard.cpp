@@ -79,7 +79,7 @@ std::string in_words(const std::vector<frequency_band>& bands) {
 stability_guard::stability_guard(const model& system, const phase_points& states, bool rotations,
                                  std::int64_t steps, std::size_t typical)
     : steps_(steps) {
-  if (has_frequency_bands(system)) declare(system.frequency_bands());
+  if (system.facts().has_bands) declare(system.frequency_bands());
   scan_along(frequencies_of_states(system, states), states.size(), std::min(typical, states.size()),
              has_quadratic_kinetic(system));
   const bool has_soft_derivative = system.facts().serves<double>(soft_gradient_kick::letter);
@@ -284,7 +284,7 @@ std::string stability_guard::resonant(const run_time_word& word, const std::vect
 stability_guard::stability_guard(const model& system, const phase_points& states, const run_time_word& word,
                                  std::int64_t steps, std::size_t typical)
     : stability_guard(system, states, word.rotates(), steps, typical) {
-  if (is_of_oscillators(word)) return;
+  if (!word.has_own_letters()) return;
   const auto parts = std::make_shared<const word_on_parts>(system, states, word);
   if (parts->is_known()) {
     parts_ = parts;
@@ -297,7 +297,7 @@ stability_guard::stability_guard(const model& system, const phase_points& states
 
 void stability_guard::watch_rotations(const model& system, const phase_points& states) {
   const auto part = modal_coordinates::of(system);
-  watch_modes(part->frequencies(), hessian_spectrum<field::soft>(system, states).highest_frequency());
+  watch_modes(part->frequencies(), hessian_spectrum(system, states, field::soft).highest_frequency());
   const Eigen::Index n = size(system);
   if (n > most_for_all_frequencies) {
     description_ += "; pairs of modes are not examined";
@@ -311,14 +311,14 @@ void stability_guard::watch_rotations(const model& system, const phase_points& s
   const normal_modes modes = system.modes();
   mean_soft_ = Eigen::MatrixXd::Zero(n, n);
   std::size_t number = 0;
-  force_jacobian<field::soft, model> jacobian(system, states);
+  force_jacobian jacobian(system, states, field::soft);
   for (const auto& state : states) {
     // Evenly spread: the k-th of those that are examined is the state count * k / enough.
     const bool is_examined = number * enough / count != (number + 1) * enough / count;
     ++number;
     if (count > enough && !is_examined) continue;
     const Eigen::MatrixXd root = detail::kinetic_factor(system, state.p);
-    const Eigen::MatrixXd soft = root * detail::potential_hessian(jacobian, state.q) * root;
+    const Eigen::MatrixXd soft = root * jacobian.potential_hessian(state.q) * root;
     soft_.push_back(modes.basis.transpose() * soft * modes.basis);
     mean_soft_ += soft_.back();
   }
@@ -333,7 +333,7 @@ bool stability_guard::admits(const run_time_word& word, const std::vector<double
 std::string stability_guard::objection(const run_time_word& word, const std::vector<double>& coefficients,
                                        double step, met which) const {
   word.require_one_for_each_slot(coefficients);
-  if (!is_of_oscillators(word)) {
+  if (word.has_own_letters()) {
     if (!parts_) return {};
     if (word.letters() != parts_->word()) {
       throw std::invalid_argument(fmt::format(
@@ -392,11 +392,9 @@ std::string stability_guard::grown_on_parts(const std::vector<double>& coefficie
 std::vector<stability_window> stability_guard::gaps(const run_time_word& word,
                                                     const std::vector<double>& coefficients,
                                                     double step) const {
-  if (word.rotates() || !is_of_oscillators(word)) return {};
-  double highest = 0.0;
-  for (const auto& band : bands_) highest = std::max(highest, step * band.high);
+  if (word.rotates() || word.has_own_letters()) return {};
   return gaps_below(stability_windows(conservative_part(word), conservative_part(word, coefficients)),
-                    highest);
+                    step * highest_frequency(bands_));
 }
 
 stability_guard::magnified_mode stability_guard::most_magnified(const run_time_word& word,

@@ -112,10 +112,6 @@ constinit const loss_kind trajectory_loss{.name = "trajectory",
 
 namespace {
 objective of_law(const model& system, const run_time_family& family, double step) {
-  if (!has_modes(system) || !system.bath().acts()) {
-    throw std::invalid_argument(fmt::format(
-        "covariance loss: the system must be in a bath and declare modes(), got {}", describe(system)));
-  }
   return objective_of(stationary_covariance(system, family.letters, step), family);
 }
 }  // namespace
@@ -168,7 +164,7 @@ std::map<double, double> spectrum_of(const model& system) {
     for (const double omega : system.modes().frequencies) {
       if (omega > 0.0) count_of[omega] += 1.0;
     }
-  } else if (has_frequency_bands(system)) {
+  } else if (system.facts().has_bands) {
     constexpr int points = 16;  // of a band, its midpoints
     const auto bands = system.frequency_bands();
     const double share = static_cast<double>(size(system)) / static_cast<double>(points * bands.size());

@@ -196,9 +196,7 @@ tabulated phase_fitted(const run_time_family& family, const tabulated& classical
 
 double frequency_to_fit(const model& system) {
   if (has_modes(system)) return system.modes().frequencies.maxCoeff();
-  double highest = 0.0;
-  for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
-  return highest;
+  return highest_frequency(system.frequency_bands());
 }
 
 }  // namespace nysalt

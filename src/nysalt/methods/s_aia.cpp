@@ -138,9 +138,7 @@ s_aia3::s_aia3(double highest_z)
       highest_z_(highest_z) {}
 
 s_aia2 s_aia2_for(const model& system, double step) {
-  double highest = 0.0;
-  for (const auto& band : system.frequency_bands()) highest = std::max(highest, band.high);
-  return s_aia2(std::abs(step) * highest);
+  return s_aia2(std::abs(step) * highest_frequency(system.frequency_bands()));
 }
 
 }  // namespace nysalt

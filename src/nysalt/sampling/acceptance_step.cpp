@@ -35,7 +35,7 @@ void require_proposals(const model& system, const tabulated& method, double step
         "{}: a trajectory of duration {} must have at most {} steps, got steps of {}; take a larger step",
         who, 2.0 * options.length, most_steps, step));
   }
-  if (!has_quadratic_kinetic(system) || !has_potential(system)) {
+  if (!has_quadratic_kinetic(system) || !system.facts().has_potential) {
     throw std::invalid_argument(sentence(
         "{}: {} must have a potential and a kinetic energy that is quadratic in p", who, describe(system)));
   }

@@ -53,7 +53,7 @@ void require_options(const model& system, const hmc_options& options) {
     throw std::invalid_argument(sentence(
         "hmc: the kinetic energy of {} must be quadratic in p, as momenta are normal", describe(system)));
   }
-  if (!has_potential(system)) {
+  if (!system.facts().has_potential) {
     throw std::invalid_argument(
         sentence("hmc: {} must have a potential, by which proposals are accepted; add potential(q)",
                  describe(system)));

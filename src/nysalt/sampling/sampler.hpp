@@ -306,8 +306,7 @@ inline std::int64_t steps_of(const hmc_options& options, std::int64_t trajectory
                              double step) {
   std::array<double, 1> normal{};
   standard_normals<double>(options.seed, {.step = trajectory, .purpose = noise_purpose::duration}, normal);
-  const double uniform = 0.5 * std::erfc(-normal[0] / std::numbers::sqrt2);
-  return std::max<std::int64_t>(1, std::llround(2.0 * uniform * length / step));
+  return std::max<std::int64_t>(1, std::llround(2.0 * uniform_by_normal(normal[0]) * length / step));
 }
 
 /// Chains in lanes of T.

@@ -216,10 +216,7 @@ void add_rotation(answer& result, const tabulated& method, const prepared_proble
 
 void write_curve(const stability_command& command, const subject& target, const stability_chart& chart,
                  const std::optional<marked_step>& marked, const common_settings& common) {
-  double highest_z = 0.0;
-  if (marked) {
-    for (const auto& band : marked->bands) highest_z = std::max(highest_z, marked->step * band.high);
-  }
+  const double highest_z = marked ? marked->step * highest_frequency(marked->bands) : 0.0;
   const auto curve = stability_curve_of(target.method, chart, highest_z);
   write_result(command.output, table_of(curve), common);
   if (!command.plot) return;
