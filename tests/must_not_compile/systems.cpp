@@ -54,7 +54,7 @@ struct incomplete {
   static constexpr int dimension = 1;
 };
 inline void use(const nysalt::phase_point<double, 1>& x) {
-  nysalt::reference_error(either<well, incomplete>(), nysalt::fine_steps<>(0.01), x, 0.1);
+  nysalt::reference_error(either<well, incomplete>(), nysalt::fine_steps(0.01), x, 0.1);
 }
 }  // namespace reference_of_a_system_without_force
 
@@ -268,13 +268,13 @@ inline void everything(const nysalt::pendulum& system, const either<nysalt::pend
                        const either<nysalt::verlet, nothing>& method,
                        const either<nysalt::no_noise, nothing>& noise,
                        const either<nysalt::listed<1>, nothing>& starts,
-                       const either<nysalt::fine_steps<>, nothing>& reference,
+                       const either<nysalt::reference, nothing>& accurate,
                        const nysalt::phase_point<double, 1>& x) {
   nysalt::make_stepper(any_system, nysalt::verlet(), 0.1);
   nysalt::make_stepper(system, method, 0.1);
   nysalt::make_stepper(system, nysalt::verlet(), 0.1, noise);
   nysalt::sound_start(system, starts, 1, 0);
-  nysalt::reference_error(system, reference, x, 0.1);
+  nysalt::reference_error(system, accurate, x, 0.1);
 }
 }  // namespace concepts_by_name
 

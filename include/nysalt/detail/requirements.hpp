@@ -244,7 +244,7 @@ constexpr void require_suited() {
     static_assert(!M::requires_quadratic_kinetic || NystromSystem<S>,
                   "nysalt: the order of this method needs a quadratic kinetic energy, but the system has a "
                   "kinetic energy of its own; take one of any K(p), as blanes_moan_s10, and as reference "
-                  "fine_steps<blanes_moan_s10>");
+                  "fine_steps(step, blanes_moan_s10())");
   }
 }
 

@@ -177,7 +177,7 @@ class gibbs_of_modes {
   template <HasModes S>
     requires(S::dimension == N)
   gibbs_of_modes(const S& system, double temperature) : temperature_(temperature) {
-    const exact_linear linear(system);  // refuses any other
+    exact_linear(system);  // refuses any other
     modes_ = modal_coordinates::of(system);
     if (!(temperature > 0.0) || !std::isfinite(temperature) ||
         !(std::ranges::min(modes_->frequencies()) > 0.0)) {

@@ -55,10 +55,11 @@ struct learned_enough {
 /// learn() with as many trajectories as necessary, see until_enough(): from first.trajectories on, at most as
 /// many as fit into memory. Each time data are made for as many more, and the held-out data, of another seed,
 /// have as many too. What comes out is what learn() gives for that number. Throws what these do.
-template <Family F, SeparableSystem S, Ensemble<S> E, Reference<S> R, class... Own>
-learned_enough<F> learn_enough(const F& family, const S& system, const E& ensemble, const R& reference,
-                               data_options first, std::uint64_t held_out_seed, enough_options enough = {},
-                               const learn_options<F>& options = {}, const own_loss<Own>&... own) {
+template <Family F, SeparableSystem S, Ensemble<S> E, class... Own>
+learned_enough<F> learn_enough(const F& family, const S& system, const E& ensemble,
+                               const reference& reference, data_options first, std::uint64_t held_out_seed,
+                               enough_options enough = {}, const learn_options<F>& options = {},
+                               const own_loss<Own>&... own) {
   flow_map_data data;
   flow_map_data held_out;
   const auto grow = [&](flow_map_data& data_set, std::int64_t trajectories, std::uint64_t seed) {
