@@ -79,6 +79,7 @@ BOOST_AUTO_TEST_CASE(the_exact_flow_is_of_linear_systems_only) {
   BOOST_TEST(refuses<wrong>([] { exact_linear(henon_heiles()); }, {"henon_heiles()", "must be linear"}));
   BOOST_TEST(refuses<wrong>([] { exact_linear(fpu_chain<3>(50.0)); }, {"fpu_chain(", "must be linear"}));
   BOOST_TEST(refuses<wrong>([] { exact_linear(fpu_chain<>(2, 1e3)); }, {"fpu_chain(", "must be linear"}));
+  BOOST_TEST(refuses<wrong>([] { exact_linear(pendulum()); }, {"pendulum()", "must declare modes()"}));
   exact_linear(flawed{});
   for (const flawed& system : {flawed{.cubic = 1e-15}, flawed{.constant = 1e-15},
                                flawed{.frequency = 1.0 + 1e-13}, flawed{.cubic = not_a_number}}) {
@@ -129,6 +130,41 @@ BOOST_AUTO_TEST_CASE(the_exact_flow_is_of_the_system_it_was_made_for) {
   point y{Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()};
   BOOST_TEST(refuses<wrong>([&] { exact_linear(turned).advance(other, y, 1.0); }, {"linear_chain"}));
   exact_linear(chain).advance(counted<linear_chain>(chain), y, 1.0);
+}
+
+// What is held open is the preparation: letters of two intervals do not merge.
+BOOST_AUTO_TEST_CASE(a_run_held_open_has_the_bits_of_one_opened_for_each_interval) {
+  const linear_chain system = free_chain();
+  const point start = draws().state(system, 1.0);
+  for (const reference& accurate : {exact_linear(system), fine_steps(0.05), fine_steps(0.05, verlet()),
+                                    reference(odeint_reference(1e-9))}) {
+    const auto run = accurate.open(system, start, {.length = 0.1});
+    point x = start;
+    std::int64_t evaluations = 0;
+    for (int n = 0; n < 5; ++n) {
+      run->advance();
+      evaluations += accurate.advance(system, x, 0.1);
+      BOOST_TEST(same_bits(run->state(), x), accurate.description());
+    }
+    BOOST_TEST(run->evaluations() == evaluations);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_flow_of_single_trajectories_is_taken_lane_by_lane) {
+  const pendulum system;
+  const reference accurate = odeint_reference(1e-9);
+  const auto start = gather<detail::lanes, Eigen::Dynamic>(2, [](int k) {
+    return point{Eigen::VectorXd::Constant(1, 0.5 + k), Eigen::VectorXd::Zero(1)};
+  });
+  const auto run = accurate.open(system, start, {.length = 1.0, .count = 2});
+  run->advance();
+  std::int64_t evaluations = 0;
+  for (int k = 0; k < 2; ++k) {
+    point x = lane(start, k);
+    evaluations += accurate.advance(system, x, 1.0);
+    BOOST_TEST(same_bits(lane(run->state(), k), x));
+  }
+  BOOST_TEST(run->evaluations() == evaluations);
 }
 
 // The difference from half the step is 3/4 of the error of a second-order method.

@@ -204,6 +204,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_followed_is_refused) {
   BOOST_TEST(refused(0.01, 0.005, 0, {"0.005", "a multiple"}));
   BOOST_TEST(refused(0.01, -0.1, 0, {"-0.1", "a multiple"}));
   BOOST_TEST(refused(0.01, nan, 0, {"nan", "a multiple"}));
+  BOOST_TEST(refuses<wrong>([] { fine_paths(0.1, obabo()); }, {"one letter O", "obabo with 2"}));
   const auto far = [] { follow(fine_paths(0.01), 0.1, 1, 1, {7, 3, std::int64_t{1} << 45}); };
   BOOST_TEST(refuses<wrong>(far, {"step", "2^48"}));  // ten fine steps each
 }
