@@ -91,7 +91,7 @@ minimum minimise_by_blocks(const Blocks& blocks, const is_defined& defined, cons
 class problem {
  public:
   problem()
-      : data_(make_flow_map_data(chain_, fpu_law<3>(chain_), fine_steps<>(1e-3),
+      : data_(make_flow_map_data(chain_, fpu_law<3>(chain_), fine_steps(1e-3),
                                  {.step = 0.01, .horizon = 0.01 * pairs_each, .trajectories = trajectories})),
         measure_(chain_, data_, coordinates::qp) {}
 

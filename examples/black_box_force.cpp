@@ -37,7 +37,7 @@ static_assert(BlackBoxForce<chain_in_c>);
 int main() {
   const chain_in_c chain;
   const normal_around<3> starts({vector<double, 3>::Zero(), vector<double, 3>::Zero()}, 0.0, 0.25);
-  const fine_steps<> reference(0.01);
+  const auto reference = fine_steps(0.01);
   constexpr double step = 0.2;
 
   // [learn]

@@ -8,9 +8,9 @@
 int main() {
   // [readme]
   using namespace nysalt;
-  const fpu_chain<3> chain(50.0);     // the system: any H = K(p) + V(q) of yours
-  const fpu_law<3> starts(chain);     // where its trajectories start
-  const fine_steps<> accurate(1e-3);  // a reference flow
+  const fpu_chain<3> chain(50.0);          // the system: any H = K(p) + V(q) of yours
+  const fpu_law<3> starts(chain);          // where its trajectories start
+  const auto accurate = fine_steps(1e-3);  // a reference flow
   const auto data = make_flow_map_data(chain, starts, accurate, {.step = 0.03, .seed = 1});
   const auto unseen = make_flow_map_data(chain, starts, accurate, {.step = 0.03, .seed = 2});
   const auto [theta, summary, method] = learn(nystrom{}, chain, data, unseen);

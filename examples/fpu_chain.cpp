@@ -15,7 +15,7 @@ int main() {
   constexpr double step = 0.03;
   const fpu_chain<3> chain(50.0);
   const fpu_law<3> law(chain);
-  const fine_steps<> reference(1e-3);
+  const auto reference = fine_steps(1e-3);
 
   // Learn, from data of one seed, judged on data of another.
   const auto data = make_flow_map_data(chain, law, reference, {.step = step, .seed = 1});

@@ -96,7 +96,7 @@ int main() {
   const data_options training{.step = step, .horizon = steps * step, .trajectories = 200};
   data_options others = training;
   others.first = 200;  // the second half of the list
-  const fine_steps<> reference(step / 40);
+  const auto reference = fine_steps(step / 40);
   const auto data = make_flow_map_data(system, starts, reference, training);
   const auto unseen = make_flow_map_data(system, starts, reference, others);
   const fit found = learn(aba<2>{}, system, data, unseen, {.loss = loss_named("energy:6")});

@@ -48,7 +48,7 @@ int main() {
   const in_bath system(dumbbell{}, bath::of_temperature(0.1, temperature));
   const phase_point<double, 2> rest{{0.0, 1.0}, {0.0, 0.0}};
   const gibbs starts(system, normal_around<2>(rest, 0.1, 0.1), {.step = 0.01});
-  const fine_paths<> paths(1e-4);  // BAOAB, which keeps its noise
+  const auto paths = fine_paths(1e-4);  // BAOAB, which keeps its noise
   // [/bath]
 
   // [learn]

@@ -39,7 +39,7 @@ int main() {
   fmt::print("check: {}\n", check_force(system, {starts(1, 0).q, starts(1, 1).q}).report());
 
   constexpr double step = 0.4;
-  const fine_steps<> reference(0.01);
+  const auto reference = fine_steps(0.01);
   const auto data = make_flow_map_data(system, starts, reference, {.step = step, .horizon = 8.0, .seed = 1});
   const auto held_out =
       make_flow_map_data(system, starts, reference, {.step = step, .horizon = 8.0, .seed = 2});

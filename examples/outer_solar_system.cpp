@@ -44,7 +44,7 @@ listed<15> states(std::size_t first) {
 int main() {
   fmt::print("days a kick  verlet   srkn6b   wisdom_holman  planetary_2\n");
   for (const double step : {50.0, 100.0, 200.0, 400.0}) {
-    const fine_steps<> reference(step / 10.0);
+    const auto reference = fine_steps(step / 10.0);
     const data_options options{.step = 2.0 * step, .horizon = 40.0 * step, .trajectories = 4, .seed = 1};
     const auto data = make_flow_map_data(planets, states(0), reference, options);
     const auto unseen = make_flow_map_data(planets, states(4), reference, options);

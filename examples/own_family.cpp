@@ -34,7 +34,7 @@ int main() {
   const henon_heiles system;
   const phase_point<double, 2> rest{{0.0, 0.0}, {0.0, 0.0}};
   const normal_around<2> starts(rest, 0.1, 0.1);
-  const fine_steps<> reference(0.005);
+  const auto reference = fine_steps(0.005);
 
   for (const double step : {0.2, 1.0}) {
     const data_options training{.step = step, .horizon = 20 * step, .seed = 1};

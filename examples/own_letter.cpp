@@ -68,7 +68,7 @@ int main() {
   fmt::print("{}\n", check_letter(wrong, 't', points, step).report());
   // [/check]
   // [learn]
-  const fine_steps<> reference(0.005);
+  const auto reference = fine_steps(0.005);
   const auto data = make_flow_map_data(system, starts, reference, {.step = step, .horizon = 20, .seed = 1});
   const auto unseen = make_flow_map_data(system, starts, reference, {.step = step, .horizon = 20, .seed = 2});
   const fit found = learn(turns{}, system, data, unseen);

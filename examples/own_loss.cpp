@@ -41,7 +41,7 @@ int main() {
   const kepler system;
   const kepler_law ellipses(0.3);
   constexpr double step = 2.0 * std::numbers::pi / steps_of_revolution;
-  const fine_steps<> reference(step / 20);
+  const auto reference = fine_steps(step / 20);
   const auto revolutions = [&](std::uint64_t seed) {
     return make_flow_map_data(system, ellipses, reference,
                               {.step = step, .horizon = 2.0 * std::numbers::pi, .seed = seed});

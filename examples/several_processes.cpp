@@ -20,7 +20,7 @@ void learn_and_report(const communicator& ranks) {
   const fpu_law<3> starts(chain);
   // [learn]
   const auto pairs = [&](std::uint64_t seed) {
-    return make_flow_map_data(chain, starts, fine_steps<>(1e-3),
+    return make_flow_map_data(chain, starts, fine_steps(1e-3),
                               {.step = 0.03, .trajectories = 400, .seed = seed, .ranks = &ranks});
   };
   const auto [theta, summary, method] =

@@ -36,7 +36,7 @@ struct tried {
 };
 using list = std::vector<tried>;
 
-fine_steps<> reference_at(double step) { return fine_steps<>(step / std::ceil(step / 0.004)); }
+reference reference_at(double step) { return fine_steps(step / std::ceil(step / 0.004)); }
 
 /// Tries a method of parts, or one of the whole force, which evaluates both each time.
 void try_out(list& all, const tabulated& method, double step) {

@@ -8,7 +8,7 @@ int main() {
   using namespace nysalt;
   const fpu_chain<3> chain(50.0);
   const fpu_law<3> starts(chain);
-  const fine_steps<> accurate(1e-3);
+  const auto accurate = fine_steps(1e-3);
   const auto data = make_flow_map_data(chain, starts, accurate, {.step = 0.03, .seed = 1});
   const auto method = member(nystrom{}, {0.5, 0.4});
   fmt::print("{} pairs\n", data.pairs());

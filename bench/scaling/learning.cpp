@@ -30,7 +30,7 @@ const fpu_chain<3> chain(50.0);
 using data_type = flow_map_data;
 
 data_type make_data(const size_of_work& size, std::uint64_t seed) {
-  return make_flow_map_data(chain, fpu_law<3>(chain), fine_steps<>(1e-3),
+  return make_flow_map_data(chain, fpu_law<3>(chain), fine_steps(1e-3),
                             {.step = h,
                              .horizon = h * static_cast<double>(size.steps),
                              .trajectories = size.trajectories,

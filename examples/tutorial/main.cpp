@@ -47,7 +47,7 @@ int main() {
   const phase_point<double, 2> hanging{{0.0, -1.0}, {0.0, 0.0}};
   const normal_around<2> starts(hanging, 0.02, 0.5);  // deviations of q and of p
   constexpr double step = 0.09;                       // 1.8 radians of the spring
-  const fine_steps<> accurate(step / 90);             // 0.001; it must divide every step below
+  const auto accurate = fine_steps(step / 90);        // 0.001; it must divide every step below
   const auto data = make_flow_map_data(system, starts, accurate, {.step = step, .horizon = 1.8, .seed = 1});
   const auto unseen = make_flow_map_data(system, starts, accurate, {.step = step, .horizon = 1.8, .seed = 2});
   // [/data]

@@ -5,17 +5,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/any_reference.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_point.hpp"
+#include "nysalt/reference.hpp"
 #include "nysalt/shard.hpp"
 
 namespace nysalt {
@@ -101,13 +100,6 @@ std::int64_t steps_of_each(const data_options& options, Eigen::Index dimension);
 /// that no length of trajectories makes all of them starts, say.
 std::vector<std::size_t> spread_pairs(std::size_t all, std::size_t most);
 
-flow_map_data make_flow_map_data(const model& system, const initial_states& ensemble,
-                                 const std::shared_ptr<const any_reference>& reference,
-                                 const data_options& options);
-void extend_data(const model& system, const initial_states& ensemble,
-                 const std::shared_ptr<const any_reference>& reference, data_options options,
-                 flow_map_data& data);
-
 }  // namespace detail
 
 /// Largest number of trajectories: those that fit into the memory of one rank, so that their number does not
@@ -123,21 +115,14 @@ std::int64_t most_trajectories(data_options options, Eigen::Index dimension);
 /// std::runtime_error if the reference diverges; of several trajectories that fail, the lowest is named.
 /// Memory of a rank: two states a pair of its own, and half a state for each part of noise. Cost: that of the
 /// reference, and one energy a pair.
-template <SeparableSystem S, Ensemble<S> E, Reference<S> R>
-flow_map_data make_flow_map_data(const S& system, const E& ensemble, const R& reference,
-                                 const data_options& options) {
-  return detail::make_flow_map_data(model(system), ensemble, detail::reference_of(system, reference),
-                                    options);
-}
+flow_map_data make_flow_map_data(const model& system, const initial_states& ensemble,
+                                 const reference& reference, const data_options& options);
 
 /// Makes of data with fewer trajectories, or none, those of the options, which were the same but for their
 /// number: only what is new is made. The pairs have the bits of those made at once; of finer finishes there
 /// are more. Ranks hand over trajectories that become another's. Throws what make_flow_map_data does. Cost:
 /// that of the trajectories that are new.
-template <SeparableSystem S, Ensemble<S> E, Reference<S> R>
-void extend_data(const S& system, const E& ensemble, const R& reference, const data_options& options,
-                 flow_map_data& data) {
-  detail::extend_data(model(system), ensemble, detail::reference_of(system, reference), options, data);
-}
+void extend_data(const model& system, const initial_states& ensemble, const reference& reference,
+                 const data_options& options, flow_map_data& data);
 
 }  // namespace nysalt

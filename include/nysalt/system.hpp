@@ -95,11 +95,12 @@ inline double highest_frequency(const std::vector<frequency_band>& bands) {
 
 /// A system that can be stepped: copyable, with `static constexpr int dimension`, positive, or
 /// Eigen::Dynamic and a size().
+// The dimension is asked for first: systems convert to a model, so that whether a class that is made from a
+// model can be copied depends on whether the class is a system.
 template <class S>
-concept System =
-    std::copyable<S> && (S::dimension > 0 || (S::dimension == Eigen::Dynamic && requires(const S& s) {
-                           { s.size() } -> std::convertible_to<Eigen::Index>;
-                         }));
+concept System = (S::dimension > 0 || (S::dimension == Eigen::Dynamic && requires(const S& s) {
+                    { s.size() } -> std::convertible_to<Eigen::Index>;
+                  })) && std::copyable<S>;
 
 /// A system whose members are known at run time: see nysalt/model.hpp.
 template <class S>

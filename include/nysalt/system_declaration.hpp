@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -15,10 +15,10 @@
 
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/bath.hpp"
-#include "nysalt/detail/any_reference.hpp"
 #include "nysalt/detail/kernels.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
+#include "nysalt/reference.hpp"
 #include "nysalt/systems/in_bath.hpp"
 
 namespace nysalt {
@@ -127,9 +127,9 @@ struct initial_value_problem {
   std::string default_observable = "energy";    ///< observable where none is named
   double fine_angle =
       5e-3;  ///< step of a reference times the frequency: there a reference of order 6 errs by rounding
-  detail::stiff_springs springs{};                       ///< springs of a system with stiff_energy(x, j)
-  bool has_exact_flow = false;                           ///< small steps then have a fixed angle
-  std::shared_ptr<const detail::any_reference> exact{};  ///< exact flow of the system, if known
+  detail::stiff_springs springs{};   ///< springs of a system with stiff_energy(x, j)
+  bool has_exact_flow = false;       ///< small steps then have a fixed angle
+  std::optional<reference> exact{};  ///< exact flow of the system, if known
 };
 
 namespace detail {

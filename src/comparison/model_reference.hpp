@@ -11,8 +11,8 @@
 #include <string>
 #include <utility>
 
-#include "nysalt/detail/any_reference.hpp"
 #include "nysalt/methods/classical.hpp"
+#include "nysalt/references/fine_steps.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -48,7 +48,7 @@ inline tabulated method_of_reference(const model& system) {
 class model_reference {
  public:
   model_reference(const model& system, double frequency, double angle, bool has_exact_flow,
-                  std::shared_ptr<const detail::any_reference> exact)
+                  std::optional<reference> exact)
       : method_(method_of_reference(system)),
         bath_(&system.bath()),
         frequency_(frequency),
@@ -62,17 +62,15 @@ class model_reference {
   /// suggest.
   std::optional<double> fine_step(double step, std::optional<double> asked, int parts) const {
     if (is_exact() && !asked) return std::nullopt;
-    const double few = step / fine_steps;
+    const double few = step / usual_steps;
     const double most = longest(step, angle_);
     return fine_step_within(step, asked, bath_->acts() ? std::min(most, few) : most, std::max(parts, 1));
   }
 
-  detail::reference_value at(double step, std::optional<double> asked, int parts) const {
+  reference at(double step, std::optional<double> asked, int parts) const {
     const auto fine = fine_step(step, asked, parts);
-    if (!fine) return detail::reference_value(exact_);
-    const std::string described = fmt::format("{} with step {:.12g}", method_.name(), *fine);
-    return detail::reference_value(bath_->acts() ? detail::small_steps_on_paths(method_, *fine, 0, described)
-                                                 : detail::small_steps(method_, *fine, described));
+    if (!fine) return exact_.value();
+    return bath_->acts() ? fine_paths(*fine, method_) : fine_steps(*fine, method_);
   }
 
   /// To rank methods by errors far above rounding: order 6 at ten times the step leaves little more, and what
@@ -95,13 +93,13 @@ class model_reference {
  private:
   bool is_exact() const { return has_exact_flow_ && !bath_->acts(); }
 
-  static constexpr double fine_steps = 200.0;  // in a step, as in the paper in a bath at the step .02
+  static constexpr double usual_steps = 200.0;  // in a step, as in the paper in a bath at the step .02
 
-  /// The fine step by its angle. Where nothing is known of the motion, of a step of `fine_steps`, and of
+  /// The fine step by its angle. Where nothing is known of the motion, of a step of `usual_steps`, and of
   /// fewer for a larger angle: what they err by is measured.
   double longest(double step, double angle) const {
     constexpr double usual = 5e-3;
-    return fastest() > 0.0 ? angle / fastest() : step / fine_steps * std::max(1.0, angle / usual);
+    return fastest() > 0.0 ? angle / fastest() : step / usual_steps * std::max(1.0, angle / usual);
   }
 
   tabulated method_;
@@ -109,7 +107,7 @@ class model_reference {
   double frequency_;
   double angle_;
   bool has_exact_flow_;
-  std::shared_ptr<const detail::any_reference> exact_;
+  std::optional<reference> exact_;
 };
 
 }  // namespace nysalt::program

@@ -87,16 +87,16 @@ learnable prepared_problem::make_learnable(const learn_plan& plan, const counter
   auto& held_out = (kept != nullptr ? *kept : fresh)[1];
   const auto reference_solution = reference().at(plan.step, plan.how.fine_step, parts);
   const auto make = [&](auto& pairs, std::uint64_t seed) {
-    detail::extend_data(made_.system, *starts_, reference_solution.held(),
-                        {.step = plan.step,
-                         .horizon = plan.how.horizon_at(plan.step),
-                         .trajectories = plan.how.trajectories,
-                         .seed = seed,
-                         .noise_parts = parts,
-                         .threads = plan.threads,
-                         .ranks = &all_ranks(),
-                         .progress = progress},
-                        pairs);
+    extend_data(made_.system, *starts_, reference_solution,
+                {.step = plan.step,
+                 .horizon = plan.how.horizon_at(plan.step),
+                 .trajectories = plan.how.trajectories,
+                 .seed = seed,
+                 .noise_parts = parts,
+                 .threads = plan.threads,
+                 .ranks = &all_ranks(),
+                 .progress = progress},
+                pairs);
   };
   make(data, plan.seed);
   make(held_out, plan.held_out_seed);

@@ -42,9 +42,9 @@ double numbers_of_trajectory(const data_options& options, double steps, Eigen::I
 /// Writes the pairs and energies of trajectories first .. first + count - 1, one in each lane, of those from
 /// number options.first on; returns the force evaluations that they took.
 template <class T>
-std::int64_t follow_reference(const model& system, const initial_states& ensemble,
-                              const any_reference& reference, const data_options& options, std::int64_t first,
-                              int count, flow_map_data& data, std::vector<energy_range>& energies) {
+std::int64_t follow_reference(const model& system, const initial_states& ensemble, const reference& reference,
+                              const data_options& options, std::int64_t first, int count, flow_map_data& data,
+                              std::vector<energy_range>& energies) {
   constexpr int width = lanes_in<T>;
   const auto place = [&](int k) { return static_cast<std::size_t>(first + k); };
   const auto include_energies = [&](const auto& x) {
@@ -62,24 +62,26 @@ std::int64_t follow_reference(const model& system, const initial_states& ensembl
     }
   };
   const std::int64_t number = options.first + first;
-  auto x = sound_starts<T>(system, ensemble, options.seed, number, count);
-  include_energies(x);
+  const auto start = sound_starts<T>(system, ensemble, options.seed, number, count);
+  include_energies(start);
   std::array<std::optional<std::size_t>, width> lost;  // at which step a lane was not finite any more
   const std::size_t steps = data.first_of[place(0) + 1] - data.first_of[place(0)];
   const auto parts = static_cast<std::size_t>(options.noise_parts);
-  std::vector<vector<T, Eigen::Dynamic>> noise(parts, make_vector<T>(system));
-  const auto flow = reference.prepare(system, options.step, std::type_identity<T>());
-  std::int64_t evaluations = 0;
-  path_place at{options.seed, static_cast<std::uint64_t>(number), 0};
-  for (std::size_t n = 0; n < steps; ++n, ++at.step) {
+  const auto run = reference.open(system, start,
+                                  {.length = options.step,
+                                   .count = count,
+                                   .at = {options.seed, static_cast<std::uint64_t>(number), 0},
+                                   .noise_parts = options.noise_parts});
+  const auto& x = run->state();
+  for (std::size_t n = 0; n < steps; ++n) {
     for (int k = 0; k < count; ++k) store(data.start, data.first_of[place(k)] + n, x, k);
-    evaluations += flow->advance(x, count, at, noise);
+    run->advance();
     for (int k = 0; k < count; ++k) {
       const std::size_t pair = data.first_of[place(k)] + n;
       store(data.finish, pair, x, k);
       for (std::size_t part = 0; part < parts; ++part) {
         auto xi = data.noise[pair * parts + part];
-        for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = lane(noise[part][i], k);
+        for (Eigen::Index i = 0; i < xi.size(); ++i) xi[i] = lane(run->noise()[part][i], k);
       }
     }
     include_energies(x);
@@ -98,34 +100,32 @@ std::int64_t follow_reference(const model& system, const initial_states& ensembl
                     "diverged at step {}: {}",
                     number + k, reference.description(), step, not_finite_in(last)));
   }
-  return evaluations;
+  return run->evaluations();
 }
 
 /// finish = that of the finer reference from the same start, for a few of all pairs.
-std::int64_t check_reference(const model& system, const any_reference& reference, const data_options& options,
+std::int64_t check_reference(const model& system, const reference& reference, const data_options& options,
                              flow_map_data& data) {
   constexpr std::size_t checks = 16;  // enough for the size of an error
   const auto finer = reference.finer();
   std::int64_t evaluations = 0;
-  std::unique_ptr<reference_run<double>> flow;
   for (const std::size_t number : spread_pairs(data.all_pairs(), checks)) {
     if (number < data.first_pair() || number >= data.first_pair() + data.pairs()) continue;
-    if (!flow) flow = finer->prepare(system, options.step, std::type_identity<double>());
     const std::size_t pair = number - data.first_pair();
     const std::size_t trajectory = data.trajectory_of(pair);
     const path_place at{options.seed, static_cast<std::uint64_t>(options.first) + trajectory,
                         static_cast<std::int64_t>(pair - data.first_of[trajectory])};
     state x = std::as_const(data.start)[pair];
-    evaluations += flow->advance(x, 1, at, {});
+    evaluations += finer.advance(system, x, options.step, at);
     data.finer.emplace_back(pair, std::move(x));
   }
   return evaluations;
 }
 
 /// Trajectories begin .. begin + count - 1 of those of the options.
-flow_map_data make_some_pairs(const model& system, const initial_states& ensemble,
-                              const any_reference& reference, data_options options, const shard& all,
-                              std::int64_t begin, std::int64_t count) {
+flow_map_data make_some_pairs(const model& system, const initial_states& ensemble, const reference& reference,
+                              data_options options, const shard& all, std::int64_t begin,
+                              std::int64_t count) {
   const std::int64_t steps = steps_of_each(options, size(system));
   const auto of_trajectories = [&](std::int64_t m) { return static_cast<std::size_t>(m * steps); };
   flow_map_data data;
@@ -230,37 +230,37 @@ std::vector<std::size_t> spread_pairs(std::size_t all, std::size_t most) {
   return result;
 }
 
+}  // namespace detail
+
 flow_map_data make_flow_map_data(const model& system, const initial_states& ensemble,
-                                 const std::shared_ptr<const any_reference>& reference,
-                                 const data_options& options) {
+                                 const reference& reference, const data_options& options) {
   const auto began = std::chrono::steady_clock::now();
-  steps_of_each(options, size(system));
-  if (options.noise_parts > 0 && !reference->gives_noise()) {
+  detail::steps_of_each(options, size(system));
+  if (options.noise_parts > 0 && !reference.gives_noise()) {
     throw std::invalid_argument(
         fmt::format("flow_map_data: the reference must have noise to keep, got {}; take fine_paths",
-                    reference->description()));
+                    reference.description()));
   }
   const shard all(options.trajectories, *options.ranks);
   flow_map_data data;
   collectively(all.ranks(), [&] {
-    data = make_some_pairs(system, ensemble, *reference, options, all, all.first(), all.count());
+    data = detail::make_some_pairs(system, ensemble, reference, options, all, all.first(), all.count());
   });
-  add_up(data);
-  data.further_starts = find_further_starts(system, ensemble, options);
+  detail::add_up(data);
+  data.further_starts = detail::find_further_starts(system, ensemble, options);
   data.judged_starts = starts_to_judge(system, ensemble);
   if (options.ranks->is_single()) data.shared.reset();
   data.step = options.step;
   data.system = describe(system);
   data.ensemble = ensemble.description();
-  data.reference = reference->description();
+  data.reference = reference.description();
   data.seed = options.seed;
   data.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return data;
 }
 
-void extend_data(const model& system, const initial_states& ensemble,
-                 const std::shared_ptr<const any_reference>& reference, data_options options,
-                 flow_map_data& data) {
+void extend_data(const model& system, const initial_states& ensemble, const reference& reference,
+                 const data_options& options, flow_map_data& data) {
   const std::int64_t there = data.share().total();
   if (there >= options.trajectories) return;
   if (there == 0) {
@@ -268,9 +268,9 @@ void extend_data(const model& system, const initial_states& ensemble,
     return;
   }
   const auto began = std::chrono::steady_clock::now();
-  const std::int64_t steps = steps_of_each(options, size(system));
+  const std::int64_t steps = detail::steps_of_each(options, size(system));
   const shard all(options.trajectories, *options.ranks);
-  redistribute(data, all, size(system));
+  detail::redistribute(data, all, size(system));
 
   data_options of_further = options;
   of_further.first += there;
@@ -279,15 +279,16 @@ void extend_data(const model& system, const initial_states& ensemble,
   const std::int64_t begin = std::clamp(there, all.first(), end);
   flow_map_data further;
   collectively(all.ranks(), [&] {
-    further = make_some_pairs(system, ensemble, *reference, of_further, all, begin - there, end - begin);
+    further =
+        detail::make_some_pairs(system, ensemble, reference, of_further, all, begin - there, end - begin);
   });
-  add_up(further);
-  append(data, further);
+  detail::add_up(further);
+  detail::append(data, further);
   if (data.energies && further.energies) {
     data.energies->include(further.energies->low);
     data.energies->include(further.energies->high);
   }
-  data.further_starts = find_further_starts(system, ensemble, options);
+  data.further_starts = detail::find_further_starts(system, ensemble, options);
   data.judged_starts = starts_to_judge(system, ensemble);
   data.evaluations += further.evaluations;
   data.shared.reset();
@@ -297,8 +298,6 @@ void extend_data(const model& system, const initial_states& ensemble,
   }
   data.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
-
-}  // namespace detail
 
 std::int64_t most_trajectories(data_options options, Eigen::Index dimension) {
   options.trajectories = 1;

@@ -56,7 +56,7 @@ void learn_columns(const setting& setup, std::vector<column>& columns) {
   const fpu_law<3> law(system);
   const double h = setup.pick(1e-6, 1e-4);
   for (const auto& generator : generators) {
-    const fine_steps reference(h, member<nystrom>(generator));
+    const auto reference = fine_steps(h, member<nystrom>(generator));
     const auto data_of = [&](role which) {
       return make_flow_map_data(system, law, reference,
                                 {.step = 1e-3,

@@ -42,13 +42,9 @@ const model swing{pendulum()};
 const phase_point<double, Eigen::Dynamic> start{Eigen::VectorXd::Constant(1, 1.0),
                                                 Eigen::VectorXd::Constant(1, 0.5)};
 
-fine_steps<tabulated> fine(double step, const tabulated& method = tabulated(srkn11b())) {
-  return fine_steps<tabulated>(step, method);
-}
-
-order_measurement measure(const tabulated& method, const fine_steps<tabulated>& reference,
-                          std::int64_t fewest, int halvings) {
-  return convergence_order(swing, method, reference, start, 4.0, fewest, halvings);
+order_measurement measure(const tabulated& method, const reference& accurate, std::int64_t fewest,
+                          int halvings) {
+  return convergence_order(swing, method, accurate, start, 4.0, fewest, halvings);
 }
 
 const tabulated by_verlet{verlet()};
@@ -70,17 +66,11 @@ planar of_energy(double energy) {
 }
 
 constexpr double interval = 0.25;
-const fine_steps<> flow(interval);
+const auto flow = fine_steps(interval);
 const model of_well(well);
 
 /// The flow over an interval.
-void advance(planar& x) {
-  static const detail::reference_value value(detail::reference_of(of_well, flow));
-  static const auto flowing = value.prepare<double>(of_well, interval);
-  phase_point<double, Eigen::Dynamic> y{x.q, x.p};
-  flowing->advance(y, 1, {}, {});
-  x = {y.q, y.p};
-}
+void advance(planar& x) { flow.advance(of_well, x, interval); }
 
 double horizon(const planar& start, double perturbation) {
   const trajectory_options options{
@@ -165,27 +155,27 @@ BOOST_AUTO_TEST_CASE(long_runs_need_no_more_memory) {
 // log2(1.1) < .15.
 BOOST_AUTO_TEST_CASE(orders_are_those_of_the_methods) {
   const auto order = [](const tabulated& method, std::int64_t fewest, int halvings, double fine_step = 1e-2) {
-    return measure(method, fine(fine_step), fewest, halvings).order;
+    return measure(method, fine_steps(fine_step), fewest, halvings).order;
   };
   BOOST_TEST(std::abs(order(by_verlet, 16, 5) - 2.0) < 0.15);
   BOOST_TEST(std::abs(order(tabulated(pefrl()), 16, 4) - 4.0) < 0.15);
   BOOST_TEST(std::abs(order(tabulated(srkn11b()), 8, 3, 2.5e-3) - 6.0) < 0.15);
   BOOST_TEST(order(weak_kick, 16, 5) < 1.0);
   // Steps in the noise do not count, but those above it do; where all are, what is left is no order.
-  const auto result = measure(tabulated(srkn6b()), fine(1e-2), 32, 10);
+  const auto result = measure(tabulated(srkn6b()), fine_steps(1e-2), 32, 10);
   BOOST_TEST(result.errors.back() < 1e-11);
   BOOST_TEST(std::abs(result.order - 4.0) < 0.15);
-  BOOST_TEST(std::isnan(measure(by_verlet, fine(0.125, by_verlet), 32, 4).order));
+  BOOST_TEST(std::isnan(measure(by_verlet, fine_steps(0.125, by_verlet), 32, 4).order));
   BOOST_TEST(std::isnan(order(tabulated(srkn11b()), 4000, 3, 1e-3)));  // rounding alone
   BOOST_TEST(std::isnan(order(by_verlet, 16, 0)));                     // a single step
 }
 
 BOOST_AUTO_TEST_CASE(steps_are_halved_and_errors_measured_at_the_horizon) {
-  const auto result = measure(by_verlet, fine(1e-2), 16, 3);
+  const auto result = measure(by_verlet, fine_steps(1e-2), 16, 3);
   BOOST_TEST(result.steps == (std::vector<double>{0.25, 0.125, 0.0625, 0.03125}), per_element());
   BOOST_REQUIRE(result.errors.size() == 4);
   auto exact = start;
-  fine(1e-2).advance(swing, exact, 4.0);
+  fine_steps(1e-2).advance(swing, exact, 4.0);
   const auto end = integrate(swing, by_verlet, 0.0625, start, 64).finish;
   BOOST_TEST(result.errors[2] == distance(end, exact), tolerance(1e-12));
 }
@@ -194,7 +184,7 @@ BOOST_AUTO_TEST_CASE(steps_are_halved_and_errors_measured_at_the_horizon) {
 BOOST_AUTO_TEST_CASE(what_diverged_has_no_error_and_no_part_in_the_order) {
   const phase_point<double, Eigen::Dynamic> x{Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.25, -0.1)};
   const model stars{henon_heiles()};
-  const auto result = convergence_order(stars, by_verlet, fine(1e-2), x, 40.0, 10, 9);
+  const auto result = convergence_order(stars, by_verlet, fine_steps(1e-2), x, 40.0, 10, 9);
   BOOST_REQUIRE(result.errors.size() == 10);
   BOOST_REQUIRE(result.steps.size() == 10);
   BOOST_REQUIRE(integrate(stars, by_verlet, 4.0, x, 10).diverged_at.has_value());
@@ -206,8 +196,9 @@ BOOST_AUTO_TEST_CASE(what_diverged_has_no_error_and_no_part_in_the_order) {
 
 BOOST_AUTO_TEST_CASE(steps_and_halvings_that_cannot_be_are_refused) {
   const auto refused = [](double horizon, std::int64_t fewest, int halvings, std::string_view words) {
-    return refuses([&] { convergence_order(swing, by_verlet, fine(1e-2), start, horizon, fewest, halvings); },
-                   {"convergence_order", words});
+    return refuses(
+        [&] { convergence_order(swing, by_verlet, fine_steps(1e-2), start, horizon, fewest, halvings); },
+        {"convergence_order", words});
   };
   BOOST_TEST(refused(4.0, 0, 3, "got 0,"));
   BOOST_TEST(refused(4.0, -4, 3, "got -4,"));

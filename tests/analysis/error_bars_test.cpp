@@ -20,7 +20,7 @@ constexpr double factor = 1.96;
 const model all{linear_chain(Eigen::MatrixXd::Identity(8, 8))};
 const normal_around<Eigen::Dynamic> law({Eigen::VectorXd::Zero(8), Eigen::VectorXd::Zero(8)}, 1.0, 1.0);
 /// One step of it errs by 1e-9 or so.
-const fine_steps<> flow(0.2);
+const auto flow = fine_steps(0.2);
 const tabulated by_verlet{verlet()};
 
 /// The mean of |dq_i| over oscillators, trajectories and times.
@@ -126,7 +126,7 @@ std::vector<method_error> at_numbers(const model& system, const initial_states& 
   for (const std::int64_t count : {1'000, 10'000, 40'000}) {
     const trajectory_options options{.step = 0.2, .steps = 20, .trajectories = count, .seed = seed(++number)};
     result.push_back(
-        trajectory_errors(system, fine_steps<>(0.05), starts, by_verlet, measure, options).methods[0]);
+        trajectory_errors(system, fine_steps(0.05), starts, by_verlet, measure, options).methods[0]);
   }
   return result;
 }

@@ -25,7 +25,7 @@ struct setting {
   std::string name;
   model system;
   initial_states starts;
-  detail::reference_value reference;
+  nysalt::reference reference;
   std::vector<tabulated> methods;
   std::vector<error_measure> measures;
   double step;
@@ -55,15 +55,10 @@ const tabulated by_halves{thermostat(mclachlan2(), placement::symmetric)};
 const tabulated by_thirds("thirds", run_time_word("OABOBAO"),
                           std::vector<double>{1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0}, {});
 
-template <class R>
-detail::reference_value value_of(const R& reference) {
-  return detail::reference_value(detail::reference_of(of_chain, reference));
-}
-
 const setting on_the_chain{"chain",
                            of_chain,
                            law,
-                           value_of(fine_steps<>(5e-4)),
+                           fine_steps(5e-4),
                            {tabulated(pairs[0]), tabulated(pairs[1])},
                            {energy_measure(of_chain), state_measure(of_chain), exchange_measure(same_chain),
                             path_measure(of_chain, stiff_energy)},
@@ -76,7 +71,7 @@ model in_bath_of(double sigma, double damping = friction) {
 const model warm = in_bath_of(0.4);
 const normal_around<Eigen::Dynamic> around_zero({Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)}, 0.5,
                                                 1.0);
-setting in_the_bath(const detail::reference_value& reference, double step, const model& system = warm) {
+setting in_the_bath(const reference& reference, double step, const model& system = warm) {
   return {"bath",
           system,
           around_zero,
@@ -86,7 +81,7 @@ setting in_the_bath(const detail::reference_value& reference, double step, const
           step};
 }
 /// Six of its steps are one step, in halves and in thirds.
-const setting warmed = in_the_bath(value_of(fine_paths(0.02)), 0.12);
+const setting warmed = in_the_bath(fine_paths(0.02), 0.12);
 const std::vector<const setting*> settings{&on_the_chain, &warmed};
 
 /// The whole result, to the bit.
@@ -118,11 +113,11 @@ struct counting {
   std::shared_ptr<std::int64_t> taken = std::make_shared<std::int64_t>(0);  // by all copies
 
   template <class T>
-  void advance(const model& system, phase_point<T, Eigen::Dynamic>& x, double t, const path_place& at,
-               std::span<vector<T, Eigen::Dynamic>> xi) const {
+  std::int64_t advance(const model& system, phase_point<T, Eigen::Dynamic>& x, double t) const {
     ++*asked;
-    on_the_chain.reference.advance(system, x, t, at, xi);
+    const std::int64_t evaluations = on_the_chain.reference.advance(system, x, t);
     if ((*taken)++ >= steps_that_last) x.p[2] = T(NAN);
+    return evaluations;
   }
   counting finer() const { return {asked}; }
   std::string description() const { return "one that breaks"; }
@@ -132,12 +127,14 @@ struct counting {
 struct kept_path {
   kept_path(const trajectory_options& options, std::uint64_t trajectory, std::size_t parts)
       : path(options.step / double(parts), friction, trajectory) {
-    auto x = around_zero(options.seed, trajectory);
+    const auto x = around_zero(options.seed, trajectory);
+    const auto run = warmed.reference.open(
+        warm, x,
+        {.length = options.step, .at = {options.seed, trajectory}, .noise_parts = static_cast<int>(parts)});
     for (std::int64_t n = 0; n < options.steps; ++n) {
-      noise xi(parts, Eigen::VectorXd(1));
-      warmed.reference.advance(warm, x, options.step, path_place{options.seed, trajectory, n}, std::span(xi));
-      for (const auto& one : xi) path.add(one);
-      states.push_back(x);
+      run->advance();
+      for (const auto& one : run->noise()) path.add(one);
+      states.push_back(run->state());
     }
   }
   auto stepper_of(const tabulated& method, double step) const {
@@ -169,8 +166,7 @@ const auto first_coordinate = [](const state& x) { return x.q[0]; };
 const error_measure by_state = state_measure(of_chain);
 
 errors judged(const initial_states& starts, const error_measure& measure, const trajectory_options& options,
-              const detail::reference_value& against = on_the_chain.reference,
-              const model& system = of_chain) {
+              const reference& against = on_the_chain.reference, const model& system = of_chain) {
   return trajectory_errors(system, against, starts, by_verlet, measure, options);
 }
 std::vector<state> starts_of_law(std::uint64_t count) {
@@ -185,7 +181,7 @@ listed<Eigen::Dynamic> these(const std::vector<state>& starts) { return listed<E
 // What "finer" means: two Verlets for one.
 BOOST_AUTO_TEST_CASE(a_reference_tells_its_own_error) {
   setting own = on_the_chain;
-  own.reference = value_of(fine_steps<verlet>(.01));
+  own.reference = fine_steps(.01, verlet());
   own.step = .01;
   const auto of = [&](const tabulated& method) {
     return own.judged({method}, own.measures[3], own.options(20, 5));
@@ -204,7 +200,7 @@ BOOST_AUTO_TEST_CASE(a_reference_tells_its_own_error) {
 BOOST_AUTO_TEST_CASE(a_reference_in_a_bath_tells_its_own_error) {
   const model quiet = in_bath_of(1e-6);
   const auto against = [&](double fine) {
-    const setting on = in_the_bath(value_of(fine_paths(fine)), 0.1, quiet);
+    const setting on = in_the_bath(fine_paths(fine), 0.1, quiet);
     return on.judged({by_baoab}, on.measures[1], on.options(50, 16));
   };
   const double told = against(0.1).reference_error->mean;
@@ -244,7 +240,7 @@ BOOST_AUTO_TEST_CASE(streaming_gives_what_the_formula_says) {
       energy_at_start += before * before / trajectories;
       for (int n = 0; n <= steps; ++n) {
         if (n > 0) {
-          on_the_chain.reference.advance(of_chain, x, .01, {}, {});
+          on_the_chain.reference.advance(of_chain, x, .01);
           make_stepper(of_chain, by_verlet, .01).step(y);
         }
         const double share = weight(n) / all;
@@ -292,8 +288,8 @@ BOOST_AUTO_TEST_CASE(streaming_along_noise_gives_what_the_formula_says) {
 BOOST_AUTO_TEST_CASE(beside_others_and_by_its_type_a_method_has_the_error_that_it_has_alone) {
   const auto options = on_the_chain.options(25, 20);
   const auto& measure = on_the_chain.measures[3];
-  const auto both = trajectory_errors(chain, fine_steps<>(5e-4), fpu_law<3>(chain), pairs, measure, options);
-  const auto of_span = trajectory_errors(chain, fine_steps<>(5e-4), fpu_law<3>(chain),
+  const auto both = trajectory_errors(chain, fine_steps(5e-4), fpu_law<3>(chain), pairs, measure, options);
+  const auto of_span = trajectory_errors(chain, fine_steps(5e-4), fpu_law<3>(chain),
                                          std::span<const tabulated>(pairs), measure, options);
   const auto as_data = on_the_chain.judged(on_the_chain.methods, measure, options);
   BOOST_TEST((bits_of(both) == bits_of(as_data) && bits_of(of_span) == bits_of(as_data)));
@@ -355,7 +351,7 @@ BOOST_AUTO_TEST_CASE(one_reference_serves_all_measures) {
 // Parts of .12 in thirds would not be multiples of .06.
 BOOST_AUTO_TEST_CASE(without_sigma_there_is_no_noise_and_no_part) {
   for (const double damping : {0.0, friction}) {
-    const setting quiet = in_the_bath(value_of(fine_paths(0.06)), 0.12, in_bath_of(0.0, damping));
+    const setting quiet = in_the_bath(fine_paths(0.06), 0.12, in_bath_of(0.0, damping));
     const auto found = quiet.judged(quiet.methods, quiet.measures[1], quiet.options(20, 5));
     for (const auto& method : found.methods) BOOST_TEST(method.error.mean < 0.05);
     BOOST_TEST(found.methods[0].error.mean > found.reference_error->mean);
@@ -427,8 +423,7 @@ BOOST_AUTO_TEST_CASE(diverged_trajectories_are_told_and_left_out) {
 BOOST_AUTO_TEST_CASE(a_reference_that_breaks_is_told_of) {
   const trajectory_options options{.step = .01, .steps = 5, .trajectories = 30};
   const auto judge = [&](std::int64_t lasts) {
-    judged(law, path_measure(singly, first_coordinate), options, value_of(counting{.steps_that_last = lasts}),
-           singly);
+    judged(law, path_measure(singly, first_coordinate), options, counting{.steps_that_last = lasts}, singly);
   };
   BOOST_CHECK_NO_THROW(judge(30 * 5));
   BOOST_TEST(refuses<failure>([&] { judge(3); },
@@ -517,7 +512,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
   const tabulated tuned("nystrom", pairs[1].letters(), pairs[1].coefficients(), pairs[1],
                         method_validity{.02, of_chain.description()});
   const auto at_step = [&](double step) {
-    return trajectory_errors(of_chain, fine_steps<>(5e-4), law, tuned, by_state, {.step = step, .steps = 5});
+    return trajectory_errors(of_chain, fine_steps(5e-4), law, tuned, by_state, {.step = step, .steps = 5});
   };
   BOOST_TEST(at_step(.02).methods[0].diverged == 0);
   BOOST_TEST(refuses([&] { at_step(.01); }, {"must run at the step 0.02", "got 0.01"}));
@@ -542,8 +537,8 @@ BOOST_AUTO_TEST_CASE(several_measures_must_fit_into_memory) {
 }
 
 BOOST_AUTO_TEST_CASE(in_a_bath_methods_must_share_the_noise) {
-  const auto judge = [](const std::vector<tabulated>& methods, const auto& reference) {
-    const setting on = in_the_bath(value_of(reference), 0.12);
+  const auto judge = [](const std::vector<tabulated>& methods, const reference& reference) {
+    const setting on = in_the_bath(reference, 0.12);
     on.judged(methods, on.measures[1], on.options(20, 5));
   };
   const auto refused = [&](const std::vector<tabulated>& methods, double step, said words) {
@@ -555,6 +550,6 @@ BOOST_AUTO_TEST_CASE(in_a_bath_methods_must_share_the_noise) {
   BOOST_TEST(!refused({by_baoab, by_halves}, 0.06, {}));
   BOOST_TEST(refused({by_baoab, by_verlet}, 0.06, {"must have a letter O, got BAB"}));
   BOOST_TEST(refused({by_verlet}, 0.06, {"must have a letter O, got BAB"}));
-  BOOST_TEST(refuses([&] { judge(all, fine_steps<>(0.06)); },
-                     {"srkn11b", "must have noise to share", "fine_paths"}));
+  BOOST_TEST(
+      refuses([&] { judge(all, fine_steps(0.06)); }, {"srkn11b", "must have noise to share", "fine_paths"}));
 }

@@ -25,7 +25,7 @@ const std::vector<std::vector<std::string>> layers{
     {"atomic_file", "communicator", "communicators/", "shard", "detail/ensemble_loop"},
     {"derivatives/"},
     {"reference", "references/", "ensemble", "initial_states", "ensembles/"},
-    {"detail/any_reference", "distributed_run", "integrate_ensemble", "ensemble_run", "flow_map_data"},
+    {"distributed_run", "integrate_ensemble", "ensemble_run", "flow_map_data"},
     {"losses/"},
     {"judgement", "learning/", "learn"},
     {"analysis/"},

@@ -17,6 +17,7 @@
 #include "nysalt/initial_states.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/references/exact_linear.hpp"
+#include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -83,7 +84,7 @@ const model warm = in_bath(fpu_chain<3>(50.0), heat_bath);
 const initial_states law = fpu_law<3>(fpu_chain<3>(50.0));
 
 flow_map_data made(const data_options& options) {
-  return make_flow_map_data(quiet, law, fine_steps<>(fine), options);
+  return make_flow_map_data(quiet, law, fine_steps(fine), options);
 }
 flow_map_data made_in_bath(const data_options& options) {
   return make_flow_map_data(warm, law, fine_paths(fine), options);
@@ -200,7 +201,7 @@ BOOST_AUTO_TEST_CASE(pairs_follow_the_reference_trajectory_by_trajectory) {
     }
   }
   state x = data.start[4];
-  fine_steps<>(fine).advance(quiet, x, 0.02);
+  fine_steps(fine).advance(quiet, x, 0.02);
   BOOST_TEST((x.p == data.finish[4].p));
   BOOST_TEST((data.start[5].q != data.finish[4].q));  // a new trajectory begins there
   BOOST_TEST(data.finer.size() <= 16U);
@@ -246,7 +247,7 @@ BOOST_AUTO_TEST_CASE(checks_see_the_same_path_at_half_the_step) {
     BOOST_TEST(sixteenths.insert((16 * pair + 15) / 105).second);
     const auto finer = [&, first = pair](const path_place& at) {
       state x = data.start[first];
-      fine_paths(fine).finer().advance(warm, x, 0.012, at, std::span<vector<double, Eigen::Dynamic>>());
+      fine_paths(fine).finer().advance(warm, x, 0.012, at);
       return x;
     };
     const std::uint64_t m = pair / 5;
@@ -295,7 +296,7 @@ BOOST_AUTO_TEST_CASE(a_reference_that_diverges_is_told_with_the_lowest_trajector
   const auto make = [&](std::size_t known, std::int64_t trajectories, int threads) {
     starts.resize(known);
     return make_flow_map_data(
-        cliff(), listed<1>(starts), fine_steps<>(0.05),
+        cliff(), listed<1>(starts), fine_steps(0.05),
         {.step = 0.5, .horizon = 5.0, .trajectories = trajectories, .threads = threads});
   };
   for (const int threads : {1, 5}) {
@@ -369,24 +370,24 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_made_is_refused) {
   const model four = linear_chain::between_walls(4, 1.0);
   const initial_states of_two =
       normal_around<Eigen::Dynamic>({Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)}, 0.1, 0.1);
-  BOOST_TEST(refuses([&] { make_flow_map_data(four, of_two, fine_steps<>(0.1), {.step = 0.1}); },
+  BOOST_TEST(refuses([&] { make_flow_map_data(four, of_two, fine_steps(0.1), {.step = 0.1}); },
                      {"start 0", "dimension"}));
   const auto noise_refused = [](const model& system, const auto& reference, int parts, said words) {
     const data_options options{.step = 0.012, .trajectories = 1, .noise_parts = parts};
     return refuses([&] { make_flow_map_data(system, law, reference, options); }, words);
   };
-  BOOST_TEST(noise_refused(quiet, fine_steps<>(fine), 1, {"srkn11b", "must have noise", "take fine_paths"}));
-  BOOST_TEST(!noise_refused(quiet, fine_steps<>(fine), 0, {}));
+  BOOST_TEST(noise_refused(quiet, fine_steps(fine), 1, {"srkn11b", "must have noise", "take fine_paths"}));
+  BOOST_TEST(!noise_refused(quiet, fine_steps(fine), 0, {}));
   BOOST_TEST(
-      noise_refused(warm, fine_steps<>(fine), 0, {"bath(friction=2, sigma=0.3)", "must have a letter O"}));
-  BOOST_TEST(noise_refused(warm, fine_steps<>(fine), 1, {"must have noise", "take fine_paths"}));
+      noise_refused(warm, fine_steps(fine), 0, {"bath(friction=2, sigma=0.3)", "must have a letter O"}));
+  BOOST_TEST(noise_refused(warm, fine_steps(fine), 1, {"must have noise", "take fine_paths"}));
   BOOST_TEST(noise_refused(warm, fine_paths(fine), 5, {"0.012 in the 5 equal parts", "fine step 0.001"}));
   BOOST_TEST(noise_refused(warm, fine_paths(fine), -1, {"noise_parts must be >= 0, got -1"}));
   BOOST_TEST(noise_refused(warm, fine_paths(0.005), 1, {"0.012 in the 1 equal parts", "fine step 0.005"}));
   // An exact flow is of no bath.
   const in_bath oscillator(harmonic_oscillator(1.0), bath::of_sigma(0.1, 0.0));
-  BOOST_TEST(refuses([&] { exact_linear{oscillator}; }, {"exact_linear", "in no bath"}));
-  const exact_linear of_the_alone(oscillator.base());
+  BOOST_TEST(refuses([&] { exact_linear(oscillator); }, {"exact_linear", "in no bath"}));
+  const reference of_the_alone = exact_linear(oscillator.base());
   phase_point<double, 1> x{vector<double, 1>(1.0), vector<double, 1>(0.0)};
   BOOST_TEST(refuses([&] { of_the_alone.advance(oscillator, x, 0.1); },
                      {"that of the constructor, harmonic_oscillator", "in bath(friction=0.1"}));

@@ -14,6 +14,7 @@
 #include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/references/exact_linear.hpp"
+#include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -253,7 +254,7 @@ BOOST_AUTO_TEST_CASE(letters_of_a_quadratic_part_are_those_that_need_one) {
 
 BOOST_AUTO_TEST_CASE(on_a_linear_system_a_rotation_is_the_exact_flow) {
   const auto chain = free_chain();
-  const exact_linear exact(chain);
+  const reference exact = exact_linear(chain);
   draws random;
   for (const double h : {1e-3, 0.3, 2.0, -0.7}) {
     for (int n = 0; n < 5; ++n) {
@@ -479,7 +480,7 @@ BOOST_AUTO_TEST_CASE(a_system_steps_only_letters_that_it_declares) {
 BOOST_AUTO_TEST_CASE(what_is_learned_with_it_is_what_is_learned_with_the_library) {
   const normal_around<2> starts({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.1);
   const auto data = [&](std::uint64_t seed) {
-    return make_flow_map_data(galaxy, starts, fine_steps<>(0.01),
+    return make_flow_map_data(galaxy, starts, fine_steps(0.01),
                               {.step = 0.5, .horizon = 2.0, .trajectories = 16, .seed = seed});
   };
   const auto first = data(1);

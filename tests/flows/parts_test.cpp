@@ -15,6 +15,7 @@
 #include "nysalt/integrate.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/methods/multiple_time_steps.hpp"
+#include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
 using namespace examples;
@@ -239,7 +240,7 @@ BOOST_AUTO_TEST_CASE(the_outer_step_resonates_with_the_fast_modes) {
 BOOST_AUTO_TEST_CASE(a_family_over_two_forces_is_learned) {
   const normal_around<4> starts({vector<double, 4>::Zero(), vector<double, 4>::Zero()}, 0.01, 0.3);
   const auto data = [&](std::uint64_t seed) {
-    return make_flow_map_data(chain, starts, fine_steps<>(0.0025),
+    return make_flow_map_data(chain, starts, fine_steps(0.0025),
                               {.step = 0.06, .horizon = 0.6, .trajectories = 16, .seed = seed});
   };
   const auto found =

@@ -12,6 +12,8 @@
 #include "nysalt/hmc.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/losses/window_error.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -200,7 +202,7 @@ result learned_by_own_loss(const division& how, std::uint64_t seed) {
                             return {finish.q[0] - wanted.q[0], finish.p[3] - wanted.p[3]};
                           }};
   const auto fit_of = [&](const auto& system) {
-    const auto data = data_of(how, seed, system, fine_steps<>(1e-3));
+    const auto data = data_of(how, seed, system, fine_steps(1e-3));
     const fit_options options{.random_starts = 0, .planned_steps = 500, .threads = how.threads};
     result all;
     all.of_all = numbers_of(learn(run_time_family(nystrom()), system, data, data, options, of_place));
@@ -212,8 +214,8 @@ result learned_by_own_loss(const division& how, std::uint64_t seed) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(no_result_depends_on_how_it_was_divided) {
-  const fine_steps<> steps(1e-3);
-  const fine_paths paths(1e-3);
+  const auto steps = fine_steps(1e-3);
+  const auto paths = fine_paths(1e-3);
   const run_time_family family{nystrom()};
   const run_time_family with_o = thermostatted(family, placement::symmetric);
   constexpr unsigned by_all_but_cuts = by_threads + by_lanes + by_ranks;

@@ -10,6 +10,8 @@
 #include "nysalt/integrate.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/judgement.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -189,7 +191,7 @@ BOOST_AUTO_TEST_CASE(no_trajectory_depends_on_how_it_was_divided) {
          return followed_ensemble(how, seed, in_bath(black_box(), bath::of_sigma(0.5, 0.3)), around_0);
        }},
       {"pairs", by_threads + by_lanes + by_ranks + by_cuts,
-       [&](const auto& how, auto seed) { return pairs(how, seed, quiet(how), fine_steps<>(1e-3), 0); }},
+       [&](const auto& how, auto seed) { return pairs(how, seed, quiet(how), fine_steps(1e-3), 0); }},
       {"pairs in a bath", by_threads + by_lanes + by_ranks + by_cuts,
        [](const auto& how, auto seed) { return pairs(how, seed, in_noise(how), fine_paths(1e-3), 2); }},
       {"checks of pairs", by_threads + by_lanes + by_ranks, checks_of_pairs},

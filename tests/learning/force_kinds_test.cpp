@@ -51,7 +51,7 @@ const fit_options quick{.random_starts = 2, .planned_steps = 300};
 const data_sets& pendulums() {
   static const data_sets sets(exact,
                               normal_around<1>({vector<double, 1>(0.5), vector<double, 1>(0.0)}, 0.5, 0.5),
-                              fine_steps<>(0.02), {.step = 0.6, .horizon = 3.0, .trajectories = 20});
+                              fine_steps(0.02), {.step = 0.6, .horizon = 3.0, .trajectories = 20});
   return sets;
 }
 
@@ -75,7 +75,7 @@ Eigen::VectorXd learned_for(const run_time_family& family, const units& scales, 
   S wrong = system;
   wrong.first_factor = factor;
   const double h = 0.6 * scales.time;
-  const data_sets sets(system, starts_in_units<2>(system), fine_steps<>(h / 32.0),
+  const data_sets sets(system, starts_in_units<2>(system), fine_steps(h / 32.0),
                        {.step = h, .horizon = 4.0 * h, .trajectories = 10});
   // The optimum itself.
   return sets.learned(family, wrong, {.random_starts = 2, .guarded = false, .planned_steps = 300}).theta;

@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(bad_data_on_one_rank_are_refused_on_all) {
 // The mean over the pairs that were checked, 16 of them, added over trajectories in a tree.
 BOOST_AUTO_TEST_CASE(the_error_of_the_reference_is_the_root_mean_square_of_its_pairs) {
   const fpu_chain<3> chain(50.0);
-  const auto data = make_flow_map_data(chain, fpu_law<3>(chain), fine_steps<>(1e-3),
+  const auto data = make_flow_map_data(chain, fpu_law<3>(chain), fine_steps(1e-3),
                                        {.step = 0.02, .horizon = 0.1, .trajectories = 203});
   const fit_options options{.coordinates = coordinates::qp, .fixed = {0.45, 0.38}, .planned_steps = 200};
   const auto fit = learn(two_stages, chain, data, data, options).summary;

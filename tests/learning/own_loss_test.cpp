@@ -17,7 +17,7 @@ const run_time_family family{nystrom()};
 const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
 
 const data_sets& two_sets() {
-  static const data_sets sets(galaxy, around_rest<2>(0.1, 0.2), fine_steps<>(0.025),
+  static const data_sets sets(galaxy, around_rest<2>(0.1, 0.2), fine_steps(0.025),
                               {.step = 0.5, .horizon = 2.0, .trajectories = 30});
   return sets;
 }
@@ -27,8 +27,8 @@ flow_map_data uneven_data(const S& system) {
   const auto starts = around_rest<S::dimension>(0.1, 0.2, size(system));
   // Of the second trajectory five steps are one more, and lanes are left over: there are 54 windows of
   // five.
-  auto data = make_flow_map_data(system, starts, fine_steps<>(0.05),
-                                 {.step = 0.4, .horizon = 13.2, .trajectories = 2});
+  auto data =
+      make_flow_map_data(system, starts, fine_steps(0.05), {.step = 0.4, .horizon = 13.2, .trajectories = 2});
   data.first_of = {0, 33, 61, 66};
   return data;
 }

@@ -27,7 +27,7 @@ const auto starts = around_rest<2>(0.15, 0.2);
 
 constexpr double h = 0.5;
 const data_sets& exact_sets() {
-  static const data_sets sets = made_by(fine_steps<>(h / 20.0), h, gentle_starts);
+  static const data_sets sets = made_by(fine_steps(h / 20.0), h, gentle_starts);
   return sets;
 }
 
@@ -90,10 +90,8 @@ void check_recovery(double reach) {
 const fpu_chain<3> chain(50.0);
 
 data_sets sets_at(double step) {
-  return {chain,
-          fpu_law<3>(chain),
-          fine_steps<>(step / 180.0),
-          {.step = step, .horizon = 8.0, .trajectories = 8}};
+  return {
+      chain, fpu_law<3>(chain), fine_steps(step / 180.0), {.step = step, .horizon = 8.0, .trajectories = 8}};
 }
 
 fit_summary fitted(const data_sets& sets, const run_time_family& family, const char* loss,
@@ -158,7 +156,7 @@ BOOST_AUTO_TEST_CASE(fixed_parameters_stay_and_the_others_find_their_own_optimum
 }
 
 BOOST_AUTO_TEST_CASE(more_starts_are_never_worse_to_the_judge) {
-  const auto sets = made_by(fine_steps<>(0.02), 0.8, starts);
+  const auto sets = made_by(fine_steps(0.02), 0.8, starts);
   const auto of = [&](const fit_options& options) {
     return sets.learned(four_kicks, galaxy, options).summary;
   };
@@ -235,7 +233,7 @@ BOOST_AUTO_TEST_CASE(what_follows_a_slow_motion_alone_follows_not) {
   const run_time_family family{aba<2>{}};
   for (const double step : {0.06, 0.003}) {
     const data_options options{.step = step, .horizon = 100.0 * step, .trajectories = 3};
-    const data_sets sets(two_speeds{}, starts, fine_steps<>(step / 60.0), options);
+    const data_sets sets(two_speeds{}, starts, fine_steps(step / 60.0), options);
     const auto problem = make_learning_problem(family, two_speeds{}, sets.data, sets.held_out, {});
     BOOST_TEST(problem.follows(family.starts.front().theta) == (step == 0.003));
   }

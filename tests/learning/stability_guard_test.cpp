@@ -107,7 +107,7 @@ const run_time_family four_kicks{aba<4>()};
 /// From equal steps alone: of all that the family would begin with, one finds stable words.
 fit fitted_at(double step, bool guarded) {
   const data_options options{.step = step, .horizon = 10.0 * step, .trajectories = 50};
-  return data_sets(chain, fpu_law<3>(chain), fine_steps<>(step / 60.0), options)
+  return data_sets(chain, fpu_law<3>(chain), fine_steps(step / 60.0), options)
       .learned(four_kicks, chain,
                {.loss = loss_named("state:1"),
                 .start = four_kicks.starts[0].theta,

@@ -125,8 +125,8 @@ BOOST_AUTO_TEST_CASE(the_noise_is_that_of_paired_differences) {
 // Verlet at a tenth of the step errs by a hundredth of its error at the step itself, which is a tenth of what
 // the learned method errs by: enough to move the optimum by more than its standard error.
 BOOST_AUTO_TEST_CASE(a_reference_with_an_error_of_its_own_is_flagged) {
-  const auto fit = of_chain(fine_steps<verlet>(1e-4), 1e-3).learned(two_stages, chain);
-  const auto right = of_chain(fine_steps<>(1e-3), 1e-3).learned(two_stages, chain);
+  const auto fit = of_chain(fine_steps(1e-4, verlet()), 1e-3).learned(two_stages, chain);
+  const auto right = of_chain(fine_steps(1e-3), 1e-3).learned(two_stages, chain);
   BOOST_TEST_CONTEXT(fit.summary.full() << right.summary.full()) {
     BOOST_TEST(!fit.summary.usable);
     BOOST_TEST(says(fit.summary.reason, "the reference's own error"));
@@ -170,7 +170,7 @@ BOOST_AUTO_TEST_CASE(what_does_not_hold_on_held_out_data_is_flagged) {
 }
 
 BOOST_AUTO_TEST_CASE(the_summary_tells_when_held_out_data_are_not_new_and_what_was_not_checked) {
-  auto sets = of_chain(fine_steps<>(1e-3), 0.01);
+  auto sets = of_chain(fine_steps(1e-3), 0.01);
   const auto same = learn(two_stages, chain, sets.data, sets.data).summary;
   sets.data.finer.clear();
   const auto fresh = sets.learned(two_stages, chain).summary;
@@ -208,7 +208,7 @@ BOOST_AUTO_TEST_CASE(where_learning_gains_nothing_the_classical_method_is_named)
   const auto own = by_mclachlan.learned(two_stages, galaxy, options).summary;
   // At a large step learning gains.
   const auto large =
-      of_galaxy(fine_steps<>(0.02), 0.8).learned(run_time_family(fg_chin()), galaxy, options).summary;
+      of_galaxy(fine_steps(0.02), 0.8).learned(run_time_family(fg_chin()), galaxy, options).summary;
   BOOST_TEST_CONTEXT(own.full() << large.full()) {
     BOOST_TEST((own.verdict() == verdict::nothing_gained));
     BOOST_TEST(own.rival == "mclachlan2");
@@ -314,7 +314,7 @@ BOOST_AUTO_TEST_CASE(contenders_are_compared_by_means_and_by_ranks) {
 // Three steps of two evaluations cost as much as two of three, and last as long: there both are compared.
 BOOST_AUTO_TEST_CASE(rivals_of_any_cost_are_compared_at_the_times_that_both_have) {
   constexpr double step = 0.2;
-  const data_sets sets = of_galaxy(fine_steps<>(0.1 * step), step, 7, 6);
+  const data_sets sets = of_galaxy(fine_steps(0.1 * step), step, 7, 6);
   const auto problem =
       make_learning_problem(two_stages, galaxy, sets.data, sets.held_out, {.loss = loss_named("state:1")});
   const tabulated& method = method_named("forest_ruth");
@@ -364,7 +364,7 @@ BOOST_AUTO_TEST_CASE(rivals_of_any_cost_are_compared_at_the_times_that_both_have
 }
 
 BOOST_AUTO_TEST_CASE(who_errs_less_and_fails_the_trial_is_said_too) {
-  const data_sets sets = of_galaxy(fine_steps<>(0.05), 0.5, 10, 20);
+  const data_sets sets = of_galaxy(fine_steps(0.05), 0.5, 10, 20);
   auto problem =
       make_learning_problem(two_stages, galaxy, sets.data, sets.held_out,
                             {.loss = loss_named("state:1"), .random_starts = 2, .planned_steps = 5000});

@@ -24,8 +24,8 @@ const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
 
 /// Trajectories of 4, 5, 0, 11, 12, 9 and 40 steps: some are too short.
 flow_map_data uneven_data() {
-  auto data = make_flow_map_data(galaxy, starts, fine_steps<>(0.05),
-                                 {.step = 0.4, .horizon = 16.2, .trajectories = 2});
+  auto data =
+      make_flow_map_data(galaxy, starts, fine_steps(0.05), {.step = 0.4, .horizon = 16.2, .trajectories = 2});
   data.first_of = {0, 4, 9, 9, 20, 32, 41, 81};
   data.start.resize(81);
   data.finish.resize(81);
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(bits_are_those_of_window_after_window) {
 // takes at once, and empty ones.
 BOOST_AUTO_TEST_CASE(each_trajectory_has_the_bits_of_its_pairs) {
   const auto chain = linear_chain::between_walls(3, 1.0, 2.0);
-  auto data = make_flow_map_data(chain, around_rest<Eigen::Dynamic>(0.1, 0.2, 3), fine_steps<>(0.05),
+  auto data = make_flow_map_data(chain, around_rest<Eigen::Dynamic>(0.1, 0.2, 3), fine_steps(0.05),
                                  {.step = 0.4, .horizon = 0.4, .trajectories = 2100});
   data.first_of = {0, 0, 1, 3, 3, 20, 37, 60, 61, 200, 2100, 2100};
   const metric measure(chain, data, coordinates::modes);
@@ -188,7 +188,7 @@ BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
 // Each trajectory adds its part of the mean to the whole: the mean over some has their parts, and no others.
 BOOST_AUTO_TEST_CASE(some_trajectories_alone) {
   constexpr int trajectories = 23;
-  const auto data = make_flow_map_data(galaxy, starts, fine_steps<>(0.05),
+  const auto data = make_flow_map_data(galaxy, starts, fine_steps(0.05),
                                        {.step = 0.4, .horizon = 3.2, .trajectories = trajectories});
   const metric measure(galaxy, data, coordinates::qp);
   const auto parts_of = [&](int every) {
@@ -216,7 +216,7 @@ BOOST_AUTO_TEST_CASE(packs_are_for_systems_that_serve_them) {
   static_assert(std::same_as<scalar_of_passes<black_box>, double>);
   static_assert(std::same_as<scalar_of_passes<a_fork>, double>);
   const black_box box;
-  const auto data = make_flow_map_data(box, around_rest<1>(0.5, 0.5), fine_steps<>(0.05),
+  const auto data = make_flow_map_data(box, around_rest<1>(0.5, 0.5), fine_steps(0.05),
                                        {.step = 0.4, .horizon = 2.0, .trajectories = 3});
   const metric measure(box, data, coordinates::qp);
   const after_steps<double> loss(two_stages, box, data, state_error<double>(measure));

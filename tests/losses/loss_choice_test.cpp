@@ -308,11 +308,11 @@ BOOST_AUTO_TEST_CASE(weight_deviations_of_other_trajectories_are_those_among_eac
 BOOST_AUTO_TEST_CASE(coordinates_that_do_not_exist_are_refused) {
   const pendulum swing;
   const data_options options{.step = 0.1, .trajectories = 2};
-  const auto of_swing = make_flow_map_data(swing, around_rest<1>(0.1, 0.1), fine_steps<>(0.01), options);
+  const auto of_swing = make_flow_map_data(swing, around_rest<1>(0.1, 0.1), fine_steps(0.01), options);
   for (const auto which : {coordinates::modes, coordinates::energy}) {
     BOOST_TEST(refuses([&] { metric(swing, of_swing, which); },
                        {to_string(which), "pendulum()", "must have modes()", "use qp"}));
   }
-  const auto of_nothing = make_flow_map_data(swing, around_rest<1>(0.0, 0.0), fine_steps<>(0.01), options);
+  const auto of_nothing = make_flow_map_data(swing, around_rest<1>(0.0, 0.0), fine_steps(0.01), options);
   BOOST_TEST(refuses([&] { metric(swing, of_nothing, coordinates::qp); }, {"must hold motion"}));
 }

@@ -13,7 +13,6 @@
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/plugin.hpp"
 #include "nysalt/reference.hpp"
-#include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/sum_of_parts.hpp"
 #include "nysalt/systems/textbook.hpp"
 
@@ -49,14 +48,12 @@ inline void use(const either<well, of_unknown_size>& system) {
 
 // expect GNU: required for the satisfaction of 'SeparableSystem<S>' [with S = incomplete]
 // expect Clang: because 'incomplete' does not satisfy 'SeparableSystem'
-namespace reference_of_a_system_without_force {
+namespace model_of_a_system_without_force {
 struct incomplete {
   static constexpr int dimension = 1;
 };
-inline void use(const nysalt::phase_point<double, 1>& x) {
-  nysalt::reference_error(either<well, incomplete>(), nysalt::fine_steps<>(0.01), x, 0.1);
-}
-}  // namespace reference_of_a_system_without_force
+inline void use(const either<well, incomplete>& system) { nysalt::model{system}; }
+}  // namespace model_of_a_system_without_force
 
 // std::cos is for double alone; an unqualified cos finds that of dual numbers too.
 // expect GNU: no matching function for call to 'cos(const nysalt::dual<double, 1>&)'
@@ -268,13 +265,12 @@ inline void everything(const nysalt::pendulum& system, const either<nysalt::pend
                        const either<nysalt::verlet, nothing>& method,
                        const either<nysalt::no_noise, nothing>& noise,
                        const either<nysalt::listed<1>, nothing>& starts,
-                       const either<nysalt::fine_steps<>, nothing>& reference,
-                       const nysalt::phase_point<double, 1>& x) {
+                       const either<nysalt::reference, nothing>& accurate) {
   nysalt::make_stepper(any_system, nysalt::verlet(), 0.1);
   nysalt::make_stepper(system, method, 0.1);
   nysalt::make_stepper(system, nysalt::verlet(), 0.1, noise);
   nysalt::sound_start(system, starts, 1, 0);
-  nysalt::reference_error(system, reference, x, 0.1);
+  nysalt::reference{accurate};
 }
 }  // namespace concepts_by_name
 

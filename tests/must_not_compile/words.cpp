@@ -14,7 +14,6 @@
 #include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/references/fine_steps.hpp"
 #include "nysalt/word.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/sum_of_parts.hpp"
@@ -22,7 +21,7 @@
 
 // expect: nysalt: the order of this method needs a quadratic kinetic energy, but the system has a kinetic
 //   energy of its own; take one of any K(p), as blanes_moan_s10, and as reference
-//   fine_steps<blanes_moan_s10>
+//   fine_steps(step, blanes_moan_s10())
 // expect: nysalt: the letter G needs a quadratic kinetic energy, and a force that can be differentiated
 // expect: nysalt: the letter D needs a quadratic kinetic energy
 namespace other_kinetic_energy {
@@ -224,14 +223,12 @@ static_assert(nysalt::conservative_word<some>::length == 1);
 // expect: nysalt: no classical method has this name
 // expect: nysalt: a tuned method is valid for the system that it was learned for; thermostat its anywhere()
 // expect: nysalt: this word has its letters O already
-// expect: nysalt: fine paths need a method with one letter O
 namespace methods_that_cannot_be {
 inline void use(const nysalt::tuned_method<nysalt::nystrom>& tuned) {
 #ifdef NYSALT_CONTROL
   nysalt::classical<"pefrl">::coefficients();
   nysalt::thermostat(tuned.anywhere(), nysalt::placement::end);
   nysalt::thermostat(nysalt::verlet(), nysalt::placement::symmetric).coefficients();
-  nysalt::fine_paths(0.1, nysalt::aboba());
 #else
   // [classical_method_without_row]
   nysalt::classical<"perfl">::coefficients();
@@ -242,9 +239,6 @@ inline void use(const nysalt::tuned_method<nysalt::nystrom>& tuned) {
   // [thermostatted_twice]
   nysalt::thermostat(nysalt::baoab(), nysalt::placement::symmetric).coefficients();
   // [/thermostatted_twice]
-  // [fine_paths_of_two_letters]
-  nysalt::fine_paths(0.1, nysalt::obabo());
-  // [/fine_paths_of_two_letters]
 #endif
 }
 }  // namespace methods_that_cannot_be

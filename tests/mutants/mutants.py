@@ -318,10 +318,10 @@ mutant(79, "the upper end of a spectrum is no bound", LIBRARY + "derivatives/spe
        ("high.value + high.residual,", "high.value + (MUTANT ? 0.0 : high.residual),"))
 mutant(80, "the finer reference is as coarse as the reference", LIBRARY + "references/fine_steps.cpp",
        "references data analysis",
-       ("return small_steps(method_, 0.5 * step_,", "return small_steps(method_, (MUTANT ? 1.0 : 0.5) * step_,"))
+       ("std::make_shared<small_steps>(0.5 * step_,", "std::make_shared<small_steps>((MUTANT ? 1.0 : 0.5) * step_,"))
 mutant(81, "the evaluations of a reference are those of one lane", LIBRARY + "references/fine_steps.cpp",
        "references data",
-       ("return count * evaluations_of(", "return (MUTANT ? 1 : count) * evaluations_of("))
+       ("return count_ * detail::evaluations_of(", "return (MUTANT ? 1 : count_) * detail::evaluations_of("))
 mutant(82, "the burn-in is kept as initial states", LIBRARY + "ensembles/gibbs.cpp", "ensembles",
        ("if (n >= first) kept.push_back(x);", "if (MUTANT || n >= first) kept.push_back(x);"))
 mutant(83, "a burn-in is a tenth as long", LIBRARY + "ensembles/burn_in.hpp", "ensembles",

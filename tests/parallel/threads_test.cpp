@@ -12,6 +12,8 @@
 #include "nysalt/ensemble_run.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/judgement.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -99,9 +101,8 @@ BOOST_AUTO_TEST_CASE(a_black_box_with_memory_is_used_by_one_thread_at_a_time) {
   BOOST_TEST(found.holds(), found.in_words());
   BOOST_TEST(found.energy_was_watched);
   BOOST_TEST(black_box_with_memory::meetings == 0);
-  const auto errors =
-      trajectory_errors(system, fine_steps<>(0.01), around_rest, method, energy_measure(system),
-                        {.step = 0.1, .steps = 20, .trajectories = 64, .threads = 4});
+  const auto errors = trajectory_errors(system, fine_steps(0.01), around_rest, method, energy_measure(system),
+                                        {.step = 0.1, .steps = 20, .trajectories = 64, .threads = 4});
   BOOST_TEST(errors.methods[0].error.mean > 0.0);
   BOOST_TEST(black_box_with_memory::meetings == 0);
   const auto stepper = make_stepper(system, method, 0.1);

@@ -51,7 +51,7 @@ constexpr std::uint64_t seed = 5;  // the user's
 void must_be(const json& row, const tabulated& method, const error_measure& measure) {
   const trajectory_options options{
       .step = .02, .steps = 25, .trajectories = 20, .seed = seed_for(role::test, seed), .horizon = .5};
-  const auto expected = trajectory_errors(chain, fine_steps<>(.02 / 20), law, method, measure, options);
+  const auto expected = trajectory_errors(chain, fine_steps(.02 / 20), law, method, measure, options);
   BOOST_TEST_CONTEXT(row["method"] << " by " << measure.name) {
     BOOST_TEST(row["error"] == expected.methods[0].error.mean);
     BOOST_TEST(row["standard_error"] == expected.methods[0].error.standard_error);
@@ -66,7 +66,7 @@ void must_be(const json& row, const tabulated& method, const error_measure& meas
 fit fitted(coordinates how) {
   const auto pairs = [&](role which) {
     return make_flow_map_data(
-        chain, law, fine_steps<>(.02 / 20),
+        chain, law, fine_steps(.02 / 20),
         {.step = .02, .horizon = .4, .trajectories = 15, .seed = seed_for(which, seed)});
   };
   return learn(nystrom(), chain, pairs(role::training), pairs(role::held_out), {.coordinates = how});

@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(exact_odeint_and_fine_steps_agree) {
       BOOST_TEST(distance(by_odeint, exact) <=
                  steps * 2e-12 * size_of(x) * (1.0 + duration) + exact_rounding(x));
       // A coarse reference is told apart.
-      BOOST_TEST(distance(after(fine_steps<verlet>(0.3), system, x), exact) > 1e-4);
+      BOOST_TEST(distance(after(fine_steps(0.3, verlet()), system, x), exact) > 1e-4);
       BOOST_TEST(reference_error(system, exact_linear(system), x, duration) == 0.0);
       point back = exact;
       exact_linear(system).advance(system, back, -duration);
@@ -76,13 +76,14 @@ BOOST_AUTO_TEST_CASE(exact_odeint_and_fine_steps_agree) {
 }
 
 BOOST_AUTO_TEST_CASE(the_exact_flow_is_of_linear_systems_only) {
-  BOOST_TEST(refuses<wrong>([] { exact_linear{henon_heiles()}; }, {"henon_heiles()", "must be linear"}));
-  BOOST_TEST(refuses<wrong>([] { exact_linear{fpu_chain<3>(50.0)}; }, {"fpu_chain(", "must be linear"}));
-  BOOST_TEST(refuses<wrong>([] { exact_linear{fpu_chain<>(2, 1e3)}; }, {"fpu_chain(", "must be linear"}));
-  exact_linear{flawed{}};
+  BOOST_TEST(refuses<wrong>([] { exact_linear(henon_heiles()); }, {"henon_heiles()", "must be linear"}));
+  BOOST_TEST(refuses<wrong>([] { exact_linear(fpu_chain<3>(50.0)); }, {"fpu_chain(", "must be linear"}));
+  BOOST_TEST(refuses<wrong>([] { exact_linear(fpu_chain<>(2, 1e3)); }, {"fpu_chain(", "must be linear"}));
+  BOOST_TEST(refuses<wrong>([] { exact_linear(pendulum()); }, {"pendulum()", "must declare modes()"}));
+  exact_linear(flawed{});
   for (const flawed& system : {flawed{.cubic = 1e-15}, flawed{.constant = 1e-15},
                                flawed{.frequency = 1.0 + 1e-13}, flawed{.cubic = not_a_number}}) {
-    BOOST_TEST(refuses<wrong>([&] { exact_linear{system}; }, {"flawed()", "must be linear", "coordinate 1"}));
+    BOOST_TEST(refuses<wrong>([&] { exact_linear(system); }, {"flawed()", "must be linear", "coordinate 1"}));
   }
   // Right as a quadratic form, but not as a transformation.
   BOOST_TEST(refuses<wrong>([] { exact_linear(flawed{.column = 2.0, .frequency = 0.5}); },
@@ -92,7 +93,7 @@ BOOST_AUTO_TEST_CASE(the_exact_flow_is_of_linear_systems_only) {
 BOOST_AUTO_TEST_CASE(linear_systems_of_all_sizes_are_taken) {
   for (const Eigen::Index n : {1, 2, 17, 100}) {
     for (const double spring : {1e-6, 1.0, 1e8}) {
-      exact_linear{linear_chain::between_walls(n, spring, 0.3)};
+      exact_linear(linear_chain::between_walls(n, spring, 0.3));
     }
   }
   draws random;
@@ -103,16 +104,16 @@ BOOST_AUTO_TEST_CASE(linear_systems_of_all_sizes_are_taken) {
     const Eigen::VectorXd masses =
         Eigen::VectorXd::NullaryExpr(n, [&] { return std::pow(10.0, random.uniform(-3.0, 3.0)); });
     const Eigen::MatrixXd product = root * root.transpose();
-    exact_linear{linear_chain(0.5 * (product + product.transpose()), masses)};
+    exact_linear(linear_chain(0.5 * (product + product.transpose()), masses));
   }
-  for (const double omega : {1e-5, 0.1, 3.0, 1e5}) exact_linear{harmonic_oscillator(omega)};
-  exact_linear{linear_chain(Eigen::MatrixXd::Zero(3, 3))};  // free
+  for (const double omega : {1e-5, 0.1, 3.0, 1e5}) exact_linear(harmonic_oscillator(omega));
+  exact_linear(linear_chain(Eigen::MatrixXd::Zero(3, 3)));  // free
 }
 
 BOOST_AUTO_TEST_CASE(the_exact_flow_is_of_the_system_it_was_made_for) {
   const harmonic_oscillator one(1.0);
   const harmonic_oscillator two(2.0);
-  const exact_linear exact(one);
+  const reference exact = exact_linear(one);
   phase_point<double, 1> x{vector<double, 1>(1.0), vector<double, 1>(0.0)};
   BOOST_TEST(refuses<wrong>([&] { exact.advance(two, x, 1.0); },
                             {"harmonic_oscillator(omega=1)", "harmonic_oscillator(omega=2)"}));
@@ -131,12 +132,47 @@ BOOST_AUTO_TEST_CASE(the_exact_flow_is_of_the_system_it_was_made_for) {
   exact_linear(chain).advance(counted<linear_chain>(chain), y, 1.0);
 }
 
+// What is held open is the preparation: letters of two intervals do not merge.
+BOOST_AUTO_TEST_CASE(a_run_held_open_has_the_bits_of_one_opened_for_each_interval) {
+  const linear_chain system = free_chain();
+  const point start = draws().state(system, 1.0);
+  for (const reference& accurate : {exact_linear(system), fine_steps(0.05), fine_steps(0.05, verlet()),
+                                    reference(odeint_reference(1e-9))}) {
+    const auto run = accurate.open(system, start, {.length = 0.1});
+    point x = start;
+    std::int64_t evaluations = 0;
+    for (int n = 0; n < 5; ++n) {
+      run->advance();
+      evaluations += accurate.advance(system, x, 0.1);
+      BOOST_TEST(same_bits(run->state(), x), accurate.description());
+    }
+    BOOST_TEST(run->evaluations() == evaluations);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_flow_of_single_trajectories_is_taken_lane_by_lane) {
+  const pendulum system;
+  const reference accurate = odeint_reference(1e-9);
+  const auto start = gather<detail::lanes, Eigen::Dynamic>(2, [](int k) {
+    return point{Eigen::VectorXd::Constant(1, 0.5 + k), Eigen::VectorXd::Zero(1)};
+  });
+  const auto run = accurate.open(system, start, {.length = 1.0, .count = 2});
+  run->advance();
+  std::int64_t evaluations = 0;
+  for (int k = 0; k < 2; ++k) {
+    point x = lane(start, k);
+    evaluations += accurate.advance(system, x, 1.0);
+    BOOST_TEST(same_bits(lane(run->state(), k), x));
+  }
+  BOOST_TEST(run->evaluations() == evaluations);
+}
+
 // The difference from half the step is 3/4 of the error of a second-order method.
 BOOST_AUTO_TEST_CASE(a_coarse_reference_is_honest) {
   const henon_heiles system;
   draws random;
   const auto x = random.state(system, 0.25);
-  const fine_steps<verlet> coarse(0.05);
+  const reference coarse = fine_steps(0.05, verlet());
   auto truth = x;
   odeint_reference(1e-14).advance(system, truth, 2.0);
   auto y = x;
@@ -153,7 +189,7 @@ BOOST_AUTO_TEST_CASE(a_coarse_reference_is_honest) {
 BOOST_AUTO_TEST_CASE(times_steps_and_tolerances_that_cannot_be_are_refused) {
   const pendulum system;
   phase_point<double, 1> x{vector<double, 1>(1.0), vector<double, 1>(0.0)};
-  const fine_steps<> fine(0.1);
+  const auto fine = fine_steps(0.1);
   for (const double t : {0.25, 0.05, 0.3001, -0.1, 0.0, not_a_number, infinite}) {
     BOOST_TEST(refuses<wrong>([&] { fine.advance(system, x, t); }, {"fine_steps", "multiple", "0.1"}));
   }
@@ -161,7 +197,7 @@ BOOST_AUTO_TEST_CASE(times_steps_and_tolerances_that_cannot_be_are_refused) {
   BOOST_CHECK_NO_THROW(fine.advance(system, x, 0.3));  // 0.3/0.1 is not 3 to the bit
   BOOST_TEST(fine.description() == "srkn11b with step 0.1");
   for (const double bad : {0.0, -0.1, not_a_number, infinite}) {
-    BOOST_TEST(refuses<wrong>([&] { fine_steps<>{bad}; }, {"fine_steps", "positive"}));
+    BOOST_TEST(refuses<wrong>([&] { fine_steps(bad); }, {"fine_steps", "positive"}));
     BOOST_TEST(refuses<wrong>([&] { odeint_reference{bad}; }, {"odeint_reference", "tolerance", "(0, 1)"}));
   }
   BOOST_TEST(refuses<wrong>([] { odeint_reference{1.0}; }, {"tolerance", "(0, 1)"}));

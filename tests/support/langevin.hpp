@@ -256,15 +256,15 @@ inline gaussian_step<2> library_step(const damped_oscillator& x, const tabulated
   return result;
 }
 
-/// Exact paths of the damped oscillator, and their noise, as a PathReference. Over each part of the time, (q,
+/// Exact paths of the damped oscillator, and their noise, as a ReferenceFlow. Over each part of the time, (q,
 /// p) and the noise of the bath come from their joint law.
 class exact_paths {
  public:
   explicit exact_paths(const damped_oscillator& x) : oscillator_(x) {}
 
-  template <class S, class T>
-  void advance(const S&, phase_point<T, 1>& x, double t, const path_place& at,
-               std::span<vector<T, 1>> xi) const {
+  template <class S, class T, int N>
+  std::int64_t advance(const S&, phase_point<T, N>& x, double t, const path_place& at,
+                       std::span<vector<T, N>> xi) const {
     const auto parts = std::max<std::int64_t>(std::ssize(xi), 1);
     const auto part = oscillator_.exact_with_bath(t / static_cast<double>(parts));
     const square<3> L = cholesky(part.covariance);
@@ -281,6 +281,7 @@ class exact_paths {
       const T noise = z[0] * L(2, 0) + z[1] * L(2, 1) + z[2] * L(2, 2);
       xi[static_cast<std::size_t>(k)][0] = noise * (1.0 / deviation);
     }
+    return 0;
   }
 
   exact_paths finer() const { return *this; }

@@ -12,6 +12,7 @@
 #include "nysalt/integrate.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
+#include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/gaussian.hpp"
 #include "nysalt/systems/in_time.hpp"
 #include "nysalt/systems/lennard_jones.hpp"

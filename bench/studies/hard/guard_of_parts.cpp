@@ -189,7 +189,7 @@ found_on_class try_all(const std::string& name, const S& system, const Law& law,
   }
   const model erased(system);
   const auto data_at = [&](double step, std::uint64_t seed) {
-    const fine_steps<> reference(step / std::ceil(step / (0.04 * range.low)));
+    const auto reference = fine_steps(step / std::ceil(step / (0.04 * range.low)));
     return make_flow_map_data(system, law, reference,
                               {.step = step, .horizon = 24 * step, .trajectories = 16, .seed = seed});
   };

@@ -15,6 +15,7 @@
 #include "nysalt/learn.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/methods/multiple_time_steps.hpp"
+#include "nysalt/references/fine_steps.hpp"
 
 namespace nysalt::hard {
 
@@ -46,7 +47,7 @@ double largest_error(const tabulated& method, double step, double time) {
 }
 
 flow_map_data data_at(double step, std::uint64_t seed) {
-  const fine_steps<> reference(step / std::ceil(step / 0.004));
+  const auto reference = fine_steps(step / std::ceil(step / 0.004));
   return make_flow_map_data(chain, starts, reference,
                             {.step = step, .horizon = 24 * step, .trajectories = 16, .seed = seed});
 }

@@ -42,7 +42,7 @@ std::pair<tabulated, bool> fitted(const small_target& small, double step, const 
                         .threads = options.threads};
   data_options others = training;
   others.seed = 2;
-  const fine_steps<> reference(step / 40.0);
+  const auto reference = fine_steps(step / 40.0);
   const auto data = make_flow_map_data(small.of.system, small.of.starts, reference, training);
   const auto unseen = make_flow_map_data(small.of.system, small.of.starts, reference, others);
   const auto found = learn(bab<Drifts>{}, small.of.system, data, unseen,

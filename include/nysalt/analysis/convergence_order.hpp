@@ -28,8 +28,8 @@ struct order_measurement {
 /// and the rounding of n steps. NaN if fewer than two are; runs that diverged do not count. Use a nonlinear
 /// system: on linear ones methods converge too well.
 /// Throws std::invalid_argument if fewest_steps < 1, halvings < 0 or the horizon is not finite or 0.
-template <SeparableSystem S, ReferenceFlow<S> R>
-order_measurement convergence_order(const S& system, const tabulated& method, const R& reference,
+template <SeparableSystem S>
+order_measurement convergence_order(const S& system, const tabulated& method, const reference& reference,
                                     const phase_point<double, S::dimension>& start, double horizon,
                                     std::int64_t fewest_steps, int halvings) {
   if (fewest_steps < 1 || halvings < 0 || !std::isfinite(horizon) || horizon == 0.0) {

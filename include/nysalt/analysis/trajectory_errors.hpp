@@ -17,13 +17,13 @@
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/any_reference.hpp"
 #include "nysalt/detail/divergence.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/reference.hpp"
 
 namespace nysalt {
 
@@ -148,7 +148,7 @@ namespace detail {
 /// In how many parts of a step methods need the noise of a path: 0 if the system is in no noisy bath.
 int parts_of_noise(const model& system, std::span<const tabulated> methods);
 
-std::vector<trajectory_errors_result> trajectory_errors(const model& system, const reference_value& reference,
+std::vector<trajectory_errors_result> trajectory_errors(const model& system, const reference& reference,
                                                         const initial_states& ensemble,
                                                         std::span<const tabulated> methods,
                                                         std::span<const error_measure> measures,
@@ -178,20 +178,19 @@ std::vector<trajectory_errors_result> trajectory_errors(const model& system, con
 /// into memory, the perturbation is not positive, the horizon is not within the last step, a start does not
 /// fit, or what method, reference and measure refuse; std::runtime_error if the reference is not finite. Of
 /// several trajectories in trouble it is the first that is named.
-template <SeparableSystem S, Reference<S> R, Ensemble<S> E, Methods Given>
-std::vector<trajectory_errors_result> trajectory_errors(const S& system, const R& reference,
+template <SeparableSystem S, Ensemble<S> E, Methods Given>
+std::vector<trajectory_errors_result> trajectory_errors(const S& system, const reference& reference,
                                                         const E& ensemble, const Given& methods,
                                                         std::span<const error_measure> measures,
                                                         const trajectory_options& options) {
   std::vector<tabulated> tables;
   for (const auto& method : methods) tables.push_back(method);
-  return detail::trajectory_errors(system, detail::reference_value(detail::reference_of(system, reference)),
-                                   ensemble, tables, measures, options);
+  return detail::trajectory_errors(system, reference, ensemble, tables, measures, options);
 }
 
 /// Errors by one measure.
-template <SeparableSystem S, Reference<S> R, Ensemble<S> E, Methods Given>
-trajectory_errors_result trajectory_errors(const S& system, const R& reference, const E& ensemble,
+template <SeparableSystem S, Ensemble<S> E, Methods Given>
+trajectory_errors_result trajectory_errors(const S& system, const reference& reference, const E& ensemble,
                                            const Given& methods, const error_measure& measure,
                                            const trajectory_options& options) {
   return std::move(
@@ -199,8 +198,8 @@ trajectory_errors_result trajectory_errors(const S& system, const R& reference, 
 }
 
 /// Errors of one method, by one measure or several.
-template <SeparableSystem S, Reference<S> R, Ensemble<S> E>
-auto trajectory_errors(const S& system, const R& reference, const E& ensemble, const tabulated& method,
+template <SeparableSystem S, Ensemble<S> E>
+auto trajectory_errors(const S& system, const reference& reference, const E& ensemble, const tabulated& method,
                        const auto& measures, const trajectory_options& options) {
   return trajectory_errors(system, reference, ensemble, std::span<const tabulated>(&method, 1), measures, options);
 }

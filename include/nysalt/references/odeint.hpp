@@ -6,6 +6,7 @@
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <boost/numeric/odeint/stepper/stepper_categories.hpp>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -31,9 +32,10 @@ class odeint_reference {
     }
   }
 
-  /// x becomes the state a time t later. Throws std::invalid_argument if the system is in a noisy bath.
+  /// x becomes the state a time t later. Returns the force evaluations. Throws std::invalid_argument if the
+  /// system is in a noisy bath.
   template <SeparableSystem S>
-  void advance(const S& system, phase_point<double, S::dimension>& x, double t) const {
+  std::int64_t advance(const S& system, phase_point<double, S::dimension>& x, double t) const {
     namespace odeint = boost::numeric::odeint;
     using state = std::vector<double>;  // q, then p
     const Eigen::Index n = size(system);
@@ -41,6 +43,7 @@ class odeint_reference {
     auto q = x.q;
     auto p = x.p;
     auto rate = x.q;
+    std::int64_t evaluations = 0;
     const auto derivative = [&](const state& y, state& dydt, double) {
       for (Eigen::Index i = 0; i < n; ++i) {
         q[i] = y[static_cast<std::size_t>(i)];
@@ -49,6 +52,7 @@ class odeint_reference {
       velocity<double>(system, p, rate);
       for (Eigen::Index i = 0; i < n; ++i) dydt[static_cast<std::size_t>(i)] = rate[i];
       force<double>(system, q, rate);
+      ++evaluations;
       for (Eigen::Index i = 0; i < n; ++i) dydt[static_cast<std::size_t>(n + i)] = rate[i] - friction * p[i];
     };
     state y(x.q.begin(), x.q.end());
@@ -60,6 +64,7 @@ class odeint_reference {
       x.q[i] = y[static_cast<std::size_t>(i)];
       x.p[i] = y[static_cast<std::size_t>(n + i)];
     }
+    return evaluations;
   }
 
   double tolerance() const {

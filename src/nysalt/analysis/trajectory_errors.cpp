@@ -105,8 +105,8 @@ namespace {
 
 constexpr std::size_t most_checks = 16;  // enough for the size of an error
 
-void require_comparable(const model& system, const reference_value& reference,
-                        std::span<const tabulated> methods, int parts, const trajectory_options& options) {
+void require_comparable(const model& system, const reference& reference, std::span<const tabulated> methods,
+                        int parts, const trajectory_options& options) {
   if (parts > 0 && !reference.gives_noise()) {
     throw std::invalid_argument(
         fmt::format("trajectory_errors: the reference must have noise to share, got {}; take fine_paths",
@@ -134,7 +134,7 @@ void require_measurable(const model& system, std::span<const error_measure> meas
 /// their places, measure by measure.
 struct comparison {
   const model& system;
-  const reference_value& reference;
+  const nysalt::reference& reference;
   const initial_states& ensemble;
   std::span<const tabulated> methods;
   std::span<const error_measure> measures;
@@ -185,7 +185,7 @@ int parts_of_noise(const model& system, std::span<const tabulated> methods) {
   return parts;
 }
 
-std::vector<trajectory_errors_result> trajectory_errors(const model& system, const reference_value& reference,
+std::vector<trajectory_errors_result> trajectory_errors(const model& system, const reference& reference,
                                                         const initial_states& ensemble,
                                                         std::span<const tabulated> methods,
                                                         std::span<const error_measure> measures,

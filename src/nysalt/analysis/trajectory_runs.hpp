@@ -17,12 +17,12 @@
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
-#include "nysalt/detail/any_reference.hpp"
 #include "nysalt/detail/lockstep.hpp"
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/noises/recorded_path.hpp"
+#include "nysalt/reference.hpp"
 #include "nysalt/shard.hpp"
 
 namespace nysalt {
@@ -107,34 +107,29 @@ class reference_along {
   using state = phase_point<T, Eigen::Dynamic>;        ///< states of all lanes
   using path_type = recorded_path<T, Eigen::Dynamic>;  ///< noise, in parts of a step
 
-  /// Refers to system, reference, measures and path. `count` lanes hold a trajectory, that in lane 0 is the
-  /// place's. The noise of each step is added to the path in `parts` parts.
-  reference_along(const model& system, const detail::reference_value& reference,
-                  const joined_measures& measures, const state& start, int count, const path_place& at = {},
-                  path_type* path = nullptr, int noise_parts = 0)
-      : system_(&system),
-        reference_(&reference),
+  /// Refers to measures and path, to which the kept noise of each interval is added.
+  reference_along(const model& system, const nysalt::reference& reference, const joined_measures& measures,
+                  const state& start, const reference_intervals& intervals, path_type* path = nullptr)
+      : description_(reference.description()),
         measures_(&measures),
-        x_(start),
-        count_(count),
-        at_(at),
+        run_(reference.open(system, start, intervals)),
+        count_(intervals.count),
+        step_(intervals.at.step),
         path_(path),
-        noise_(static_cast<std::size_t>(noise_parts), make_vector<T>(system)),
         signs_(measures.size()) {}
 
-  /// Reads the next `samples`, each a time `step` after the last. What is not sound is remembered.
-  void go_on(double step, std::int64_t samples) {
+  /// Reads the next `samples`, each an interval after the last. What is not sound is remembered.
+  void go_on(std::int64_t samples) {
     const std::size_t width = measures_->width();
     numbers_.resize(static_cast<std::size_t>(samples) * width);
     // A letter O that ends the step before the interval is still to come.
-    if (path_ != nullptr) path_->forget_before((at_.step - 1) * std::ssize(noise_));
+    if (path_ != nullptr) path_->forget_before((step_ - 1) * std::ssize(run_->noise()));
     for (std::int64_t i = 0; i < samples; ++i) {
-      if (!flow_) flow_ = reference_->template prepare<T>(*system_, step);
-      flow_->advance(x_, count_, at_, noise_);
-      for (const auto& xi : noise_) path_->add(xi);
-      ++at_.step;
+      run_->advance();
+      for (const auto& xi : run_->noise()) path_->add(xi);
+      ++step_;
       const auto here = std::span(numbers_).subspan(static_cast<std::size_t>(i) * width, width);
-      measures_->read(x_, here);
+      measures_->read(run_->state(), here);
       inspect(here);
     }
   }
@@ -160,7 +155,7 @@ class reference_along {
       throw std::runtime_error(
           sentence("trajectory {} of the reference ({}), and what the {} error reads of it, must be finite, "
                    "got another number at step {}; take other starts, a finer reference or a shorter horizon",
-                   first + k, reference_->description(), measure.name, first_failure->step));
+                   first + k, description_, measure.name, first_failure->step));
     }
   }
 
@@ -172,7 +167,7 @@ class reference_along {
   };
 
   void inspect(std::span<const T> all) {
-    const auto finite = is_finite(x_);
+    const auto finite = is_finite(run_->state());
     for (std::size_t i = 0; i < measures_->size(); ++i) {
       const auto here = measures_->part(i, all);
       auto sound = finite;
@@ -185,7 +180,7 @@ class reference_along {
         auto& first_failure = failures_[static_cast<std::size_t>(k)];
         const bool without_scale = scale && !keeps_sign(i, k, lane(*scale, k));
         if (first_failure || (lane(sound, k) && !without_scale)) continue;
-        first_failure = failure{at_.step, i, lane(sound, k)};
+        first_failure = failure{step_, i, lane(sound, k)};
       }
     }
   }
@@ -197,16 +192,13 @@ class reference_along {
     return known_sign * scale > 0.0 || std::isnan(scale);
   }
 
-  const model* system_;
-  const detail::reference_value* reference_;
+  std::string description_;  // of the reference
   const joined_measures* measures_;
-  state x_;
+  std::unique_ptr<reference_run<T>> run_;
   int count_;
-  path_place at_;
+  std::int64_t step_;
   path_type* path_;
-  std::vector<vector<T, Eigen::Dynamic>> noise_;
   std::vector<T> numbers_;
-  std::unique_ptr<detail::reference_run<T>> flow_;
   std::array<std::optional<failure>, static_cast<std::size_t>(lanes_in<T>)> failures_{};
   std::vector<std::array<double, static_cast<std::size_t>(lanes_in<T>)>>
       signs_;  // of the scale of each measure
@@ -232,7 +224,7 @@ class reference_tracker {
   using path_type = recorded_path<T, Eigen::Dynamic>;  ///< the reference's noise
 
   /// Refers to all but the start, and to itself. The noise is added to the path in `parts` parts of a step.
-  reference_tracker(const model& system, const detail::reference_value& reference,
+  reference_tracker(const model& system, const nysalt::reference& reference,
                     std::span<const error_measure> measures, double step, const state& start, int count,
                     const reference_checks& checks, const path_place& at, path_type& path, int noise_parts,
                     const sample_weights& weights)
@@ -253,15 +245,16 @@ class reference_tracker {
     }
     const bool needed = measures_.width() > 0;
     if (needed || noise_parts > 0) {
-      reference_.emplace(system, reference, measures_, start, count, at, &path, noise_parts);
+      reference_.emplace(system, reference, measures_, start,
+                         reference_intervals{step, count, at, noise_parts}, &path);
     }
     if (needed && checks.finer > 0) {
-      finer_reference_.emplace(reference.finer());
-      finer_.emplace(system, *finer_reference_, measures_, start, checks.finer, at);
+      finer_.emplace(system, reference.finer(), measures_, start,
+                     reference_intervals{step, checks.finer, at});
     }
     if (needed && checks.perturbed > 0 && checks.perturbation) {
       const auto from = nysalt::perturbed(start, *checks.perturbation, at.seed, at.trajectory);
-      perturbed_.emplace(system, reference, measures_, from, checks.perturbed, at);
+      perturbed_.emplace(system, reference, measures_, from, reference_intervals{step, checks.perturbed, at});
     }
   }
 
@@ -271,9 +264,9 @@ class reference_tracker {
   /// Goes on through the samples from + 1 .. to.
   void go_on(std::int64_t from, std::int64_t to) {
     from_ = from;
-    if (reference_) reference_->go_on(step_, to - from);
-    if (finer_) finer_->go_on(step_, to - from);
-    if (perturbed_) perturbed_->go_on(step_, to - from);
+    if (reference_) reference_->go_on(to - from);
+    if (finer_) finer_->go_on(to - from);
+    if (perturbed_) perturbed_->go_on(to - from);
     for (std::size_t i = 0; i < measures_.size(); ++i) {
       if (measures_.reads(i)) compare(i, to);
     }
@@ -349,7 +342,6 @@ class reference_tracker {
   std::vector<std::vector<T>> at_start_;
   std::vector<errors_of_measure> errors_;
   std::optional<reference_along<T>> reference_;
-  std::optional<detail::reference_value> finer_reference_;
   std::optional<reference_along<T>> finer_;
   std::optional<reference_along<T>> perturbed_;
 };
@@ -372,10 +364,9 @@ class method_runs {
   using path_type = recorded_path<T, Eigen::Dynamic>;  ///< the reference's noise
 
   /// Refers to all but the start, and partly to itself.
-  method_runs(const model& system, const detail::reference_value& reference,
-              std::span<const tabulated> methods, double step, std::span<const error_measure> measures,
-              const state& start, int count, const reference_checks& checks, const shared_noise& noise,
-              const sample_weights& weights)
+  method_runs(const model& system, const nysalt::reference& reference, std::span<const tabulated> methods,
+              double step, std::span<const error_measure> measures, const state& start, int count,
+              const reference_checks& checks, const shared_noise& noise, const sample_weights& weights)
       : measures_(measures),
         step_(step),
         weights_(weights),

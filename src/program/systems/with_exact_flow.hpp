@@ -15,7 +15,7 @@ initial_value_problem with_exact_flow(const S& system, const bath& in, initial_v
   const in_bath<S> put(system, in);
   require_square_of_frequency(system.description(), made.frequency);
   made.has_exact_flow = true;
-  if (!in.acts()) made.exact = nysalt::detail::reference_of(put, exact_linear(put));
+  if (!in.acts()) made.exact = exact_linear(put);
   return made;
 }
 

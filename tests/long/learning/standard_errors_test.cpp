@@ -20,7 +20,7 @@ constexpr double step = 0.02;
 const fpu_chain<3> chain(50.0);
 
 flow_map_data data_of(std::int64_t trajectories, std::uint64_t seed) {
-  return make_flow_map_data(chain, fpu_law<3>(chain), fine_steps<>(1e-3),
+  return make_flow_map_data(chain, fpu_law<3>(chain), fine_steps(1e-3),
                             {.step = step, .horizon = 0.2, .trajectories = trajectories, .seed = seed});
 }
 

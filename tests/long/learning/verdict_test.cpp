@@ -39,8 +39,8 @@ BOOST_AUTO_TEST_CASE(a_kinetic_energy_that_is_not_quadratic_is_guarded_too) {
   int refused = 0;
   for (const double step : {0.1, 0.2, 0.34, 0.38}) {
     const run_time_family family{nystrom{}};
-    const auto found = fit_of(family, fast_particle{}, particle_law, fine_steps<blanes_moan_s6>(step / 64.0),
-                              step, 10.0 * step);
+    const auto found = fit_of(family, fast_particle{}, particle_law,
+                              fine_steps(step / 64.0, blanes_moan_s6()), step, 10.0 * step);
     BOOST_TEST_CONTEXT(found.summary.full()) {
       const bool is_lost = lost_of(fast_particle{}, particle_law, family, found, 10'000) > 0;
       BOOST_TEST(!(is_lost && found.summary.usable));

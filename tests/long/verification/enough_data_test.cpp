@@ -30,7 +30,7 @@ constexpr int seeds = 50;
 constexpr std::int64_t usual = 100;  // trajectories
 const fpu_chain<3> chain(50.0);
 const fpu_law<3> law(chain);
-const fine_steps<> reference(1e-3);
+const auto reference = fine_steps(1e-3);
 
 flow_map_data data_of(std::int64_t trajectories, std::uint64_t seed) {
   return make_flow_map_data(

@@ -28,7 +28,7 @@ namespace {
 const fpu_chain<3> chain(50.0);
 
 flow_map_data data_of_chain(double step, std::uint64_t seed) {
-  return make_flow_map_data(chain, fpu_law<3>(chain), fine_steps<>(2.5e-4), {.step = step, .seed = seed});
+  return make_flow_map_data(chain, fpu_law<3>(chain), fine_steps(2.5e-4), {.step = step, .seed = seed});
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(a_planet_returns_after_its_period) {
     const auto x = kepler_law(e)(1, 2);
     const auto missed_after = [&](double time) {
       auto y = x;
-      fine_steps<>(time / steps).advance(kepler(), y, time);
+      fine_steps(time / steps).advance(kepler(), y, time);
       return distance(x, y);
     };
     // 11 kicks and 12 drifts a step round every coordinate twice. An error d of the energy changes the period

@@ -12,7 +12,7 @@ int main() {
   const vector<double, 1> zero(0.0);
   const normal_around<1> starts({zero, zero}, 1.0, 1.0);
   const auto data_of = [&](std::uint64_t seed) {
-    return make_flow_map_data(system, starts, fine_steps<>(1e-2),
+    return make_flow_map_data(system, starts, fine_steps(1e-2),
                               {.step = 0.5, .horizon = 5.0, .trajectories = 8, .seed = seed});
   };
   const auto [method, fit] = learn(nystrom{}, system, data_of(1), data_of(2));
