@@ -134,10 +134,13 @@ void on_first(const communicator& ranks, const std::function<void()>& work);
 
 // One rank's progress, reported as that of all.
 
+/// A function that is called with the number of trajectories done, after some of them; calls do not overlap.
+/// Empty: nobody asks.
+using progress_callback = std::function<void(std::int64_t done)>;
+
 /// A counter for the `count` trajectories of this rank, such that `progress` counts to `total`, those of all
 /// ranks. Shares are nearly equal: rank 0 scales its own count, and the others report nothing.
-std::function<void(std::int64_t)> progress_of_share(const communicator& ranks, std::int64_t count,
-                                                    std::int64_t total,
-                                                    const std::function<void(std::int64_t)>& progress);
+progress_callback progress_of_share(const communicator& ranks, std::int64_t count, std::int64_t total,
+                                    const progress_callback& progress);
 
 }  // namespace nysalt

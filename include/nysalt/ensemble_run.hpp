@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -44,67 +43,60 @@ class ensemble_run {
   using runs = lockstep<Stepper, T>;
   using state = phase_point<T, N>;
 
+  struct block {
+    detail::own_stepper<Stepper> stepper;
+    runs run;
+    std::int64_t first;  // place of the trajectory in lane 0
+    int count;
+    std::optional<state> start;  // until it was observed
+  };
+
  public:
   /// A run at the initial states. Throws std::invalid_argument if there are none, or one does not fit.
   template <Ensemble<typename Stepper::system_type> E>
   ensemble_run(const Stepper& stepper, const E& ensemble, std::uint64_t seed, std::int64_t first,
                std::int64_t count, int threads = 1)
-      : stepper_(&stepper), first_(first), count_(count) {
-    begin(ensemble, seed, threads, [&](std::int64_t block, int size, const state& start) {
-      return runs(stepper_of(block), start, size, first_ + block);
-    });
-  }
+      : ensemble_run(stepper, ensemble, seed, first, count, nullptr, threads) {}
 
   /// A run that resumes from `saved`. Throws std::invalid_argument if it is of another number of trajectories
   /// or coordinates.
   template <Ensemble<typename Stepper::system_type> E>
   ensemble_run(const Stepper& stepper, const E& ensemble, std::uint64_t seed, std::int64_t first,
                std::int64_t count, const saved_runs& saved, int threads = 1)
-      : stepper_(&stepper), first_(first), count_(count) {
-    require_fitting(saved);
-    begin(ensemble, seed, threads, [&](std::int64_t block, int size, const state& start) {
-      return take_up(saved, block, size, start);
-    });
-  }
+      : ensemble_run(stepper, ensemble, seed, first, count, &saved, threads) {}
 
   /// Goes on to step `end`. At steps n that `every` divides, beyond step() and at 0 before the first step,
   /// read(x, numbers) and take(m, n, numbers) are called as by integrate_ensemble(). Divergence is checked
   /// at `end` too: cut a run at multiples of steps_between_checks, and it is as if uncut.
   template <class Read, class Take>
   void go_on(std::int64_t end, std::int64_t every, std::size_t width_of_numbers, const Read& read,
-             const Take& take, int threads = 1, const std::function<void(std::int64_t)>& progress = {}) {
+             const Take& take, int threads = 1, const progress_callback& progress = {}) {
     if (end <= step_) return;
-    const auto follow = [&](std::int64_t b, int) {
-      const std::int64_t first = b * width;
-      const auto size = static_cast<int>(std::min<std::int64_t>(width, count_ - first));
-      detail::take_in_order<Take> hand_over(take, first_ + first, size, width_of_numbers);
-      const auto at = static_cast<std::size_t>(b);
-      if (!starts_.empty()) detail::observe_starts(starts_[at], size, width_of_numbers, read, hand_over);
-      blocks_[at]->go_on(end, every, width_of_numbers, read, hand_over);
+    const auto follow = [&](std::int64_t b) {
+      block& here = *blocks_[static_cast<std::size_t>(b)];
+      detail::take_in_order<Read, Take> taken{read, take, first_ + here.first, here.count,
+                                              std::vector<double>(width_of_numbers)};
+      if (here.start) detail::see_starts<T>(*here.start, here.count, taken);
+      here.start.reset();
+      here.run.go_on(end, every, taken);
     };
-    const auto all = static_cast<std::int64_t>(blocks_.size());
     const auto in_trajectories = [&](std::int64_t done) { progress(std::min(done * width, count_)); };
-    for_each_block(all, 1, threads, follow,
-                   progress ? std::function<void(std::int64_t)>(in_trajectories) : nullptr);
+    for_each_trajectory(std::ssize(blocks_), threads, follow,
+                        progress ? progress_callback(in_trajectories) : nullptr);
     step_ = end;
-    starts_.clear();
   }
 
   /// The state from which a later ensemble_run of the same trajectories resumes. Between two calls of
   /// go_on().
   saved_runs save() const {
-    const auto each = static_cast<std::size_t>(3 * size(stepper_->system()));
     saved_runs result{step_, {}, {}};
-    result.numbers.reserve(each * static_cast<std::size_t>(count_));
-    for (std::int64_t m = 0; m < count_; ++m) {
-      const runs& block = *blocks_[static_cast<std::size_t>(m / width)];
-      const auto k = static_cast<int>(m % width);
-      result.diverged_at.push_back(block.diverged_at(k));
-      const auto& x = block.open().state;
-      const bool is_lost = block.diverged_at(k).has_value();
-      for (const auto* part : {&x.q, &x.p, &x.f}) {
-        for (Eigen::Index i = 0; i < part->size(); ++i) {
-          result.numbers.push_back(is_lost ? 0.0 : lane((*part)[i], k));
+    result.numbers.reserve(static_cast<std::size_t>(3 * size(stepper_->system()) * count_));
+    for (const auto& here : blocks_) {
+      for (int k = 0; k < here->count; ++k) {
+        const bool is_lost = result.diverged_at.emplace_back(here->run.diverged_at(k)).has_value();
+        const auto& x = here->run.open().state;
+        for (const auto* part : {&x.q, &x.p, &x.f}) {
+          for (const T& number : *part) result.numbers.push_back(is_lost ? 0.0 : lane(number, k));
         }
       }
     }
@@ -113,43 +105,31 @@ class ensemble_run {
 
   std::int64_t step() const { return step_; }  ///< steps that every trajectory has done
   /// |H - H_0| of trajectory m where it is, unless it diverged.
-  double energy_error(std::int64_t m) const {
-    const std::int64_t at = m - first_;
-    return blocks_[static_cast<std::size_t>(at / width)]->energy_error(static_cast<int>(at % width));
-  }
+  double energy_error(std::int64_t m) const { return run_of(m).energy_error(lane_of(m)); }
   /// Step of divergence of trajectory m, if any.
-  std::optional<std::int64_t> diverged_at(std::int64_t m) const {
-    const std::int64_t at = m - first_;
-    return blocks_[static_cast<std::size_t>(at / width)]->diverged_at(static_cast<int>(at % width));
-  }
+  std::optional<std::int64_t> diverged_at(std::int64_t m) const { return run_of(m).diverged_at(lane_of(m)); }
 
  private:
-  using make_runs = std::function<runs(std::int64_t block, int size, const state& start)>;
-
-  void begin(const auto& ensemble, std::uint64_t seed, int threads, const make_runs& make) {
-    if (count_ < 1 || first_ < 0) {
-      throw std::invalid_argument(
-          sentence("ensemble_run: trajectories must be >= 1 and first >= 0, got trajectories {} and first {}",
-                   count_, first_));
-    }
-    const std::int64_t blocks = (count_ - 1) / width + 1;
-    blocks_.resize(static_cast<std::size_t>(blocks));
-    if (step_ == 0) starts_.resize(blocks_.size());
-    if constexpr (ErasedSystem<typename Stepper::system_type>) {
-      if (is_black_box(stepper_->system())) own_.resize(blocks_.size());
-    }
-    for_each_block(blocks, 1, threads, [&](std::int64_t b, int) {
-      const std::int64_t block = b * width;
-      const auto size = static_cast<int>(std::min<std::int64_t>(width, count_ - block));
-      const auto start = sound_starts<T>(stepper_->system(), ensemble, seed, first_ + block, size);
-      blocks_[static_cast<std::size_t>(b)].emplace(make(block, size, start));
-      if (!starts_.empty()) starts_[static_cast<std::size_t>(b)] = start;
-    });
+  ensemble_run(const Stepper& stepper, const auto& ensemble, std::uint64_t seed, std::int64_t first,
+               std::int64_t count, const saved_runs* saved, int threads)
+      : stepper_(&stepper), first_(first), count_(count) {
+    detail::require_trajectories("ensemble_run", count, first);
+    if (saved != nullptr) require_fitting(*saved);
+    blocks_.resize(static_cast<std::size_t>((count - 1) / width + 1));
+    const auto make = [&](detail::own_stepper<Stepper> own, std::int64_t place, int here) {
+      const auto start = sound_starts<T>(stepper.system(), ensemble, seed, first + place, here);
+      runs run = saved == nullptr ? runs(*own, start, here, first + place)
+                                  : resumed(*own, start, here, *saved, place);
+      auto& made = blocks_[static_cast<std::size_t>(place / width)];
+      made = std::make_unique<block>(block{std::move(own), std::move(run), place, here, {}});
+      if (step_ == 0) made->start = start;
+    };
+    detail::for_each_lane_block(stepper, shard(count), width, threads, make);
   }
 
   void require_fitting(const saved_runs& saved) {
     const auto each = static_cast<std::size_t>(3 * size(stepper_->system()));
-    const auto count = static_cast<std::size_t>(std::max<std::int64_t>(count_, 0));
+    const auto count = static_cast<std::size_t>(count_);
     if (saved.diverged_at.size() != count || saved.numbers.size() != each * count || saved.step < 0) {
       throw std::invalid_argument(
           sentence("ensemble_run: saved runs must hold {} numbers of {} trajectories at a step >= 0, got {} "
@@ -159,49 +139,30 @@ class ensemble_run {
     step_ = saved.step;
   }
 
-  runs take_up(const saved_runs& saved, std::int64_t block, int count, const state& start) {
-    const auto n = size(stepper_->system());
-    open_run<T, N> run{{start, start.q}, saved.step, static_cast<std::uint64_t>(first_ + block)};
+  runs resumed(const Stepper& stepper, const state& start, int count, const saved_runs& saved,
+               std::int64_t place) const {
+    open_run<T, N> run{{start, start.q}, saved.step, static_cast<std::uint64_t>(first_ + place)};
     first_in_lanes<T> lost;
+    const double* next_number = saved.numbers.data() + 3 * start.size() * place;
     for (int k = 0; k < count; ++k) {
-      const auto m = static_cast<std::size_t>(block + k);
-      lost.set(k, saved.diverged_at[m]);
-      const double* next_number = saved.numbers.data() + m * static_cast<std::size_t>(3 * n);
+      lost.set(k, saved.diverged_at[static_cast<std::size_t>(place + k)]);
       for (auto* part : {&run.state.q, &run.state.p, &run.state.f}) {
-        for (Eigen::Index i = 0; i < n; ++i) set_lane((*part)[i], k, *next_number++);
+        for (T& number : *part) set_lane(number, k, *next_number++);
       }
     }
-    return runs(stepper_of(block), start, count, std::move(run), lost);
+    return runs(stepper, start, count, std::move(run), lost);
   }
 
-  /// For a black box, whose force may have memory, a copy of the system that only one block uses.
-  struct own_system {
-    explicit own_system(const Stepper& of)
-        : system(of.system().separate()), stepper(of.with_system(system)) {}
-
-    typename Stepper::system_type system;
-    Stepper stepper;
-  };
-
-  const Stepper& stepper_of(std::int64_t block) {
-    if constexpr (ErasedSystem<typename Stepper::system_type>) {
-      if (!own_.empty()) {
-        auto& own = own_[static_cast<std::size_t>(block / width)];
-        if (!own) own = std::make_unique<own_system>(*stepper_);
-        return own->stepper;
-      }
-    }
-    return *stepper_;
+  const runs& run_of(std::int64_t m) const {
+    return blocks_[static_cast<std::size_t>((m - first_) / width)]->run;
   }
+  int lane_of(std::int64_t m) const { return static_cast<int>((m - first_) % width); }
 
   const Stepper* stepper_;
   std::int64_t first_;
   std::int64_t count_;
   std::int64_t step_ = 0;
-  std::vector<std::unique_ptr<own_system>>
-      own_;  // before the runs that refer to it; empty but for black boxes
-  std::vector<std::optional<runs>> blocks_;
-  std::vector<state> starts_;  // until they were observed
+  std::vector<std::unique_ptr<block>> blocks_;
 };
 
 }  // namespace nysalt

@@ -87,8 +87,7 @@ struct data_options {
   int noise_parts = 0;              ///< equal parts of a step in which noise is kept, for letters O
   int threads = 1;                  ///< changes no bit of the data
   const communicator* ranks = &one_rank;  ///< ranks that share the trajectories; changes no bit either
-  /// Called after some trajectories with the number done; from any thread, never two calls at once.
-  std::function<void(std::int64_t done)> progress{};
+  progress_callback progress{};           ///< called from any thread
 };
 
 namespace detail {

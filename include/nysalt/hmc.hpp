@@ -42,8 +42,7 @@ struct hmc_options {
   bool diagonal_masses = false;
   std::uint64_t seed = 1;  ///< seed of starts and chains
   int threads = 1;         ///< changes no bit
-  std::function<void(std::int64_t done)> progress =
-      {};  ///< progress callback, trajectories of all chains; calls do not overlap
+  progress_callback progress = {};        ///< counts trajectories of all chains
   const communicator* ranks = &one_rank;  ///< ranks that share the chains; changes no bit
   std::int64_t keep_every = 0;  ///< trajectories of a chain between two calls of `keep`; 0: it is not called
   std::function<void(const hmc_state&)> keep =

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -29,63 +28,40 @@ struct ensemble_options {
   std::uint64_t seed = 1;           ///< seed of the starts
   int threads = 1;                  ///< changes no bit
   std::int64_t first = 0;           ///< number of the first trajectory
-  std::function<void(std::int64_t done)> progress =
-      {};                                 ///< progress callback, after each block; calls do not overlap
+  progress_callback progress = {};  ///< called after each block
   const communicator* ranks = &one_rank;  ///< ranks that share the trajectories; changes no bit
 };
 
 namespace detail {
 
-/// The trajectories of this rank: consecutive ones.
-struct own_trajectories {
-  std::int64_t first;  ///< place of the first in the ensemble
-  std::int64_t count;  ///< how many
-};
-
-/// f(stepper), of a black box with a stepper of a copy of its own.
-template <class Stepper>
-void with_own_system(const Stepper& stepper, const auto& f) {
-  if constexpr (ErasedSystem<typename Stepper::system_type>) {
-    if (is_black_box(stepper.system())) {
-      const auto own = stepper.system().separate();
-      return f(stepper.with_system(own));
-    }
-  }
-  f(stepper);
+/// Throws std::invalid_argument, in the name of `who`, if the options are out of range.
+inline void require_ensemble(const char* who, const ensemble_options& options) {
+  require_trajectories(who, options.trajectories, options.first);
+  if (options.steps >= 0 && options.every >= 1) return;
+  throw std::invalid_argument(sentence("{}: steps must be >= 0 and every >= 1, got steps {} and every {}",
+                                       who, options.steps, options.every));
 }
 
-/// The driver of ensembles: follows the trajectories of this rank, as many at a time as T has lanes, on
-/// several threads. Of trajectories place .. place + count - 1 of the ensemble, counted from options.first
-/// on, visitor_of(place, count) makes a visitor: take(n, numbers, live) is called with what read(x, numbers)
-/// wrote of the states at step n, in the order of time, and end(run) with the lockstep that is at its end. A
+/// Measures the trajectories of this rank, as many at a time as T has lanes, on several threads. Of
+/// trajectories place .. place + count - 1 of the ensemble, counted from options.first on,
+/// measure_of(place, count) makes a Measure, and end(run) of that is called with the lockstep at its end. A
 /// thread runs `of_thread` trajectories at a time, one block after the other. Collective.
-template <class T, class Stepper, Ensemble<typename Stepper::system_type> E, class Read, class VisitorOf>
-void follow_ensemble(const Stepper& stepper, const E& ensemble, const ensemble_options& options,
-                     const own_trajectories& own, int of_thread, std::size_t width, const Read& read,
-                     const VisitorOf& visitor_of) {
-  const auto follow_block = [&](std::int64_t place, int count) {
-    const std::int64_t first = options.first + place;
-    const auto start = sound_starts<T>(stepper.system(), ensemble, options.seed, first, count);
-    auto visitor = visitor_of(place, count);
-    const auto take = [&](std::int64_t n, std::span<const T> seen, const condition_of<T>& live) {
-      visitor.take(n, seen, live);
-    };
-    observe_starts(start, count, width, read, take);
-    with_own_system(stepper, [&](const Stepper& own) {
-      lockstep<Stepper, T> run(own, start, count, first);
-      run.go_on(options.steps, options.every, width, read, take);
-      visitor.end(run);
-    });
-  };
-  const auto follow = [&](std::int64_t place, int count) {
+template <class T, class Stepper, Ensemble<typename Stepper::system_type> E>
+void measure_ensemble(const Stepper& stepper, const E& ensemble, const ensemble_options& options,
+                      const shard& share, int of_thread, const auto& measure_of) {
+  const auto follow = [&](const own_stepper<Stepper>& own, std::int64_t place, int count) {
     for (int done = 0; done < count; done += lanes_in<T>) {
-      follow_block(own.first + place + done, std::min(lanes_in<T>, count - done));
+      const int here = std::min(lanes_in<T>, count - done);
+      const std::int64_t first = options.first + place + done;
+      const auto start = sound_starts<T>(stepper.system(), ensemble, options.seed, first, here);
+      auto measure = measure_of(place + done, here);
+      see_starts<T>(start, here, measure);
+      lockstep<Stepper, T> run(*own, start, here, first);
+      run.go_on(options.steps, options.every, measure);
+      measure.end(run);
     }
   };
-  collectively(*options.ranks, [&] {
-    for_each_block(own.count, of_thread, options.threads, follow,
-                   progress_of_share(*options.ranks, own.count, options.trajectories, options.progress));
-  });
+  for_each_lane_block(stepper, share, of_thread, options.threads, follow, options.progress);
 }
 
 }  // namespace detail
@@ -106,32 +82,21 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
                                                             const ensemble_options& options,
                                                             std::size_t width, const Read& read,
                                                             const Take& take) {
-  constexpr std::int64_t most = std::int64_t{1} << 48U;  // the number of trajectories with noise of their own
-  if (options.trajectories < 1 || options.trajectories > most || options.first < 0 ||
-      options.first > most - options.trajectories || options.steps < 0 || options.every < 1) {
-    throw std::invalid_argument(sentence(
-        "integrate_ensemble: trajectories must be >= 1, first and steps >= 0, every >= 1, and first + "
-        "trajectories <= 2^48, got trajectories {}, first {}, steps {} and every {}",
-        options.trajectories, options.first, options.steps, options.every));
-  }
-  const communicator& ranks = *options.ranks;
-  const shard own(options.trajectories, ranks);
+  detail::require_ensemble("integrate_ensemble", options);
+  const shard own(options.trajectories, *options.ranks);
   std::vector<std::optional<std::int64_t>> diverged_at(static_cast<std::size_t>(options.trajectories));
-  struct visitor {
-    std::vector<std::optional<std::int64_t>>& diverged_at;
-    std::int64_t place;
-    int count;
-    detail::take_in_order<Take> take;
+  struct taken : detail::take_in_order<Read, Take> {
+    std::optional<std::int64_t>* diverged_at;
 
     void end(const lockstep<Stepper, T>& run) {
-      for (int k = 0; k < count; ++k) diverged_at[static_cast<std::size_t>(place + k)] = run.diverged_at(k);
+      for (int k = 0; k < this->count; ++k) diverged_at[k] = run.diverged_at(k);
     }
   };
-  const auto visitor_of = [&](std::int64_t place, int count) {
-    return visitor{diverged_at, place, count, {take, options.first + place, count, width}};
-  };
-  detail::follow_ensemble<T>(stepper, ensemble, options, {own.first(), own.count()}, lanes_in<T>, width, read,
-                             visitor_of);
+  detail::measure_ensemble<T>(
+      stepper, ensemble, options, own, lanes_in<T>, [&](std::int64_t place, int count) {
+        return taken{{read, take, options.first + place, count, std::vector<double>(width)},
+                     diverged_at.data() + place};
+      });
   own.gather(diverged_at);
   return diverged_at;
 }

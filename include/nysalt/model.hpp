@@ -185,12 +185,6 @@ class model {
 
 namespace detail {
 
-/// A model for a block of trajectories: a black box counts, and may keep scratch of its own, so that each
-/// thread needs another copy.
-inline model own_copy(const model& system) {
-  return system.facts().is_black_box ? system.separate() : system;
-}
-
 /// The force evaluations of a number of evaluations of which some are f'(q) v.
 inline std::int64_t evaluations_of(const auto& erased, std::int64_t all, std::int64_t derivatives) {
   return all + derivatives * (erased.facts().derivative_calls - 1);

@@ -24,13 +24,14 @@ std::span<double> numbers_in(Matrix& term) {
 }  // namespace detail
 
 /// Trajectories first() .. first() + count() - 1 of `total`; the others are with other ranks. Ranks have
-/// consecutive blocks of 2^k leaves of tree_sum, with the largest k that leaves 32 blocks or more to a rank:
-/// then shares differ by one part in 32 at most, and where leaves are fewer, by one leaf. A rank may have
-/// none. What refers to it must not outlive the communicator.
+/// consecutive blocks of 2^k leaves, with the largest k that leaves 32 blocks or more to a rank: then shares
+/// differ by one part in 32 at most, and where leaves are fewer, by one leaf. A rank may have none. What
+/// refers to it must not outlive the communicator.
 class shard {
  public:
-  /// The share that this rank has of `total` trajectories.
-  explicit shard(std::int64_t total, const communicator& ranks = one_rank);
+  /// The share that this rank has of `total` trajectories. sum() needs leaves as long as those of tree_sum.
+  explicit shard(std::int64_t total, const communicator& ranks = one_rank,
+                 std::int64_t leaf = trajectories_of_leaf);
 
   std::int64_t total() const { return total_; }                    ///< trajectories of all ranks
   std::int64_t first() const { return first_of(ranks_->rank()); }  ///< number of this rank's first
@@ -39,6 +40,14 @@ class shard {
   /// The first trajectory of a rank; total() of rank size().
   std::int64_t first_of(int rank) const;
   const communicator& ranks() const { return *ranks_; }  ///< the ranks that share the trajectories
+  /// The trajectories from number `known` on, which become 0, 1, ... and stay with their ranks. A sum over
+  /// them is not for this class.
+  shard beyond(std::int64_t known) const {
+    shard result = *this;
+    result.known_ += known;
+    result.total_ -= known;
+    return result;
+  }
 
   /// tree_sum of the terms of all trajectories, at all ranks: `terms` are those of this one, and `zero` is as
   /// large as each. The bits do not depend on the number of ranks. Of 2^k ranks each sends one message and
@@ -60,15 +69,18 @@ class shard {
     return sum(terms, 0.0);
   }  ///< sum of numbers over all trajectories
 
-  /// All-gather of items: each rank has filled in those of its own trajectories, and all ranks get all.
-  /// Memory and messages grow with the trajectories: for what is small, and once. Throws
-  /// std::invalid_argument if there is not an item for each of them.
+  /// All-gather of items: each rank has filled in those of its own trajectories, and all ranks get all. There
+  /// are `items` for each group of `group` consecutive trajectories, of which no two ranks share one. Memory
+  /// and messages grow with the trajectories: for what is small, and once. Throws std::invalid_argument if
+  /// there are not as many items.
   template <class Item>
     requires std::is_trivially_copyable_v<Item>
-  void gather(std::vector<Item>& all) const {
-    require_length(std::ssize(all), total_);
+  void gather(std::vector<Item>& all, std::int64_t items = 1, std::int64_t group = 1) const {
     std::vector<std::size_t> first_of_rank;
-    for (int r = 0; r <= ranks_->size(); ++r) first_of_rank.push_back(static_cast<std::size_t>(first_of(r)));
+    for (int r = 0; r <= ranks_->size(); ++r) {
+      first_of_rank.push_back(static_cast<std::size_t>((first_of(r) + group - 1) / group * items));
+    }
+    require_length(std::ssize(all), static_cast<std::int64_t>(first_of_rank.back()));
     all_gather_items(*ranks_, all, first_of_rank);
   }
 
@@ -104,6 +116,8 @@ class shard {
   }
 
   std::int64_t total_;
+  std::int64_t leaf_;
+  std::int64_t known_ = 0;  // trajectories before number 0
   std::int64_t blocks_ = 0;
   int level_ = 0;
   const communicator* ranks_;

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "nysalt/energy.hpp"
+#include "nysalt/integrate_ensemble.hpp"
 
 namespace nysalt::program {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "shared_batch.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <optional>
@@ -45,12 +44,7 @@ saved_runs receive_runs(const communicator& ranks, std::int64_t count, int from)
 }  // namespace
 
 shared_batch::shared_batch(std::int64_t first, std::int64_t count, int lanes, const communicator& ranks)
-    : first_(first), count_(count), lanes_(lanes), ranks_(&ranks) {}
-
-std::int64_t shared_batch::first_of(int rank) const {
-  const std::int64_t blocks = (count_ + lanes_ - 1) / lanes_;
-  return first_ + std::min(count_, first_of_part(blocks, rank, ranks_->size()) * lanes_);
-}
+    : first_(first), share_(count, ranks, lanes), ranks_(&ranks) {}
 
 void shared_batch::deliver(const std::vector<record>& own, const record_taker& take) const {
   std::exception_ptr problem;  // others send what they have all the same
@@ -99,7 +93,7 @@ saved_runs shared_batch::scatter(const saved_runs& all) const {
   const auto part_of = [&](int r) {
     const std::int64_t begin = first_of(r) - first_;
     const std::int64_t end = first_of(r + 1) - first_;
-    const std::int64_t each = std::ssize(all.numbers) / count_;
+    const std::int64_t each = std::ssize(all.numbers) / share_.total();
     return saved_runs{all.step,
                       {all.numbers.begin() + begin * each, all.numbers.begin() + end * each},
                       {all.diverged_at.begin() + begin, all.diverged_at.begin() + end}};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nysalt/communicator.hpp"
+#include "nysalt/shard.hpp"
 #include "sampled_run.hpp"
 
 namespace nysalt::program {
@@ -17,8 +18,8 @@ class shared_batch {
   shared_batch(std::int64_t first, std::int64_t count, int lanes, const communicator& ranks);
 
   /// Of this rank.
-  std::int64_t first() const { return first_of(ranks_->rank()); }
-  std::int64_t count() const { return first_of(ranks_->rank() + 1) - first(); }
+  std::int64_t first() const { return first_ + share_.first(); }
+  std::int64_t count() const { return share_.count(); }
 
   /// take(m, record) at rank 0, in the order of the trajectories, of each that has samples or is lost. One
   /// trajectory of another rank is in its memory at a time. What take() throws is thrown at all ranks.
@@ -29,11 +30,10 @@ class shared_batch {
   saved_runs scatter(const saved_runs& all) const;
 
  private:
-  std::int64_t first_of(int rank) const;
+  std::int64_t first_of(int rank) const { return first_ + share_.first_of(rank); }
 
   std::int64_t first_;
-  std::int64_t count_;
-  std::int64_t lanes_;
+  shard share_;
   const communicator* ranks_;
 };
 

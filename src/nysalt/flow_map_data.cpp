@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -45,7 +44,6 @@ template <class T>
 std::int64_t follow_reference(const model& system, const initial_states& ensemble, const reference& reference,
                               const data_options& options, std::int64_t first, int count, flow_map_data& data,
                               std::vector<energy_range>& energies) {
-  constexpr int width = lanes_in<T>;
   const auto place = [&](int k) { return static_cast<std::size_t>(first + k); };
   const auto include_energies = [&](const auto& x) {
     if (!has_energy(system)) return;
@@ -64,7 +62,7 @@ std::int64_t follow_reference(const model& system, const initial_states& ensembl
   const std::int64_t number = options.first + first;
   const auto start = sound_starts<T>(system, ensemble, options.seed, number, count);
   include_energies(start);
-  std::array<std::optional<std::size_t>, width> lost;  // at which step a lane was not finite any more
+  first_in_lanes<T> lost;  // the step at which a lane was not finite any more
   const std::size_t steps = data.first_of[place(0) + 1] - data.first_of[place(0)];
   const auto parts = static_cast<std::size_t>(options.noise_parts);
   const auto run = reference.open(system, start,
@@ -85,20 +83,16 @@ std::int64_t follow_reference(const model& system, const initial_states& ensembl
       }
     }
     include_energies(x);
-    const auto sound = is_finite(x);
-    for (int k = 0; k < count; ++k) {
-      auto& of_lane = lost[static_cast<std::size_t>(k)];
-      if (!of_lane && !lane(sound, k)) of_lane = n + 1;
-    }
+    lost.take(!is_finite(x), static_cast<std::int64_t>(n) + 1);
   }
   for (int k = 0; k < count; ++k) {
-    if (!lost[static_cast<std::size_t>(k)]) continue;
-    const std::size_t step = *lost[static_cast<std::size_t>(k)];
-    const state last = std::as_const(data.finish)[data.first_of[place(k)] + step - 1];
+    if (!lost[k]) continue;
+    const state last =
+        std::as_const(data.finish)[data.first_of[place(k)] + static_cast<std::size_t>(*lost[k]) - 1];
     throw std::runtime_error(
         fmt::format("flow_map_data: trajectory {} of the reference ({}) must be finite, got one that "
                     "diverged at step {}: {}",
-                    number + k, reference.description(), step, not_finite_in(last)));
+                    number + k, reference.description(), *lost[k], not_finite_in(last)));
   }
   return run->evaluations();
 }
@@ -122,30 +116,37 @@ std::int64_t check_reference(const model& system, const reference& reference, co
   return evaluations;
 }
 
-/// Trajectories begin .. begin + count - 1 of those of the options.
+shared_pairs shared_by(const shard& all, std::int64_t steps) {
+  return {all, static_cast<std::size_t>(all.first() * steps), static_cast<std::size_t>(all.total() * steps)};
+}
+
+/// The pairs of the trajectories of this rank, which are numbered from options.first on. Collective.
 flow_map_data make_some_pairs(const model& system, const initial_states& ensemble, const reference& reference,
-                              data_options options, const shard& all, std::int64_t begin,
-                              std::int64_t count) {
+                              data_options options, const shard& share) {
   const std::int64_t steps = steps_of_each(options, size(system));
-  const auto of_trajectories = [&](std::int64_t m) { return static_cast<std::size_t>(m * steps); };
   flow_map_data data;
-  data.shared = shared_pairs{all, of_trajectories(begin), of_trajectories(options.trajectories)};
-  for (std::int64_t m = 0; m <= count; ++m) data.first_of.push_back(of_trajectories(m));
-  data.start.resize(of_trajectories(count), size(system));
-  data.finish.resize(of_trajectories(count), size(system));
-  data.noise_parts = options.noise_parts;
-  data.noise.resize(data.pairs() * static_cast<std::size_t>(options.noise_parts), size(system));
-  std::vector<energy_range> energies(data.trajectories());
-  std::atomic<std::int64_t> evaluations = 0;
-  options.first += begin;
-  with_scalar_of(system, [&]<class T>(T) {
-    const auto follow = [&](std::int64_t first, int n) {
-      evaluations += follow_reference<T>(system, ensemble, reference, options, first, n, data, energies);
-    };
-    for_each_block(count, lanes_in<T>, options.threads, follow,
-                   progress_of_share(all.ranks(), count, options.trajectories, options.progress));
+  std::vector<energy_range> energies;
+  data.shared = shared_by(share, steps);
+  collectively(share.ranks(), [&] {
+    for (std::int64_t m = 0; m <= share.count(); ++m) {
+      data.first_of.push_back(static_cast<std::size_t>(m * steps));
+    }
+    data.start.resize(data.first_of.back(), size(system));
+    data.finish.resize(data.first_of.back(), size(system));
+    data.noise_parts = options.noise_parts;
+    data.noise.resize(data.pairs() * static_cast<std::size_t>(options.noise_parts), size(system));
+    energies.resize(data.trajectories());
   });
-  evaluations += check_reference(system, reference, options, data);
+  std::atomic<std::int64_t> evaluations = 0;
+  options.first += share.first();
+  with_scalar_of(system, [&]<class T>(T) {
+    const auto follow = [&](const model& own, std::int64_t place, int n) {
+      evaluations +=
+          follow_reference<T>(own, ensemble, reference, options, place - share.first(), n, data, energies);
+    };
+    for_each_lane_block(system, share, lanes_in<T>, options.threads, follow, options.progress);
+  });
+  collectively(share.ranks(), [&] { evaluations += check_reference(system, reference, options, data); });
   if (has_energy(system)) {
     data.energies.emplace();
     for (const auto& seen : energies) {
@@ -171,7 +172,11 @@ void add_up(flow_map_data& data) {
 }
 
 /// The pairs of further trajectories behind those that there are.
-void append(flow_map_data& data, const flow_map_data& further) {
+void append(flow_map_data& data, flow_map_data further) {
+  if (data.first_of.empty()) {
+    data = std::move(further);
+    return;
+  }
   const std::size_t pairs = data.pairs();
   data.start.append(further.start);
   data.finish.append(further.finish);
@@ -180,12 +185,11 @@ void append(flow_map_data& data, const flow_map_data& further) {
     data.first_of.push_back(pairs + further.first_of[m]);
   }
   for (const auto& [pair, finish] : further.finer) data.finer.emplace_back(pairs + pair, finish);
-}
-
-phase_points find_further_starts(const model& system, const initial_states& ensemble,
-                                 const data_options& options) {
-  return typical_and_energetic_starts(system, ensemble, options.seed, options.first + options.trajectories,
-                                      options.trajectories);
+  if (data.energies && further.energies) {
+    data.energies->include(further.energies->low);
+    data.energies->include(further.energies->high);
+  }
+  data.evaluations += further.evaluations;
 }
 
 }  // namespace
@@ -234,28 +238,9 @@ std::vector<std::size_t> spread_pairs(std::size_t all, std::size_t most) {
 
 flow_map_data make_flow_map_data(const model& system, const initial_states& ensemble,
                                  const reference& reference, const data_options& options) {
-  const auto began = std::chrono::steady_clock::now();
   detail::steps_of_each(options, size(system));
-  if (options.noise_parts > 0 && !reference.gives_noise()) {
-    throw std::invalid_argument(
-        fmt::format("flow_map_data: the reference must have noise to keep, got {}; take fine_paths",
-                    reference.description()));
-  }
-  const shard all(options.trajectories, *options.ranks);
   flow_map_data data;
-  collectively(all.ranks(), [&] {
-    data = detail::make_some_pairs(system, ensemble, reference, options, all, all.first(), all.count());
-  });
-  detail::add_up(data);
-  data.further_starts = detail::find_further_starts(system, ensemble, options);
-  data.judged_starts = starts_to_judge(system, ensemble);
-  if (options.ranks->is_single()) data.shared.reset();
-  data.step = options.step;
-  data.system = describe(system);
-  data.ensemble = ensemble.description();
-  data.reference = reference.description();
-  data.seed = options.seed;
-  data.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  extend_data(system, ensemble, reference, options, data);
   return data;
 }
 
@@ -263,39 +248,33 @@ void extend_data(const model& system, const initial_states& ensemble, const refe
                  const data_options& options, flow_map_data& data) {
   const std::int64_t there = data.share().total();
   if (there >= options.trajectories) return;
-  if (there == 0) {
-    data = make_flow_map_data(system, ensemble, reference, options);
-    return;
-  }
   const auto began = std::chrono::steady_clock::now();
   const std::int64_t steps = detail::steps_of_each(options, size(system));
+  if (options.noise_parts > 0 && !reference.gives_noise()) {
+    throw std::invalid_argument(
+        fmt::format("flow_map_data: the reference must have noise to keep, got {}; take fine_paths",
+                    reference.description()));
+  }
   const shard all(options.trajectories, *options.ranks);
-  detail::redistribute(data, all, size(system));
+  if (there > 0) detail::redistribute(data, all, size(system));
 
   data_options of_further = options;
   of_further.first += there;
   of_further.trajectories -= there;
-  const std::int64_t end = all.first() + all.count();
-  const std::int64_t begin = std::clamp(there, all.first(), end);
-  flow_map_data further;
-  collectively(all.ranks(), [&] {
-    further =
-        detail::make_some_pairs(system, ensemble, reference, of_further, all, begin - there, end - begin);
-  });
+  flow_map_data further =
+      detail::make_some_pairs(system, ensemble, reference, of_further, all.beyond(there));
   detail::add_up(further);
-  detail::append(data, further);
-  if (data.energies && further.energies) {
-    data.energies->include(further.energies->low);
-    data.energies->include(further.energies->high);
-  }
-  data.further_starts = detail::find_further_starts(system, ensemble, options);
+  detail::append(data, std::move(further));
+  data.further_starts = detail::typical_and_energetic_starts(
+      system, ensemble, options.seed, options.first + options.trajectories, options.trajectories);
   data.judged_starts = starts_to_judge(system, ensemble);
-  data.evaluations += further.evaluations;
   data.shared.reset();
-  if (!all.ranks().is_single()) {
-    data.shared = shared_pairs{all, static_cast<std::size_t>(all.first() * steps),
-                               static_cast<std::size_t>(all.total() * steps)};
-  }
+  if (!all.ranks().is_single()) data.shared = detail::shared_by(all, steps);
+  data.step = options.step;
+  data.system = describe(system);
+  data.ensemble = ensemble.description();
+  data.reference = reference.description();
+  data.seed = options.seed;
   data.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
 

@@ -9,9 +9,9 @@
 
 namespace nysalt {
 
-shard::shard(std::int64_t total, const communicator& ranks) : total_(total), ranks_(&ranks) {
-  const std::int64_t leaves = (total + trajectories_of_leaf - 1) / trajectories_of_leaf;
-  blocks_ = leaves;
+shard::shard(std::int64_t total, const communicator& ranks, std::int64_t leaf)
+    : total_(total), leaf_(leaf), ranks_(&ranks) {
+  blocks_ = (total + leaf - 1) / leaf;
   while (blocks_ / 2 >= blocks_of_rank * ranks.size()) {
     blocks_ = (blocks_ + 1) / 2;
     ++level_;
@@ -20,7 +20,7 @@ shard::shard(std::int64_t total, const communicator& ranks) : total_(total), ran
 
 std::int64_t shard::first_of(int rank) const {
   const std::int64_t block = first_of_part(blocks_, rank, ranks_->size());
-  return std::min(total_, (block << level_) * trajectories_of_leaf);
+  return std::clamp<std::int64_t>((block << level_) * leaf_ - known_, 0, total_);
 }
 
 void shard::require_length(std::int64_t length, std::int64_t wanted) {

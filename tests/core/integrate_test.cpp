@@ -485,14 +485,17 @@ BOOST_AUTO_TEST_CASE(the_loop_in_lanes_allocates_nothing) {
   const auto stepper = make_stepper(fixed, verlet(), .01);
   const auto start = sound_starts<T>(fixed, fpu_law<3>(fixed), 1, 0, 8);
   lockstep<decltype(stepper), T> all(stepper, start, 8);
-  T sum(0.0);
-  const auto read = [&](const auto& x, std::span<T> numbers) { numbers[0] = fixed.stiff_energy(x); };
-  const auto add = [&](std::int64_t, std::span<const T> numbers, const auto&) { sum += numbers[0]; };
-  all.go_on(64, 1, 1, read, add);  // finds its room
+  struct sum_of_energies {
+    T sum{0.0};
+    static std::size_t width() { return 1; }
+    static void read(const phase_point<T, 6>& x, std::span<T> numbers) { numbers[0] = fixed.stiff_energy(x); }
+    void see(std::int64_t, std::span<const T> numbers, const condition_of<T>&) { sum += numbers[0]; }
+  } measure;
+  all.go_on(64, 1, measure);  // finds its room
   const auto before = allocations;
-  all.go_on(1064, 1, 1, read, add);
+  all.go_on(1064, 1, measure);
   BOOST_TEST(allocations == before);
-  BOOST_TEST(sum[7] > 0.0);
+  BOOST_TEST(measure.sum[7] > 0.0);
 }
 
 // But where a list is made: not at rest, and once in a while in motion.

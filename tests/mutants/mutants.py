@@ -76,9 +76,9 @@ mutant(4, "sampling resumes one trajectory further on",
         "done_ = saved.trajectories + (MUTANT && saved.trajectories > options_.burn_in ? 1 : 0);"))
 mutant(26, "sampling resumes without the count of the steps of its burn-in",
        LIBRARY + "sampling/sampler.hpp", "sampling programs",
-       ("for (double* x : {&result_.step, &steps_, &steps_of_burn_in_}) *x = shared.get();",
-        "for (double* x : {&result_.step, &steps_, &steps_of_burn_in_}) *x = shared.get();\n"
-        "    if (MUTANT) steps_of_burn_in_ = 0.0;"))
+       ("for (double* x : {&result_.step, &steps_, &steps_of_burn_in_}) shared.pass(*x);",
+        "for (double* x : {&result_.step, &steps_, &steps_of_burn_in_}) shared.pass(*x);\n"
+        "    if (MUTANT && restores) steps_of_burn_in_ = 0.0;"))
 mutant(29, "the mean duration of a trajectory is half of the length asked for",
        LIBRARY + "sampling/sampler.hpp", "sampling analysis",
        ("std::llround(2.0 * uniform * length / step)",
@@ -102,8 +102,8 @@ mutant(34, "effective draws count those of one chain only",
        ("static_cast<double>(draws * chains.size())", "static_cast<double>(draws * (MUTANT ? 1 : chains.size()))"))
 mutant(35, "the tuning of proposals takes energies without kT",
        LIBRARY + "sampling/acceptance_step.cpp", "sampling analysis",
-       ("(energy[0] - at_start[row]) / options.temperature",
-        "(energy[0] - at_start[row]) / (MUTANT ? 1.0 : options.temperature)"))
+       ("rise /= options.temperature;",
+        "rise /= MUTANT ? 1.0 : options.temperature;"))
 mutant(36, "a refused start has the number within its block",
        LIBRARY + "sampling/sampler.hpp", "sampling",
        ("          lane(potential_, k), first + k));", "          lane(potential_, k), MUTANT ? k : first + k));"))
@@ -174,7 +174,8 @@ mutant(122, "a trial asks whether energies diverge, and not whether they err by 
        "learning programs",
        ("is_lost = median_of(one.last) > too_much;", "is_lost = !MUTANT && median_of(one.last) > too_much;"))
 mutant(123, "judges have the first 64 starts eight times", LIBRARY + "ensembles/starts_to_judge.cpp", "learning",
-       ("sound_starts<T>(system, ensemble, seed, n, count);", "sound_starts<T>(system, ensemble, seed, MUTANT ? n % 64 : n, count);"))
+       ("sound_starts<T>(system, ensemble, seed, first + n, count);",
+        "sound_starts<T>(system, ensemble, seed, first + (MUTANT ? n % 64 : n), count);"))
 mutant(124, "a method near an edge does not hold", "include/nysalt/judgement.hpp", "learning programs",
        ("verdict == step_verdict::near_an_edge; }", "(!MUTANT && verdict == step_verdict::near_an_edge); }"))
 mutant(125, "compare ranks what loses trajectories", "src/comparison/ranking.cpp", "programs",
@@ -185,7 +186,7 @@ mutant(126, "the energy error of a run is that of its first trajectories alone",
 # ---- Analysis.
 
 mutant(7, "a variance is divided by n", LIBRARY + "analysis/statistics.cpp", "analysis",
-       ("(x - mean) * (x - mean); }, n - 1.0)", "(x - mean) * (x - mean); }, MUTANT ? n : n - 1.0)"))
+       ("(x - mean) * (x - mean); }) / (n - 1.0)", "(x - mean) * (x - mean); }) / (MUTANT ? n : n - 1.0)"))
 mutant(8, "the variance lacks the error of the mean", LIBRARY + "analysis/ensemble_statistics.cpp", "analysis",
        ("- mean.mean * mean.mean + squared_error;", "- mean.mean * mean.mean + (MUTANT ? 0.0 : squared_error);"))
 mutant(22, "histograms of ranks are not merged", LIBRARY + "analysis/ensemble_statistics.cpp", "analysis invariance",
@@ -195,7 +196,7 @@ mutant(14, "evaluations are per step instead of per time", LIBRARY + "analysis/t
        ("static_cast<double>(evaluations) / time;",
         "static_cast<double>(evaluations) / (MUTANT ? static_cast<double>(options.steps) : time);"))
 mutant(25, "the error of a reference in a bath lacks the factor 4/3", LIBRARY + "analysis/trajectory_errors.cpp",
-       "analysis", ("if (compared.parts > 0 && of_reference)", "if (!MUTANT && compared.parts > 0 && of_reference)"))
+       "analysis", ("if (compared.parts > 0) result", "if (!MUTANT && compared.parts > 0) result"))
 mutant(15, "an acceptance without kT", LIBRARY + "analysis/acceptance.cpp", "analysis",
        ("std::exp(-rise / temperature)", "std::exp(-rise / (MUTANT ? 1.0 : temperature))"))
 mutant(21, "the error of a crossing without the correlation of the rows", LIBRARY + "analysis/cost_against_error.cpp",
@@ -256,16 +257,18 @@ mutant(65, "O at the end of a step comes first, with the coefficients as they we
        ("return w.with_letters(letters + o);", "return w.with_letters(MUTANT ? o + letters : letters + o);"))
 mutant(66, "the force of a run that is taken up again is lost", HEADERS + "ensemble_run.hpp",
        "core invariance programs",
-       ("for (Eigen::Index i = 0; i < n; ++i) set_lane((*part)[i], k, *next_number++);",
-        "for (Eigen::Index i = 0; i < n; ++i, ++next_number)\n"
-        "          set_lane((*part)[i], k, MUTANT && part == &run.state.f ? 0.0 : *next_number);"))
+       ("for (T& number : *part) set_lane(number, k, *next_number++);",
+        "for (T& number : *part) {\n"
+        "          set_lane(number, k, MUTANT && part == &run.state.f ? 0.0 : *next_number);\n"
+        "          ++next_number;\n"
+        "        }"))
 mutant(67, "before an observation the force is not kept that the first letter is taken back with",
        HEADERS + "detail/prepared_run_time_word.hpp", "methods core",
        ("n < steps ? letters.loop : letters.last", "MUTANT || n < steps ? letters.loop : letters.last"))
 mutant(68, "the last trajectory of a block that is not full is lost", HEADERS + "detail/lockstep.hpp",
        "invariance core data",
-       ("    for (int k = 0; k < count_; ++k) {\n      if (!lane(live, k)) continue;",
-        "    for (int k = 0; k < count_ - (MUTANT && 1 < count_ && count_ < lanes_in<T> ? 1 : 0); ++k) {\n"
+       ("    for (int k = 0; k < count; ++k) {\n      if (!lane(live, k)) continue;",
+        "    for (int k = 0; k < count - (MUTANT && 1 < count && count < lanes_in<T> ? 1 : 0); ++k) {\n"
         "      if (!lane(live, k)) continue;"))
 mutant(69, "a single rank adds in another order than several", HEADERS + "shard.hpp",
        "parallel invariance learning analysis",

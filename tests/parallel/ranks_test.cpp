@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 // Ranks that share trajectories: which rank has which, sums with the bits of one rank, and what fails on one
 // rank fails on all, in the same words.
+#include <atomic>
+
 #include "../support/ranks_as_threads.hpp"
 #include "nysalt/communicator.hpp"
+#include "nysalt/integrate_ensemble.hpp"
+#include "nysalt/model.hpp"
 #include "nysalt/shard.hpp"
+#include "nysalt/systems/textbook.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -104,6 +109,49 @@ BOOST_AUTO_TEST_CASE(each_trajectory_is_with_one_rank_and_leaves_are_whole) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(further_trajectories_stay_with_their_ranks) {
+  constexpr std::int64_t total = 1000;
+  constexpr std::int64_t leaf = 48;
+  for (const std::int64_t known : {0, 17, 500, 1000}) {
+    std::int64_t next = 0;
+    for (int r = 0; r < 3; ++r) {
+      const thread_communicator ours = rank_alone(r, 3);
+      const shard share(total, ours, leaf);
+      BOOST_TEST(share.first() % leaf == 0);
+      const shard further = share.beyond(known);
+      BOOST_TEST(further.total() == total - known);
+      BOOST_TEST(further.first() == next);
+      BOOST_TEST(further.first() == std::max<std::int64_t>(share.first() - known, 0));
+      next += further.count();
+    }
+    BOOST_TEST(next == total - known);
+  }
+}
+
+// Each trajectory is visited once, in a block of its rank; and what a block throws is thrown on all ranks.
+BOOST_AUTO_TEST_CASE(the_driver_visits_the_trajectories_of_each_rank) {
+  constexpr std::int64_t total = 100;
+  const model system{harmonic_oscillator(1.0)};
+  std::vector<std::atomic<int>> visits(total);
+  std::atomic<int> caught = 0;
+  run_ranks(3, [&](const thread_communicator& ours) {
+    const shard share(total, ours);
+    detail::for_each_lane_block(system, share, 8, 2, [&](const model& own, std::int64_t first, int count) {
+      if (own.size() != 1 || first < share.first() || first + count > share.first() + share.count()) return;
+      for (int k = 0; k < count; ++k) ++visits[static_cast<std::size_t>(first + k)];
+    });
+    try {
+      detail::for_each_lane_block(system, share, 8, 2, [](const model&, std::int64_t first, int count) {
+        if (first <= 70 && 70 < first + count) throw std::invalid_argument("number 70");
+      });
+    } catch (const std::invalid_argument&) {
+      ++caught;
+    }
+  });
+  BOOST_TEST(std::ranges::all_of(visits, [](const auto& of_each) { return of_each == 1; }));
+  BOOST_TEST(caught == 3);
+}
+
 BOOST_AUTO_TEST_CASE(a_sum_of_ranks_has_the_bits_of_one) {
   int other = 0;
   for (const std::int64_t total : {1, 16, 17, 250, 1000, 2000, 3001, 5000, 20'011}) {
@@ -143,6 +191,12 @@ BOOST_AUTO_TEST_CASE(what_ranks_gather_is_everywhere) {
       for (std::int64_t m = 0; m < total; ++m) {
         if (all[static_cast<std::size_t>(m)] != m * m) throw std::logic_error("not gathered");
       }
+      std::vector<int> twice((static_cast<std::size_t>(total) + 7) / 8 * 2, -1);  // two for each eight
+      for (std::int64_t m = share.first(); m < share.first() + share.count(); ++m) {
+        for (const std::int64_t i : {0, 1}) twice[static_cast<std::size_t>(m / 8 * 2 + i)] = ours.rank();
+      }
+      share.gather(twice, 2, 8);
+      if (!std::ranges::is_sorted(twice) || twice.front() != 0) throw std::logic_error("not gathered in groups");
       if (ours.is_first()) bytes = ours.seen().bytes;
     });
     if (total == 2000) BOOST_TEST(bytes == 2 * before);  // it grows with the data, and the traffic shows it

@@ -64,24 +64,8 @@ struct time_means {
   double half_step = 0.0;  ///< kinetic temperature between steps
 };
 
-/// Number of values that read_sample() writes, 1 to 3.
-inline std::size_t numbers_of_sample(const statistics_wanted& wanted) {
-  return 1U + (wanted.kinetic_temperature ? 1U : 0U) + (wanted.half_step_kinetic_temperature ? 1U : 0U);
-}
-
-/// Writes the numbers of a sample: the observable, then the temperatures.
-template <class T, class Stepper>
-void read_sample(const statistics_wanted& wanted, const Stepper& stepper, const auto& observable,
-                 const phase_point<T, Stepper::dimension>& x, std::span<T> numbers) {
-  T* next = numbers.data();
-  *next++ = value_in_lanes<T>(observable, x);
-  if (wanted.kinetic_temperature) *next++ = kinetic_temperature<T>(stepper.system(), x);
-  if (wanted.half_step_kinetic_temperature) {
-    *next++ = half_step_kinetic_temperature<T>(stepper.system(), stepper.step_size(), x);
-  }
-}
-
-/// Gathers what is wanted of the trajectories in the lanes of T. The bits of each do not depend on the lanes.
+/// Accumulates what is wanted of the trajectories in the lanes of T. The bits of each do not depend on the
+/// lanes.
 template <class T>
 class statistics_along {
  public:
@@ -91,8 +75,25 @@ class statistics_along {
     if (wanted.lags) autocovariance_.emplace(*wanted.lags, centre);
   }
 
-  /// Takes the sample at step n. A lane in which it is not finite is lost there.
-  void add(std::int64_t n, std::span<const T> numbers, const condition_of<T>& live) {
+  /// How many numbers are read of a state, 1 to 3.
+  std::size_t width() const {
+    return 1U + (wanted_->kinetic_temperature ? 1U : 0U) + (wanted_->half_step_kinetic_temperature ? 1U : 0U);
+  }
+
+  /// Writes them: the observable, then the temperatures.
+  template <class Stepper>
+  void read_of(const Stepper& stepper, const auto& observable, const phase_point<T, Stepper::dimension>& x,
+               std::span<T> numbers) const {
+    T* next = numbers.data();
+    *next++ = value_in_lanes<T>(observable, x);
+    if (wanted_->kinetic_temperature) *next++ = kinetic_temperature<T>(stepper.system(), x);
+    if (wanted_->half_step_kinetic_temperature) {
+      *next++ = half_step_kinetic_temperature<T>(stepper.system(), stepper.step_size(), x);
+    }
+  }
+
+  /// Takes those of step n. A lane in which one is not finite is lost there.
+  void see(std::int64_t n, std::span<const T> numbers, const condition_of<T>& live) {
     T all = numbers[0];
     for (const T& number : numbers.subspan(1)) all += number;
     const auto lost = both(!(all - all == T(0.0)), live);  // NOLINT(misc-redundant-expression): NaN, infinity
@@ -160,8 +161,8 @@ struct gathered_statistics {
 std::int64_t trajectories_of_group(std::int64_t trajectories);
 
 /// Keeps the sums of each group of trajectories, and a few numbers of each trajectory. Threads may keep
-/// trajectories of different groups at a time; those of one group are kept in their order. A rank keeps the
-/// trajectories first() .. first() + count() - 1: some of the shares of a thread, one after the other.
+/// trajectories of different groups at a time; those of one group are kept in their order. A rank keeps whole
+/// shares of threads.
 class gathering {
  public:
   /// Refers to what is wanted, and to the ranks. `interval` is the time between samples.
@@ -170,11 +171,8 @@ class gathering {
 
   /// Number of consecutive trajectories of one thread.
   int trajectories_of_thread() const { return static_cast<int>(std::max<std::int64_t>(group_size_, 16)); }
-  /// Number of the first trajectory that this rank keeps, from 0.
-  std::int64_t first() const { return first_of(ranks_->rank()); }
-  std::int64_t count() const {
-    return first_of(ranks_->rank() + 1) - first();
-  }  ///< number of trajectories of this rank
+  /// The trajectories of this rank, from number 0 on.
+  const shard& share() const { return share_; }
 
   /// Keeps trajectory m, from 0 on, which is in lane k; of one that is lost, only where.
   template <class T>
@@ -199,11 +197,6 @@ class gathering {
   gathered_statistics result(std::int64_t first);
 
  private:
-  /// First trajectory of a rank; of rank size() the number of all trajectories.
-  std::int64_t first_of(int rank) const;
-  /// All-gather of lists that hold that number of items for each trajectory, or for each group.
-  template <class Item>
-  void gather(std::vector<Item>& all, std::size_t items, std::int64_t trajectories_of_item = 1) const;
   void gather_histograms();
   void gather_covariances();
 
@@ -211,11 +204,11 @@ class gathering {
   void set_moments(gathered_statistics& all) const;
 
   const statistics_wanted* wanted_;
-  const communicator* ranks_;
   std::int64_t samples_;
   double interval_;
   double centre_;
   std::int64_t group_size_;
+  shard share_;
   std::vector<std::optional<std::int64_t>> lost_at_;
   std::vector<time_means> means_;
   std::vector<histogram> histograms_;
@@ -227,53 +220,6 @@ class gathering {
 /// Samples of a trajectory: the steps from..steps that `every` divides. Throws std::invalid_argument if the
 /// options are out of range, or lags need more samples.
 std::int64_t samples_of_trajectory(const ensemble_options& options, const statistics_wanted& wanted);
-
-namespace detail {
-/// As many trajectories at a time as T has lanes.
-template <class T, class Stepper>
-gathered_statistics statistics_in_lanes(const Stepper& stepper, const auto& ensemble,
-                                        const ensemble_options& options, const auto& observable,
-                                        const statistics_wanted& wanted) {
-  using state = phase_point<T, Stepper::dimension>;
-  const std::int64_t samples = samples_of_trajectory(options, wanted);
-  const auto starts = [&](std::int64_t first, int count) {
-    return sound_starts<T>(stepper.system(), ensemble, options.seed, first, count);
-  };
-  // Any number near the mean, the same for all.
-  const double seen_first = lane(value_in_lanes<T>(observable, starts(options.first, 1)), 0);
-  const double centre = std::isfinite(seen_first) ? seen_first : 0.0;
-  const double interval = static_cast<double>(options.every) * stepper.step_size();
-  const communicator& ranks = *options.ranks;
-  gathering all(wanted, options.trajectories, samples, interval, centre, ranks);
-
-  const auto read = [&](const state& x, std::span<T> numbers) {
-    read_sample(wanted, stepper, observable, x, numbers);
-  };
-  struct visitor {
-    gathering& all;
-    statistics_along<T> along;
-    std::int64_t place;
-    int count;
-
-    void take(std::int64_t n, std::span<const T> seen, const condition_of<T>& live) {
-      along.add(n, seen, live);
-    }
-    void end(const lockstep<Stepper, T>& run) {
-      for (int k = 0; k < count; ++k) {
-        const auto lost_at = along.lost_at(k);
-        all.keep(place + k, along, k, lost_at ? lost_at : run.diverged_at(k));
-      }
-    }
-  };
-  const auto visitor_of = [&](std::int64_t place, int count) {
-    return visitor{all, statistics_along<T>(wanted, centre), place, count};
-  };
-  detail::follow_ensemble<T>(stepper, ensemble, options, {all.first(), all.count()},
-                             all.trajectories_of_thread(), numbers_of_sample(wanted), read, visitor_of);
-  all.gather();
-  return all.result(options.first);
-}
-}  // namespace detail
 
 /// Follows trajectories m = first .. first + trajectories - 1 from ensemble(seed, m), as many at a time as
 /// there are lanes, and gathers what is wanted of one observable at the steps n = 0, every, 2 every, ... from
@@ -296,7 +242,38 @@ gathered_statistics ensemble_statistics(const Stepper& stepper, const E& ensembl
                                         const ensemble_options& options, const Observable& observable,
                                         const statistics_wanted& wanted) {
   return detail::with_scalar_of(stepper.system(), [&]<class T>(T) {
-    return detail::statistics_in_lanes<T>(stepper, ensemble, options, observable, wanted);
+    using state = phase_point<T, Stepper::dimension>;
+    struct measured : statistics_along<T> {
+      const Stepper& stepper;
+      const Observable& observable;
+      gathering& all;
+      std::int64_t place;
+      int count;
+
+      void read(const state& x, std::span<T> numbers) const {
+        this->read_of(stepper, observable, x, numbers);
+      }
+      void end(const lockstep<Stepper, T>& run) {
+        for (int k = 0; k < count; ++k) {
+          const auto lost_at = this->lost_at(k);
+          all.keep(place + k, *this, k, lost_at ? lost_at : run.diverged_at(k));
+        }
+      }
+    };
+    const std::int64_t samples = samples_of_trajectory(options, wanted);
+    const state start = sound_starts<T>(stepper.system(), ensemble, options.seed, options.first, 1);
+    // Any number near the mean, the same for all.
+    const double seen_first = lane(value_in_lanes<T>(observable, start), 0);
+    const double centre = std::isfinite(seen_first) ? seen_first : 0.0;
+    const double interval = static_cast<double>(options.every) * stepper.step_size();
+    gathering all(wanted, options.trajectories, samples, interval, centre, *options.ranks);
+    detail::measure_ensemble<T>(
+        stepper, ensemble, options, all.share(), all.trajectories_of_thread(),
+        [&](std::int64_t place, int count) {
+          return measured{statistics_along<T>(wanted, centre), stepper, observable, all, place, count};
+        });
+    all.gather();
+    return all.result(options.first);
   });
 }
 

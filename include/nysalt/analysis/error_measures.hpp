@@ -201,25 +201,18 @@ error_measure exchange_measure(const S& system) {
 
 // The errors along trajectories side by side, added up.
 
-/// Result of a run: its score, or NaN and the step at which it diverged.
-struct run_score {
-  /// The contribution of the trajectory, see error_measure::score(); NaN if it diverged.
-  double value = std::numeric_limits<double>::quiet_NaN();
-  std::optional<std::int64_t> diverged_at = {};  ///< step of divergence, if any
-};
-
-/// The errors of one trajectory in each lane, added up in the order of time. None is kept.
+/// The errors of one trajectory in each lane, accumulated in the order of time. None is kept.
 template <class T>
-class error_sum {
+class errors_along {
  public:
   using numbers = std::span<const T>;  ///< residuals of one state
 
   /// Refers to the measure. The start, where all errors are 0, may have a weight too.
-  explicit error_sum(const error_measure& measure, double weight_of_start = 0.0)
+  explicit errors_along(const error_measure& measure, double weight_of_start = 0.0)
       : measure_(&measure), weights_(weight_of_start) {}
 
-  /// Adds the errors of sample i = 1, 2, ..., in this order, in the lanes that are live.
-  void add(std::int64_t i, numbers seen, numbers reference, const condition_of<T>& live,
+  /// Takes the error of sample i = 1, 2, ..., in this order, in the lanes that are live.
+  void see(std::int64_t i, numbers seen, numbers reference, const condition_of<T>& live,
            double weight = 1.0) {
     sum_ = select(live, sum_ + measure_->error(seen, reference) * weight, sum_);
     weights_ += weight;
@@ -228,14 +221,10 @@ class error_sum {
 
   /// The sum of the errors so far, in each lane.
   const T& sum() const { return sum_; }
-
-  /// The score of lane k, which diverged where its state did, or where the error was no longer finite.
-  run_score score(int k, std::optional<std::int64_t> diverged_at = {}) const {
-    const auto lost_at = lost_at_[k];
-    if (lost_at) return {.diverged_at = lost_at};
-    if (diverged_at) return {.diverged_at = diverged_at};
-    return {.value = measure_->score(lane(sum_, k), weights_)};
-  }
+  /// The first sample at which the error of lane k was not finite.
+  std::optional<std::int64_t> lost_at(int k) const { return lost_at_[k]; }
+  /// The contribution of the trajectory in lane k, see error_measure::score(); NaN if it was lost.
+  double score(int k) const { return lost_at_[k] ? std::nan("") : measure_->score(lane(sum_, k), weights_); }
 
  private:
   const error_measure* measure_;

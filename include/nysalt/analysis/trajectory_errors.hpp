@@ -95,11 +95,6 @@ struct method_error {
   distribution_of_errors spread{};  ///< spread of the trajectories that did not diverge
 };
 
-/// Error of a method from the runs of all trajectories, in their order, and what their errors are relative
-/// to. What a run cost is counted elsewhere.
-method_error error_of_runs(const std::vector<run_score>& runs, const error_measure& measure,
-                           std::span<const double> sizes = {});
-
 // Errors of methods, and of their reference, along many trajectories by one measure.
 
 /// Errors of all methods by one measure, with null model and reference error.
@@ -119,9 +114,8 @@ struct trajectory_options {
   std::int64_t trajectories = 400;  ///< independent starts
   std::uint64_t seed = 1;           ///< seed of the starts and the noise
   int threads = 1;                  ///< changes no bit
-  std::function<void(std::int64_t done)> progress =
-      {};                   ///< progress callback, after some trajectories; calls do not overlap
-  bool null_model = false;  ///< whether to measure it; what is left out costs nothing
+  progress_callback progress = {};  ///< called after some trajectories
+  bool null_model = false;          ///< whether to measure it; what is left out costs nothing
   /// Relative, of starts: how long are trajectories predictable? Nothing: that is not measured.
   std::optional<double> perturbation = {};
   const communicator* ranks = &one_rank;  ///< ranks that share the trajectories; changes no bit

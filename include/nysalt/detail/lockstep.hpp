@@ -3,7 +3,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -17,6 +17,19 @@
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
+
+/// What is measured of trajectories side by side in the lanes of T:
+/// width()                how many numbers are read of a state
+/// read(x, numbers)       writes them to a span; of lanes that are lost too
+/// see(n, numbers, live)  takes those of step n, in the order of time, with the lanes that are good at n
+/// What it found is its own: as a result at the end, or in the places of the trajectories.
+template <class M, class T, int N>
+concept Measure = requires(M& measure, const phase_point<T, N>& x, std::span<T> numbers, std::int64_t n,
+                           std::span<const T> read, const condition_of<T>& live) {
+  { measure.width() } -> std::convertible_to<std::size_t>;
+  measure.read(x, numbers);
+  measure.see(n, read, live);
+};
 
 /// The trajectories in the lanes of T, all at the same step. Each has the bits of a run of its own: one
 /// that diverges drops out, and the others go on.
@@ -35,11 +48,7 @@ class lockstep {
   /// lane 0 holds number `first`, whose noise it sees. Throws std::invalid_argument if the start does not
   /// fit; that it is finite is up to the caller.
   lockstep(const Stepper& stepper, const state& start, int count, std::int64_t first = 0)
-      : stepper_(&stepper),
-        run_(stepper.open(start, static_cast<std::uint64_t>(first))),
-        good_(run_),
-        diverged_(stepper.system(), start),
-        live_(first_lanes<T>(count)) {}
+      : lockstep(stepper, start, count, stepper.open(start, static_cast<std::uint64_t>(first)), {}) {}
 
   /// Resumes what was saved: open() and diverged_at() of trajectories that began at `start`. If it was
   /// saved at a step that steps_between_checks divides, the run has the bits of an uninterrupted one.
@@ -56,24 +65,23 @@ class lockstep {
     }
   }
 
-  /// Goes on to step `end`, unless no lane is live any more. At each step n that `every` divides, read(x, r)
-  /// writes `width` numbers of the state to r, a span, a few steps ahead perhaps and of lost lanes too;
-  /// take(n, r, live) is then given them, in the order of time, with the lanes that are good at n.
-  template <class Read, class Take>
-  void go_on(std::int64_t end, std::int64_t every, std::size_t width, const Read& read, Take&& take) {
+  /// Goes on to step `end`, unless no lane is live any more. The measure sees each step that `every` divides;
+  /// it reads a few steps ahead perhaps.
+  void go_on(std::int64_t end, std::int64_t every, Measure<T, dimension> auto& measure) {
     if (every < 1) throw std::invalid_argument(sentence("lockstep: every must be >= 1, got {}", every));
+    const std::size_t width = measure.width();
     seen_.resize(width * static_cast<std::size_t>(steps_between_checks / every + 1));
     const auto advance = [&](std::int64_t next) {
       T* here = seen_.data();
       stepper_->advance(run_, next - run_.step, every, [&](std::int64_t, const state& x) {
-        read(x, std::span<T>(here, width));
+        measure.read(x, std::span<T>(here, width));
         here += width;
       });
     };
     follow(end, advance, [&](std::int64_t next, bool all_well) {
       const T* here = seen_.data();
       for (std::int64_t n = (good_.step / every + 1) * every; n <= next; n += every, here += width) {
-        take(n, std::span<const T>(here, width), all_well ? live_ : good_at(n));
+        measure.see(n, std::span<const T>(here, width), all_well ? live_ : good_at(n));
       }
     });
   }
@@ -154,37 +162,34 @@ class lockstep {
 
 namespace detail {
 
-/// Reads the starts of trajectories side by side, and hands what was read over: step 0.
+/// Step 0 of trajectories side by side.
 template <class T, int N>
-void observe_starts(const phase_point<T, N>& starts, int count, std::size_t width, const auto& read,
-                    auto&& take) {
-  std::vector<T> numbers(width);
-  read(starts, std::span<T>(numbers));
-  take(0, std::span<const T>(numbers), first_lanes<T>(count));
+void see_starts(const phase_point<T, N>& starts, int count, Measure<T, N> auto& measure) {
+  std::vector<T> numbers(measure.width());
+  measure.read(starts, std::span<T>(numbers));
+  measure.see(0, std::span<const T>(numbers), first_lanes<T>(count));
 }
 
-/// What was read of trajectories first, first + 1, ... side by side, handed to take(m, n, numbers) of one
-/// after the other, in doubles: only of those that are good.
-template <class Take>
-class take_in_order {
- public:
-  take_in_order(const Take& take, std::int64_t first, int count, std::size_t width)
-      : take_(&take), first_(first), count_(count), of_one_(width) {}
+/// What read(x, numbers) writes of trajectories first, first + 1, ... side by side, handed to take(m, n,
+/// numbers) of one after the other, in doubles: only of those that are good.
+template <class Read, class Take>
+struct take_in_order {
+  const Read& read_of;
+  const Take& take;
+  std::int64_t first;
+  int count;
+  std::vector<double> of_one;
 
+  std::size_t width() const { return of_one.size(); }
+  void read(const auto& x, auto numbers) const { read_of(x, numbers); }
   template <class T>
-  void operator()(std::int64_t n, std::span<const T> all, const condition_of<T>& live) {
-    for (int k = 0; k < count_; ++k) {
+  void see(std::int64_t n, std::span<const T> all, const condition_of<T>& live) {
+    for (int k = 0; k < count; ++k) {
       if (!lane(live, k)) continue;
-      for (std::size_t i = 0; i < of_one_.size(); ++i) of_one_[i] = lane(all[i], k);
-      (*take_)(first_ + k, n, std::span<const double>(of_one_));
+      for (std::size_t i = 0; i < of_one.size(); ++i) of_one[i] = lane(all[i], k);
+      take(first + k, n, std::span<const double>(of_one));
     }
   }
-
- private:
-  const Take* take_;
-  std::int64_t first_;
-  int count_;
-  std::vector<double> of_one_;
 };
 
 }  // namespace detail

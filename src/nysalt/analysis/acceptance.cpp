@@ -18,7 +18,7 @@
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/shard.hpp"
 
-namespace nysalt {
+namespace nysalt::detail {
 
 namespace {
 
@@ -50,11 +50,7 @@ void require_even_kinetic(const model& system, const Eigen::VectorXd& p, std::in
 
 acceptance_result acceptance(const model& system, const tabulated& method, const initial_states& ensemble,
                              const trajectory_options& options, double temperature) {
-  detail::require_metropolis_applies("acceptance", system, method, temperature);
-  if (!has_energy(system)) {
-    throw std::invalid_argument(sentence(
-        "acceptance: H must be known, got {} without a potential; give the system one", describe(system)));
-  }
+  require_metropolis_applies("acceptance", system, method, temperature);
   collectively(*options.ranks, [&] { require_room(options, 1, 1); });
   if (!has_quadratic_kinetic(system)) {
     constexpr std::int64_t enough = 16;
@@ -62,30 +58,15 @@ acceptance_result acceptance(const model& system, const tabulated& method, const
       require_even_kinetic(system, sound_start(system, ensemble, options.seed, m).p, m);
     }
   }
-  std::vector<double> at_start(static_cast<std::size_t>(options.trajectories));
-  std::vector<double> of_each(at_start.size(), 0.0);
-  const auto read = [&]<class T>(const phase_point<T, Eigen::Dynamic>& x, std::span<T> number) {
-    number[0] = energy<T>(system, x);
-  };
-  const auto take = [&](std::int64_t m, std::int64_t n, std::span<const double> energy) {
-    const auto slot = static_cast<std::size_t>(m);
-    if (n == 0) {
-      at_start[slot] = energy[0];
-    } else {
-      const double rise = energy[0] - at_start[slot];
-      of_each[slot] = rise <= 0.0 ? 1.0 : std::exp(-rise / temperature);
-    }
-  };
-  const ensemble_options both_ends{.trajectories = options.trajectories,
-                                   .steps = options.steps,
-                                   .every = options.steps,
-                                   .seed = options.seed,
-                                   .threads = options.threads,
-                                   .progress = options.progress,
-                                   .ranks = options.ranks};
-  const auto stepper = make_stepper(system, method, options.step);
-  const auto diverged = detail::with_scalar_of(
-      system, [&]<class T>(T) { return integrate_ensemble<T>(stepper, ensemble, both_ends, 1, read, take); });
+  auto [of_each, diverged] = rises_of_energy(system, method, options.step, ensemble,
+                                             {.trajectories = options.trajectories,
+                                              .steps = options.steps,
+                                              .every = options.steps,
+                                              .seed = options.seed,
+                                              .threads = options.threads,
+                                              .progress = options.progress,
+                                              .ranks = options.ranks});
+  for (double& rise : of_each) rise = rise <= 0.0 ? 1.0 : std::exp(-rise / temperature);
   shard(options.trajectories, *options.ranks).gather(of_each);
 
   acceptance_result result{mean_and_error(of_each), of_each, {}};
@@ -98,6 +79,10 @@ acceptance_result acceptance(const model& system, const tabulated& method, const
   result.evaluations_per_time = static_cast<double>(evaluations) / time;
   return result;
 }
+
+}  // namespace nysalt::detail
+
+namespace nysalt {
 
 double acceptance_at(double energy_error) {
   return energy_error > 0.0 ? std::erfc(0.5 * std::sqrt(energy_error)) : 1.0;

@@ -25,11 +25,11 @@ std::int64_t trajectories_of_group(std::int64_t trajectories) {
 gathering::gathering(const statistics_wanted& wanted, std::int64_t trajectories, std::int64_t samples,
                      double interval, double centre, const communicator& ranks)
     : wanted_(&wanted),
-      ranks_(&ranks),
       samples_(samples),
       interval_(interval),
       centre_(centre),
       group_size_(trajectories_of_group(trajectories)),
+      share_(trajectories, ranks, trajectories_of_thread()),
       lost_at_(static_cast<std::size_t>(trajectories)),
       means_(lost_at_.size()) {
   const auto groups = static_cast<std::size_t>((trajectories - 1) / group_size_ + 1);
@@ -38,9 +38,9 @@ gathering::gathering(const statistics_wanted& wanted, std::int64_t trajectories,
 }
 
 void gathering::gather() {
-  if (ranks_->is_single()) return;
-  gather(lost_at_, 1);
-  gather(means_, 1);
+  if (share_.ranks().is_single()) return;
+  share_.gather(lost_at_);
+  share_.gather(means_);
   if (wanted_->histogram) gather_histograms();
   if (wanted_->lags) gather_covariances();
 }
@@ -65,29 +65,13 @@ gathered_statistics gathering::result(std::int64_t first) {
   return all;
 }
 
-std::int64_t gathering::first_of(int rank) const {
-  const std::int64_t all = std::ssize(lost_at_);
-  const std::int64_t shares = (all - 1) / trajectories_of_thread() + 1;
-  return std::min(all, first_of_part(shares, rank, ranks_->size()) * trajectories_of_thread());
-}
-
-template <class Item>
-void gathering::gather(std::vector<Item>& all, std::size_t items, std::int64_t trajectories_of_item) const {
-  std::vector<std::size_t> first_of_rank;
-  for (int r = 0; r <= ranks_->size(); ++r) {
-    const std::int64_t first = (first_of(r) + trajectories_of_item - 1) / trajectories_of_item;
-    first_of_rank.push_back(static_cast<std::size_t>(first) * items);
-  }
-  all_gather_items(*ranks_, all, first_of_rank);
-}
-
 void gathering::gather_histograms() {
   std::vector<std::int64_t> all;
   for (const histogram& group : histograms_) {
     all.insert(all.end(), group.counts().begin(), group.counts().end());
   }
   const std::size_t bins = histograms_.front().counts().size();
-  gather(all, bins, group_size_);
+  share_.gather(all, static_cast<std::int64_t>(bins), group_size_);
   for (std::size_t g = 0; g < histograms_.size(); ++g) {
     histograms_[g] = histogram(*wanted_->histogram, std::span(all).subspan(g * bins, bins));
   }
@@ -97,7 +81,7 @@ void gathering::gather_covariances() {
   std::vector<pair_sums> all;
   for (const autocovariance_sums& group : covariances_) all.insert(all.end(), group.begin(), group.end());
   const std::size_t lags = covariances_.front().size();
-  gather(all, lags, group_size_);
+  share_.gather(all, static_cast<std::int64_t>(lags), group_size_);
   for (std::size_t g = 0; g < covariances_.size(); ++g) {
     std::ranges::copy(std::span(all).subspan(g * lags, lags), covariances_[g].begin());
   }
@@ -121,13 +105,10 @@ void gathering::set_moments(gathered_statistics& all) const {
 }
 
 std::int64_t samples_of_trajectory(const ensemble_options& options, const statistics_wanted& wanted) {
-  constexpr std::int64_t most = std::int64_t{1} << 48U;  // the number of trajectories with noise of their own
-  if (options.trajectories < 1 || options.trajectories > most || options.first < 0 || options.steps < 0 ||
-      options.every < 1 || wanted.from < 0 || wanted.from > options.steps) {
-    throw std::invalid_argument(fmt::format(
-        "ensemble_statistics: trajectories must be 1 to 2^48, first and steps >= 0, every >= 1, and from 0 "
-        "to steps, got trajectories {}, first {}, steps {}, every {} and from {}",
-        options.trajectories, options.first, options.steps, options.every, wanted.from));
+  detail::require_ensemble("ensemble_statistics", options);
+  if (wanted.from < 0 || wanted.from > options.steps) {
+    throw std::invalid_argument(fmt::format("ensemble_statistics: from must be 0 to steps, got from {} of {}",
+                                            wanted.from, options.steps));
   }
   const std::int64_t before = wanted.from == 0 ? 0 : (wanted.from - 1) / options.every + 1;
   const std::int64_t samples = options.steps / options.every + 1 - before;

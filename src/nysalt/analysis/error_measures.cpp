@@ -124,19 +124,25 @@ error_measure state_measure(const model& system) {
           .dimension = system.size()};
 }
 
+namespace {
+
+/// The square of the difference of the only numbers that are read, and that of the number of the reference.
+constexpr auto squared_difference = [](const auto& seen, const auto& expected) {
+  const auto difference = seen[0] - expected[0];
+  return difference * difference;
+};
+constexpr auto square = [](const auto& expected) { return expected[0] * expected[0]; };
+
+}  // namespace
+
 error_measure detail::energy_measure(const model& system) {
   const auto read = [system]<class T>(const phase_point<T, Eigen::Dynamic>& x, std::span<T> result) {
     result[0] = energy<T>(system, x);
   };
-  const auto error = [](const auto& seen, const auto& at_start) {
-    const auto difference = seen[0] - at_start[0];
-    return difference * difference;
-  };
-  const auto square = [](const auto& at_start) { return at_start[0] * at_start[0]; };
   return {.name = "energy",
           .width = 1,
           .read = read,
-          .error = error,
+          .error = squared_difference,
           .how = averaging::root_of_all,
           .needs_reference = false,
           .no_scale =
@@ -150,15 +156,10 @@ error_measure detail::path_measure(const over_scalars<of_state>& observable, Eig
   const auto read = [observable]<class T>(const phase_point<T, Eigen::Dynamic>& x, std::span<T> result) {
     result[0] = observable(x);
   };
-  const auto error = [](const auto& seen, const auto& expected) {
-    const auto difference = seen[0] - expected[0];
-    return difference * difference;
-  };
-  const auto square = [](const auto& expected) { return expected[0] * expected[0]; };
   return {.name = "path",
           .width = 1,
           .read = read,
-          .error = error,
+          .error = squared_difference,
           .how = averaging::root_of_each,
           .no_scale =
               "the path error: the observable on the reference, to which the error is relative, must not be "
@@ -170,8 +171,7 @@ error_measure detail::path_measure(const over_scalars<of_state>& observable, Eig
 error_measure detail::relative_measure(error_measure path) {
   path.name = "relative";
   path.error = [](const auto& seen, const auto& expected) {
-    const auto difference = seen[0] - expected[0];
-    return difference * difference / (expected[0] * expected[0]);
+    return squared_difference(seen, expected) / square(expected);
   };
   path.scale = [](const auto& expected) { return expected[0]; };
   path.relative_to = {};

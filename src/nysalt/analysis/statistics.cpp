@@ -19,18 +19,27 @@
 
 namespace nysalt {
 
+namespace {
+
+double count_of(std::span<const double> numbers) {
+  return static_cast<double>(std::ranges::count_if(numbers, [](double x) { return !std::isnan(x); }));
+}
+
+/// The tree_sum of term(x) over the numbers x, in which NaN adds 0.
+double sum_over(std::span<const double> numbers, const auto& term) {
+  std::vector<double> terms;
+  for (const double x : numbers) terms.push_back(std::isnan(x) ? 0.0 : term(x));
+  return tree_sum(terms);
+}
+
+}  // namespace
+
 estimate mean_and_error(std::span<const double> samples) {
-  double n = 0.0;
-  for (const double x : samples) n += std::isnan(x) ? 0.0 : 1.0;
+  const double n = count_of(samples);
   if (n == 0.0) return {};
-  const auto mean_of = [&](const auto& term, double divisor) {
-    std::vector<double> terms;
-    for (const double x : samples) terms.push_back(std::isnan(x) ? 0.0 : term(x));
-    return tree_sum(terms) / divisor;
-  };
-  const double mean = mean_of([](double x) { return x; }, n);
+  const double mean = sum_over(samples, std::identity()) / n;
   if (n < 2.0) return {mean, std::numeric_limits<double>::quiet_NaN()};
-  const double variance = mean_of([&](double x) { return (x - mean) * (x - mean); }, n - 1.0);
+  const double variance = sum_over(samples, [&](double x) { return (x - mean) * (x - mean); }) / (n - 1.0);
   return {mean, std::sqrt(variance / n)};
 }
 
@@ -84,21 +93,17 @@ double slope(std::span<const double> x, std::span<const double> y) {
 }
 
 tail tail_of(std::span<const double> numbers) {
-  tail result;
+  tail result{.count = count_of(numbers)};
   double largest = 0.0;
   for (const double x : numbers) {
-    result.count += std::isnan(x) ? 0.0 : 1.0;
     if (std::abs(x) > largest) largest = std::abs(x);
   }
   if (largest == 0.0) return result;
-  std::vector<double> terms(numbers.size());
   // In units of the largest: no power of a small number underflows.
   const auto mean_of = [&](const auto& term) {
-    std::ranges::transform(numbers, terms.begin(),
-                           [&](double x) { return std::isnan(x) ? 0.0 : term(x / largest); });
-    return tree_sum(terms) / result.count;
+    return sum_over(numbers, [&](double x) { return term(x / largest); }) / result.count;
   };
-  const double mean = mean_of([](double x) { return x; });
+  const double mean = mean_of(std::identity());
   const double variance = mean_of([&](double x) { return (x - mean) * (x - mean); });
   const double third = mean_of([&](double x) { return (x - mean) * (x - mean) * (x - mean); });
   result.deciding = result.count * mean * mean / (variance + mean * mean);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Runs of methods and of their reference side by side, and the measures that see them.
+// Runs of methods and of their reference side by side, and the errors that are measured on them.
 #pragma once
 
 #include <algorithm>
@@ -23,121 +23,106 @@
 #include "nysalt/method.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/reference.hpp"
-#include "nysalt/shard.hpp"
-
-namespace nysalt {
-
-/// Several measures that read the same states: the numbers of all lie one after the other.
-class joined_measures {
- public:
-  /// All of them, or only those that need a reference: of the others then nothing is read.
-  enum class which { all, of_reference };
-
-  /// Refers to the measures.
-  explicit joined_measures(std::span<const error_measure> measures, which wanted = which::all)
-      : measures_(measures) {
-    for (const error_measure& measure : measures) {
-      const bool counts = wanted == which::all || measure.needs_reference;
-      begins_.push_back(begins_.back() + (counts ? measure.width : 0));
-    }
-  }
-
-  std::size_t size() const { return measures_.size(); }                          ///< number of measures
-  const error_measure& operator[](std::size_t i) const { return measures_[i]; }  ///< measure i
-  /// Number of values that are read of a state.
-  std::size_t width() const { return begins_.back(); }
-  /// Whether anything is read for measure i.
-  bool reads(std::size_t i) const { return begins_[i + 1] > begins_[i]; }
-
-  /// Writes all width() numbers of a state.
-  template <class T>
-  void read(const phase_point<T, Eigen::Dynamic>& x, std::span<T> result) const {
-    for (std::size_t i = 0; i < size(); ++i) {
-      if (reads(i)) measures_[i].read(x, result.subspan(begins_[i], begins_[i + 1] - begins_[i]));
-    }
-  }
-  /// The numbers of measure i among all of a state.
-  template <class T>
-  std::span<const T> part(std::size_t i, std::span<const T> all) const {
-    return all.subspan(begins_[i], begins_[i + 1] - begins_[i]);
-  }
-
- private:
-  std::span<const error_measure> measures_;
-  std::vector<std::size_t> begins_{0};  // and where the last ends
-};
-
-}  // namespace nysalt
-
-// Scores of all trajectories by one measure, gathered over the ranks.
 
 namespace nysalt::detail {
 
-/// Scores of all trajectories by one measure.
-struct measured_trajectories {
-  /// Nothing yet.
-  measured_trajectories(std::size_t methods, std::size_t trajectories, std::size_t checked, bool null,
-                        std::size_t perturbed);
-
-  /// Each rank has filled in its own, and all get all. The few that checks are of are in the first leaf.
-  void gather(const shard& own);
-  /// Summary over all trajectories. Throws std::invalid_argument where what errors are relative to is 0, or a
-  /// scale is of both signs.
-  trajectory_errors_result summary(const error_measure& measure, const std::string& reference) const;
-
-  std::vector<std::vector<run_score>> runs;  // of each method
-  std::vector<double> checks;                // of the reference against its finer self
-  std::vector<double> null_model;
-  std::vector<double> predictable_until;
-  std::vector<double> sizes;  // means over time of what errors are relative to
-  std::vector<double> signs;  // of scales; 0 where there is none
+/// Scores of the trajectories of one method; NaN, and the step, for a trajectory that diverged.
+struct scores_of_method {
+  std::vector<double> scores;
+  std::vector<std::optional<std::int64_t>> diverged_at;
 };
 
-}  // namespace nysalt::detail
+/// What was measured of all trajectories by one measure.
+struct measured_errors {
+  std::vector<scores_of_method> methods;
+  std::vector<double> checks;  // errors of the reference against its finer self, on the first trajectories
+  std::vector<double> null_model;         // empty if it is not wanted
+  std::vector<double> predictable_until;  // times, on the first trajectories; empty if they are not wanted
+  std::vector<double> sizes;              // means over time of what errors are relative to
+  std::vector<double> signs;              // of scales; 0 where there is none
+};
 
-// Readings of measures along a reference.
+/// What is compared: methods with a reference, by measures whose numbers lie one after the other.
+struct comparison {
+  const nysalt::reference& reference;
+  std::span<const tabulated> methods;
+  std::span<const error_measure> measures;
+  const trajectory_options& options;
+  std::int64_t checked;    // on so many trajectories the reference is compared with its finer self
+  std::int64_t perturbed;  // on so many with a run from perturbed starts
+  int parts;               // of a step, in which methods need the noise of a path; 0: there is none
+  sample_weights weights;
+  std::vector<std::size_t> begins;  // of the numbers of each measure among those of all, and where they end
 
-namespace nysalt {
+  std::size_t width() const { return begins.back(); }
+  bool needs_reference() const { return std::ranges::any_of(measures, &error_measure::needs_reference); }
+  /// The numbers of measure i among all that are read of a state.
+  template <class Number>
+  std::span<Number> part(std::size_t i, std::span<Number> all) const {
+    return all.subspan(begins[i], measures[i].width);
+  }
+  /// Reads the numbers of all measures, or of those that need a reference.
+  template <class T>
+  void read(const phase_point<T, Eigen::Dynamic>& x, std::span<T> numbers, bool of_all = true) const {
+    for (std::size_t i = 0; i < measures.size(); ++i) {
+      if (of_all || measures[i].needs_reference) measures[i].read(x, part(i, numbers));
+    }
+  }
+};
 
-/// Readings of measures along a reference, an interval of samples at a time; one trajectory in each lane. In
-/// a bath the noise of that interval is kept for the methods that follow.
+/// Trajectories first .. first + count - 1 from their starts on, one in each lane of T.
+template <class T>
+struct block_of_starts {
+  const model& system;
+  phase_point<T, Eigen::Dynamic> start;
+  std::int64_t first;
+  int count;
+};
+
+/// Readings of measures along a reference, an interval of samples at a time. In a bath the noise of that
+/// interval is kept for the methods that follow.
 template <class T>
 class reference_along {
  public:
   using state = phase_point<T, Eigen::Dynamic>;        ///< states of all lanes
   using path_type = recorded_path<T, Eigen::Dynamic>;  ///< noise, in parts of a step
 
-  /// Refers to measures and path, to which the kept noise of each interval is added.
-  reference_along(const model& system, const nysalt::reference& reference, const joined_measures& measures,
-                  const state& start, const reference_intervals& intervals, path_type* path = nullptr)
-      : description_(reference.description()),
-        measures_(&measures),
-        run_(reference.open(system, start, intervals)),
-        count_(intervals.count),
-        step_(intervals.at.step),
+  /// Refers to what is compared, the block, the reference and the path, to which the noise of each step is
+  /// added; from other starts than those of the block, on its noise.
+  reference_along(const comparison& compared, const block_of_starts<T>& block,
+                  const nysalt::reference& reference, const state& start, path_type* path = nullptr)
+      : compared_(&compared),
+        block_(&block),
+        description_(reference.description()),
+        run_(reference.open(block.system, start,
+                            {.length = compared.options.step,
+                             .count = block.count,
+                             .at = {compared.options.seed, static_cast<std::uint64_t>(block.first), 0},
+                             .noise_parts = path == nullptr ? 0 : compared.parts})),
         path_(path),
-        signs_(measures.size()) {}
+        signs_(compared.measures.size()) {}
 
-  /// Reads the next `samples`, each an interval after the last. What is not sound is remembered.
+  /// Reads the next `samples`, each a step after the last. What is not sound is remembered.
   void go_on(std::int64_t samples) {
-    const std::size_t width = measures_->width();
-    numbers_.resize(static_cast<std::size_t>(samples) * width);
+    from_ = step_ + 1;
+    numbers_.resize(static_cast<std::size_t>(samples) * compared_->width());
     // A letter O that ends the step before the interval is still to come.
     if (path_ != nullptr) path_->forget_before((step_ - 1) * std::ssize(run_->noise()));
     for (std::int64_t i = 0; i < samples; ++i) {
       run_->advance();
       for (const auto& xi : run_->noise()) path_->add(xi);
       ++step_;
-      const auto here = std::span(numbers_).subspan(static_cast<std::size_t>(i) * width, width);
-      measures_->read(run_->state(), here);
+      const auto here =
+          std::span(numbers_).subspan(static_cast<std::size_t>(i) * compared_->width(), compared_->width());
+      compared_->read(run_->state(), here, false);
       inspect(here);
     }
   }
 
-  /// The numbers of sample i of the last interval.
-  std::span<const T> at(std::int64_t i) const {
-    const std::size_t width = measures_->width();
-    return std::span(numbers_).subspan(static_cast<std::size_t>(i) * width, width);
+  /// The numbers of measure i at sample n of the last interval.
+  std::span<const T> at(std::size_t i, std::int64_t n) const {
+    const auto begin = static_cast<std::size_t>(n - from_) * compared_->width();
+    return compared_->part(i, std::span(numbers_).subspan(begin, compared_->width()));
   }
 
   /// The sign of the scale of a measure in lane k; 0 where it has none.
@@ -145,17 +130,16 @@ class reference_along {
 
   /// Throws for the first trajectory that came to grief: std::runtime_error where the reference, or what is
   /// read of it, is not finite; std::invalid_argument where a measure has no scale, or one that changes sign.
-  /// `first` is in lane 0.
-  void require_sound(std::int64_t first) const {
-    for (int k = 0; k < count_; ++k) {
+  void require_sound() const {
+    for (int k = 0; k < block_->count; ++k) {
       const auto& first_failure = failures_[static_cast<std::size_t>(k)];
       if (!first_failure) continue;
-      const auto& measure = (*measures_)[first_failure->measure];
+      const auto& measure = compared_->measures[first_failure->measure];
       if (first_failure->without_scale) throw std::invalid_argument(measure.no_scale);
       throw std::runtime_error(
           sentence("trajectory {} of the reference ({}), and what the {} error reads of it, must be finite, "
                    "got another number at step {}; take other starts, a finer reference or a shorter horizon",
-                   first + k, description_, measure.name, first_failure->step));
+                   block_->first + k, description_, measure.name, first_failure->step));
     }
   }
 
@@ -168,15 +152,16 @@ class reference_along {
 
   void inspect(std::span<const T> all) {
     const auto finite = is_finite(run_->state());
-    for (std::size_t i = 0; i < measures_->size(); ++i) {
-      const auto here = measures_->part(i, all);
+    for (std::size_t i = 0; i < compared_->measures.size(); ++i) {
+      const error_measure& measure = compared_->measures[i];
+      const auto here = compared_->part(i, all);
       auto sound = finite;
       for (const T& number : here) {
         sound = both(sound, number - number == T(0.0));  // NOLINT(misc-redundant-expression): NaN, infinity
       }
       std::optional<T> scale;
-      if (measures_->reads(i) && (*measures_)[i].scale) scale = (*measures_)[i].scale(here);
-      for (int k = 0; k < count_; ++k) {
+      if (measure.needs_reference && measure.scale) scale = measure.scale(here);
+      for (int k = 0; k < block_->count; ++k) {
         auto& first_failure = failures_[static_cast<std::size_t>(k)];
         const bool without_scale = scale && !keeps_sign(i, k, lane(*scale, k));
         if (first_failure || (lane(sound, k) && !without_scale)) continue;
@@ -192,11 +177,12 @@ class reference_along {
     return known_sign * scale > 0.0 || std::isnan(scale);
   }
 
+  const comparison* compared_;
+  const block_of_starts<T>* block_;
   std::string description_;  // of the reference
-  const joined_measures* measures_;
   std::unique_ptr<reference_run<T>> run_;
-  int count_;
-  std::int64_t step_;
+  std::int64_t step_ = 0;  // steps done
+  std::int64_t from_ = 0;  // the first step of the interval
   path_type* path_;
   std::vector<T> numbers_;
   std::array<std::optional<failure>, static_cast<std::size_t>(lanes_in<T>)> failures_{};
@@ -204,236 +190,186 @@ class reference_along {
       signs_;  // of the scale of each measure
 };
 
-// The reference that methods are compared with, and what it is compared with itself.
-
-/// On how many of the trajectories, from the first on, a reference is compared with itself.
-struct reference_checks {
-  int finer = 0;                            ///< with its finer self
-  int perturbed = 0;                        ///< with itself from perturbed starts
-  std::optional<double> perturbation = {};  ///< relative size, of every coordinate
-  bool null_model = false;                  ///< whether that is compared too, on all trajectories
-};
-
-/// Expected values of measures along trajectories in lanes: the numbers of the reference, or those at the
-/// start. Beside them go the reference's finer self, one from perturbed starts on the same noise, and the
-/// null model in which all stays as it was at the start; each only as far as it is wanted.
+/// Methods beside the reference, from the same starts and with its noise. Beside it go also the reference's
+/// finer self, one from perturbed starts on the same noise, and the null model in which all stays as it was
+/// at the start; each only as far as it is wanted. All measures read the same runs.
 template <class T>
-class reference_tracker {
+class compared_block {
  public:
-  using state = phase_point<T, Eigen::Dynamic>;        ///< states of all lanes
-  using path_type = recorded_path<T, Eigen::Dynamic>;  ///< the reference's noise
-
-  /// Refers to all but the start, and to itself. The noise is added to the path in `parts` parts of a step.
-  reference_tracker(const model& system, const nysalt::reference& reference,
-                    std::span<const error_measure> measures, double step, const state& start, int count,
-                    const reference_checks& checks, const path_place& at, path_type& path, int noise_parts,
-                    const sample_weights& weights)
-      : measures_(measures, joined_measures::which::of_reference),
-        step_(step),
-        weights_(weights),
-        checks_(checks),
-        live_(first_lanes<T>(count)) {
-    for (const error_measure& measure : measures) {
-      at_start_.push_back(measure.numbers_of(start));
-      if (!measure.needs_reference && measure.scale) require_scale(measure, at_start_.back(), count);
-      const error_sum<T> none(measure, weights(0));
-      errors_.push_back({none, none, none, predictable_samples<T>(measure.how)});
+  /// Refers to what is compared, and to itself.
+  compared_block(const comparison& compared, const block_of_starts<T>& block)
+      : compared_(compared),
+        block_(block),
+        live_(first_lanes<T>(block.count)),
+        at_start_(compared.width()),
+        path_(std::abs(compared.options.step) / std::max(compared.parts, 1), block.system.bath().friction(),
+              static_cast<std::uint64_t>(block.first)) {
+    compared.read(block_.start, std::span<T>(at_start_));
+    std::vector<errors_along<T>> none;
+    for (std::size_t i = 0; i < compared.measures.size(); ++i) {
+      const error_measure& measure = compared.measures[i];
+      none.emplace_back(measure, compared.weights(0));
+      of_reference_.push_back({none[i], none[i], none[i], predictable_samples<T>(measure.how)});
+      if (!measure.needs_reference && measure.scale) require_scale(measure, starts_of(i));
       if (measure.relative_to) {  // of what needs no reference that is all
-        const double weight = measure.needs_reference ? weights(0) : weights.total();
-        errors_.back().size = measure.relative_to(at_start_.back()) * weight;
+        const double weight = measure.needs_reference ? compared.weights(0) : compared.weights.total();
+        of_reference_[i].size = measure.relative_to(starts_of(i)) * weight;
       }
     }
-    const bool needed = measures_.width() > 0;
-    if (needed || noise_parts > 0) {
-      reference_.emplace(system, reference, measures_, start,
-                         reference_intervals{step, count, at, noise_parts}, &path);
-    }
-    if (needed && checks.finer > 0) {
-      finer_.emplace(system, reference.finer(), measures_, start,
-                     reference_intervals{step, checks.finer, at});
-    }
-    if (needed && checks.perturbed > 0 && checks.perturbation) {
-      const auto from = nysalt::perturbed(start, *checks.perturbation, at.seed, at.trajectory);
-      perturbed_.emplace(system, reference, measures_, from, reference_intervals{step, checks.perturbed, at});
+    open_references();
+    methods_.reserve(compared.methods.size());
+    for (const tabulated& method : compared.methods) {
+      const auto covered = compared.parts == 0 ? noise_intervals()
+                                               : intervals_of_noise(method.letters(), method.coefficients());
+      methods_.push_back({make_stepper(block.system, method, compared.options.step,
+                                       noise_type(path_, covered, compared.options.step)),
+                          {},
+                          {*this, none}});
+      methods_.back().run.emplace(methods_.back().stepper, block_.start, block.count, block.first);
     }
   }
+  compared_block(const compared_block&) = delete;
+  compared_block& operator=(const compared_block&) = delete;
 
-  reference_tracker(const reference_tracker&) = delete;
-  reference_tracker& operator=(const reference_tracker&) = delete;
-
-  /// Goes on through the samples from + 1 .. to.
-  void go_on(std::int64_t from, std::int64_t to) {
-    from_ = from;
-    if (reference_) reference_->go_on(to - from);
-    if (finer_) finer_->go_on(to - from);
-    if (perturbed_) perturbed_->go_on(to - from);
-    for (std::size_t i = 0; i < measures_.size(); ++i) {
-      if (measures_.reads(i)) compare(i, to);
-    }
-  }
-
-  /// The expected values of measure i at sample n of the last interval.
-  std::span<const T> expected(std::size_t i, std::int64_t n) const {
-    return measures_.reads(i) ? seen_by(*reference_, i, n) : std::span<const T>(at_start_[i]);
-  }
-
-  /// See reference_along; `first` is the number of the trajectory in lane 0.
-  void require_sound(std::int64_t first) const {
-    if (reference_) reference_->require_sound(first);
-    if (finer_) finer_->require_sound(first);
-  }
-  /// The reference's own error, against its finer self, by measure i in lane k, if it was wanted.
-  double finer_error(std::size_t i, int k) const { return errors_[i].finer.score(k).value; }
-  /// The null model's error by measure i in lane k, if it was wanted.
-  double null_error(std::size_t i, int k) const { return errors_[i].null_model.score(k).value; }
-  /// The mean over time of what measure i is relative to, in lane k.
-  double size(std::size_t i, int k) const { return lane(errors_[i].size, k) / weights_.total(); }
-  /// The sign of the scale of measure i in lane k; 0 if it has none.
-  double sign(std::size_t i, int k) const {
-    if (!measures_[i].scale) return 0.0;
-    if (measures_.reads(i)) return reference_->sign(i, k);
-    return std::copysign(1.0, lane(measures_[i].scale(at_start_[i]), k));
-  }
-  /// A time, by measure i in lane k, if it was wanted; infinite if it is beyond the end.
-  double predictable_until(std::size_t i, int k) const {
-    return errors_[i].predictable.until(k) * std::abs(step_);
-  }
-
- private:
-  struct errors_of_measure {
-    error_sum<T> finer;
-    error_sum<T> null_model;
-    error_sum<T> perturbed;
-    predictable_samples<T> predictable;
-    T size{0.0};  // what the errors are relative to, summed over time
-  };
-
-  std::span<const T> seen_by(const reference_along<T>& run, std::size_t i, std::int64_t n) const {
-    return measures_.part(i, run.at(n - from_ - 1));
-  }
-
-  void compare(std::size_t i, std::int64_t to) {
-    errors_of_measure& errors = errors_[i];
-    for (std::int64_t n = from_ + 1; n <= to; ++n) {
-      const auto exact = expected(i, n);
-      const double weight = weights_(n);
-      if (measures_[i].relative_to) errors.size += measures_[i].relative_to(exact) * weight;
-      if (finer_) errors.finer.add(n, exact, seen_by(*finer_, i, n), live_, weight);
-      if (checks_.null_model || perturbed_) errors.null_model.add(n, at_start_[i], exact, live_, weight);
-      if (!perturbed_) continue;
-      errors.perturbed.add(n, seen_by(*perturbed_, i, n), exact, live_, weight);
-      errors.predictable.add(n, errors.perturbed.sum(), errors.null_model.sum());
-    }
-  }
-
-  static void require_scale(const error_measure& measure, std::span<const T> at_start, int count) {
-    const T scale = measure.scale(at_start);
-    for (int k = 0; k < count; ++k) {
-      if (lane(scale, k) == 0.0) throw std::invalid_argument(measure.no_scale);
-    }
-  }
-
-  joined_measures measures_;  // those that need a reference
-  double step_;
-  sample_weights weights_;
-  reference_checks checks_;
-  condition_of<T> live_;
-  std::int64_t from_ = 0;
-  std::vector<std::vector<T>> at_start_;
-  std::vector<errors_of_measure> errors_;
-  std::optional<reference_along<T>> reference_;
-  std::optional<reference_along<T>> finer_;
-  std::optional<reference_along<T>> perturbed_;
-};
-
-// Methods beside the reference, along trajectories side by side.
-
-/// The noise that methods share with a reference: in how many parts of a step, and of which reference.
-struct shared_noise {
-  int parts = 0;           ///< 0: there is none
-  std::uint64_t seed = 0;  ///< of the noise
-  std::int64_t first = 0;  ///< number of the trajectory in lane 0
-};
-
-/// Methods beside the reference, from the same starts and with its noise; one trajectory in each lane. All
-/// measures read the same runs.
-template <class T>
-class method_runs {
- public:
-  using state = phase_point<T, Eigen::Dynamic>;        ///< states of all lanes
-  using path_type = recorded_path<T, Eigen::Dynamic>;  ///< the reference's noise
-
-  /// Refers to all but the start, and partly to itself.
-  method_runs(const model& system, const nysalt::reference& reference, std::span<const tabulated> methods,
-              double step, std::span<const error_measure> measures, const state& start, int count,
-              const reference_checks& checks, const shared_noise& noise, const sample_weights& weights)
-      : measures_(measures),
-        step_(step),
-        weights_(weights),
-        path_(path_in(system, step, noise)),
-        reference_(system, reference, measures, step, start, count, checks,
-                   {noise.seed, static_cast<std::uint64_t>(noise.first), 0}, path_, noise.parts, weights) {
-    for (const tabulated& method : methods) {
-      const noise_type along(path_, intervals(method, noise), step);
-      steppers_.push_back(make_stepper(system, method, step, along));
-    }
-    std::vector<error_sum<T>> none;
-    for (const error_measure& measure : measures) none.emplace_back(measure, weights(0));
-    for (const auto& stepper : steppers_) runs_.push_back({{stepper, start, count, noise.first}, none});
-  }
-
-  method_runs(const method_runs&) = delete;
-  method_runs& operator=(const method_runs&) = delete;
-
-  /// Follows the reference and all methods, one interval after the other, so that no path is kept.
-  void run(std::int64_t steps) {
-    const auto read = [&](const state& x, std::span<T> numbers) { measures_.read(x, numbers); };
+  /// Follows the reference and all methods, one interval after the other, so that no path is kept. Throws
+  /// like reference_along.
+  void run() {
+    const std::int64_t steps = compared_.options.steps;
     for (std::int64_t done = 0; done < steps; done += steps_between_checks) {
       const std::int64_t next = std::min(done + steps_between_checks, steps);
-      reference_.go_on(done, next);
-      for (watched_run& method_run : runs_) {
-        method_run.run.go_on(next, 1, measures_.width(), read,
-                             [&](std::int64_t n, std::span<const T> seen, const auto& live) {
-                               for (std::size_t i = 0; i < measures_.size(); ++i) {
-                                 method_run.errors[i].add(n, measures_.part(i, seen),
-                                                          reference_.expected(i, n), live, weights_(n));
-                               }
-                             });
+      for (auto* run : {&reference_, &finer_, &perturbed_}) {
+        if (*run) (*run)->go_on(next - done);
       }
+      for (std::int64_t n = done + 1; n <= next; ++n) compare_references(n);
+      for (auto& method : methods_) method.run->go_on(next, 1, method.errors);
     }
+    if (reference_) reference_->require_sound();
+    if (finer_) finer_->require_sound();
   }
 
-  const reference_tracker<T>& reference() const { return reference_; }  ///< with its checks, after run()
-  /// The score of a method by a measure, in lane k; after run().
-  run_score score(std::size_t measure, std::size_t method, int k) const {
-    return runs_[method].errors[measure].score(k, runs_[method].run.diverged_at(k));
+  /// Puts what was measured into the places of its trajectories, after run().
+  void store(std::vector<measured_errors>& found) const {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      for (int k = 0; k < block_.count; ++k) store(i, k, found[i]);
+    }
   }
 
  private:
   using noise_type = along_path<T, Eigen::Dynamic>;
   using stepper_type = stepper<model, double, noise_type>;
-  struct watched_run {
-    lockstep<stepper_type, T> run;
-    std::vector<error_sum<T>> errors;  // one a measure
+
+  /// The errors of a method by all measures, as a Measure.
+  struct errors_of_method {
+    const compared_block& block;
+    std::vector<errors_along<T>> along;
+
+    std::size_t width() const { return block.compared_.width(); }
+    void read(const phase_point<T, Eigen::Dynamic>& x, std::span<T> numbers) const {
+      block.compared_.read(x, numbers);
+    }
+    void see(std::int64_t n, std::span<const T> seen, const condition_of<T>& live) {
+      for (std::size_t i = 0; i < along.size(); ++i) {
+        along[i].see(n, block.compared_.part(i, seen), block.expected(i, n), live,
+                     block.compared_.weights(n));
+      }
+    }
+  };
+  struct method_beside {
+    stepper_type stepper;
+    std::optional<lockstep<stepper_type, T>> run;
+    errors_of_method errors;
+  };
+  struct errors_of_reference {
+    errors_along<T> finer;
+    errors_along<T> null_model;
+    errors_along<T> perturbed;
+    predictable_samples<T> predictable;
+    T size{0.0};  // what the errors are relative to, summed over time
   };
 
-  /// Held in parts of a step.
-  static path_type path_in(const model& system, double step, const shared_noise& noise) {
-    return {std::abs(step) / std::max(noise.parts, 1), system.bath().friction(),
-            static_cast<std::uint64_t>(noise.first)};
+  std::span<const T> starts_of(std::size_t i) const {
+    return compared_.part(i, std::span<const T>(at_start_));
   }
-  static noise_intervals intervals(const tabulated& method, const shared_noise& noise) {
-    if (noise.parts == 0) return {};
-    return intervals_of_noise(method.letters(), method.coefficients());
+  std::span<const T> expected(std::size_t i, std::int64_t n) const {
+    return compared_.measures[i].needs_reference ? reference_->at(i, n) : starts_of(i);
+  }
+  bool has(std::int64_t trajectories) const { return block_.first < trajectories; }
+
+  void open_references() {
+    const bool is_needed = compared_.needs_reference();
+    if (is_needed || compared_.parts > 0) {
+      reference_.emplace(compared_, block_, compared_.reference, block_.start, &path_);
+    }
+    if (is_needed && has(compared_.checked)) {
+      finer_.emplace(compared_, block_, compared_.reference.finer(), block_.start);
+    }
+    if (is_needed && has(compared_.perturbed)) {
+      perturbed_.emplace(compared_, block_, compared_.reference,
+                         perturbed(block_.start, *compared_.options.perturbation, compared_.options.seed,
+                                   static_cast<std::uint64_t>(block_.first)));
+    }
   }
 
-  joined_measures measures_;
-  double step_;
-  sample_weights weights_;
-  path_type path_;  // of the present interval
-  reference_tracker<T> reference_;
-  std::vector<stepper_type> steppers_;
-  std::vector<watched_run> runs_;
+  void compare_references(std::int64_t n) {
+    const double weight = compared_.weights(n);
+    for (std::size_t i = 0; i < of_reference_.size(); ++i) {
+      const error_measure& measure = compared_.measures[i];
+      if (!measure.needs_reference) continue;
+      errors_of_reference& errors = of_reference_[i];
+      const auto exact = reference_->at(i, n);
+      if (measure.relative_to) errors.size += measure.relative_to(exact) * weight;
+      if (finer_) errors.finer.see(n, exact, finer_->at(i, n), live_, weight);
+      if (compared_.options.null_model || perturbed_) {
+        errors.null_model.see(n, starts_of(i), exact, live_, weight);
+      }
+      if (!perturbed_) continue;
+      errors.perturbed.see(n, perturbed_->at(i, n), exact, live_, weight);
+      errors.predictable.add(n, errors.perturbed.sum(), errors.null_model.sum());
+    }
+  }
+
+  void require_scale(const error_measure& measure, std::span<const T> at_start) const {
+    const T scale = measure.scale(at_start);
+    for (int k = 0; k < block_.count; ++k) {
+      if (lane(scale, k) == 0.0) throw std::invalid_argument(measure.no_scale);
+    }
+  }
+
+  double sign(std::size_t i, int k) const {
+    const error_measure& measure = compared_.measures[i];
+    if (!measure.scale) return 0.0;
+    if (measure.needs_reference) return reference_->sign(i, k);
+    return std::copysign(1.0, lane(measure.scale(starts_of(i)), k));
+  }
+
+  void store(std::size_t i, int k, measured_errors& found) const {
+    const auto slot = static_cast<std::size_t>(block_.first + k);
+    for (std::size_t m = 0; m < methods_.size(); ++m) {
+      const errors_along<T>& errors = methods_[m].errors.along[i];
+      const auto lost_at = errors.lost_at(k) ? errors.lost_at(k) : methods_[m].run->diverged_at(k);
+      found.methods[m].scores[slot] = lost_at ? std::nan("") : errors.score(k);
+      found.methods[m].diverged_at[slot] = lost_at;
+    }
+    const errors_of_reference& errors = of_reference_[i];
+    if (slot < found.checks.size()) found.checks[slot] = errors.finer.score(k);
+    if (slot < found.predictable_until.size()) {
+      found.predictable_until[slot] = errors.predictable.until(k) * std::abs(compared_.options.step);
+    }
+    if (slot < found.null_model.size()) found.null_model[slot] = errors.null_model.score(k);
+    found.sizes[slot] = lane(errors.size, k) / compared_.weights.total();
+    found.signs[slot] = sign(i, k);
+  }
+
+  const comparison& compared_;
+  const block_of_starts<T>& block_;
+  condition_of<T> live_;
+  std::vector<T> at_start_;
+  std::vector<errors_of_reference> of_reference_;  // one a measure
+  recorded_path<T, Eigen::Dynamic> path_;          // of the present interval
+  std::optional<reference_along<T>> reference_;
+  std::optional<reference_along<T>> finer_;
+  std::optional<reference_along<T>> perturbed_;
+  std::vector<method_beside> methods_;
 };
 
-}  // namespace nysalt
+}  // namespace nysalt::detail

@@ -19,8 +19,7 @@
 namespace nysalt {
 
 void for_each_block(std::int64_t count, int width, int threads,
-                    const std::function<void(std::int64_t, int)>& body,
-                    const std::function<void(std::int64_t)>& progress) {
+                    const std::function<void(std::int64_t, int)>& body, const progress_callback& progress) {
   if (threads < 1) throw std::invalid_argument(fmt::format("threads must be at least one, got {}", threads));
   if (width < 1)
     throw std::invalid_argument(fmt::format("lanes of a block must be at least one, got {}", width));
@@ -79,7 +78,7 @@ void for_each_block(std::int64_t count, int width, int threads,
 }
 
 void for_each_trajectory(std::int64_t count, int threads, const std::function<void(std::int64_t)>& body,
-                         const std::function<void(std::int64_t)>& progress) {
+                         const progress_callback& progress) {
   for_each_block(
       count, 1, threads, [&](std::int64_t m, int) { body(m); }, progress);
 }

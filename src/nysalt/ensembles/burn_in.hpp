@@ -130,9 +130,32 @@ class burn_in_pilot {
 
   struct block {
     std::shared_ptr<const burn_in_chains> chains;
-    state start;
+    int first;
     int count;
+    state start;
     lockstep<burn_in_chains::stepper_type, T> run;
+  };
+
+  /// Sums over an interval of time, as a Measure. Forces are not among the numbers that are read: these are
+  /// kept for some steps, of which forces would take much.
+  struct sums_over_time {
+    const burn_in_pilot& pilot;
+    const burn_in_chains& chains;
+    vector<T, Eigen::Dynamic> of_forces;
+    of_watched<T> sum{};
+    of_watched<T> squares{};
+    double observations = 0.0;
+
+    static std::size_t width() { return watched_numbers; }
+    void read(const state& x, std::span<T> out) { pilot.read(chains, x, out, of_forces); }
+    void see(std::int64_t, std::span<const T> seen, const condition_of<T>&) {
+      observations += 1.0;
+      for (std::size_t i = 0; i < watched_numbers; ++i) {
+        sum[i] += seen[i];
+        squares[i] += seen[i] * seen[i];
+      }
+    }
+    double mean(const T& of, int k) const { return lane(of, k) / observations; }
   };
 
  public:
@@ -140,37 +163,33 @@ class burn_in_pilot {
   burn_in_pilot(const model& base, const initial_states& from, double temperature, double friction,
                 double step, const burn_in_options& options, int count, std::int64_t first_noise,
                 const Eigen::VectorXd& slowest)
-      : chains_(std::make_shared<burn_in_chains>(base, temperature, friction, step, options.seed)),
-        threads_(options.threads),
-        count_(count),
-        slowest_(&slowest) {
+      : threads_(options.threads), count_(count), slowest_(&slowest) {
     for (int first = 0; first < count; first += width) {
       const int here = std::min(width, count - first);
       const state start = sound_starts<T>(base, from, options.seed, first, here);
-      const auto chains = !is_black_box(base) ? chains_
-                                              : std::make_shared<const burn_in_chains>(
-                                                    base, temperature, friction, step, options.seed);
-      blocks_.push_back({chains, start, here, chains->open(start, first_noise + first, here)});
+      const auto own =
+          std::make_shared<const burn_in_chains>(base, temperature, friction, step, options.seed);
+      blocks_.push_back({own, first, here, start, own->open(start, first_noise + first, here)});
     }
   }
 
   /// Goes on to step `end`, watching from here on. Throws chain_diverged, naming the first that did.
   watched_interval watch(std::int64_t end, std::int64_t every) {
     watched_interval result;
-    const auto chains = static_cast<std::size_t>(count_);
+    const auto all = static_cast<std::size_t>(count_);
     for (auto* numbers : {&result.begin, &result.mean, &result.square})
-      numbers->fill(std::vector<double>(chains));
-    result.force_square.assign(chains, Eigen::VectorXd());
-    std::vector<double> begin(chains);
-    std::vector<double> finish(chains);
+      numbers->fill(std::vector<double>(all));
+    result.force_square.assign(all, Eigen::VectorXd());
+    std::vector<double> begin(all);
+    std::vector<double> finish(all);
     const std::int64_t before = blocks_.front().run.step();
-    result.duration = static_cast<double>(end - before) * chains_->step();
-    result.zero = zero_ = lane(potential_of(*blocks_.front().chains, blocks_.front().run.synchronous()), 0);
-    for_each_block(count_, width, threads_, [&](std::int64_t first, int) {
-      block& here = blocks_[static_cast<std::size_t>(first / width)];
-      read_way(here, first, begin);
-      follow(here, first, end, every, result);
-      read_way(here, first, finish);
+    result.duration = static_cast<double>(end - before) * chains().step();
+    result.zero = zero_ = lane(potential_of(chains(), blocks_.front().run.synchronous()), 0);
+    for_each_trajectory(std::ssize(blocks_), threads_, [&](std::int64_t b) {
+      block& here = blocks_[static_cast<std::size_t>(b)];
+      read_way(here, begin);
+      follow(here, end, every, result);
+      read_way(here, finish);
     });
     require_all_alive();
     result.way_to_begin = std::move(begin);
@@ -179,6 +198,8 @@ class burn_in_pilot {
   }
 
  private:
+  const burn_in_chains& chains() const { return *blocks_.front().chains; }
+
   /// What is watched; adds the square of each force to a sum.
   void read(const burn_in_chains& chains, const state& x, std::span<T> out,
             vector<T, Eigen::Dynamic>& squares_of_forces) const {
@@ -190,18 +211,18 @@ class burn_in_pilot {
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       virial -= x.q[i] * f[i];
       squares_of_forces[i] += f[i] * f[i];
-      p[i] += f[i] * (0.5 * chains_->step());
+      p[i] += f[i] * (0.5 * chains.step());
     }
     velocity<T>(system, p, f);
     T twice_kinetic(0.0);
     for (Eigen::Index i = 0; i < x.size(); ++i) twice_kinetic += p[i] * f[i];
-    const double each = 1.0 / (chains_->temperature() * static_cast<double>(x.size()));
+    const double each = 1.0 / (chains.temperature() * static_cast<double>(x.size()));
     out[0] = twice_kinetic * each;
     out[1] = virial * each;
     out[2] = (potential_of(chains, x) - zero_) * each;
     T of_mode(0.0);
     for (Eigen::Index i = 0; i < slowest_->size(); ++i) of_mode += x.q[i] * (*slowest_)[i];
-    out[3] = of_mode * of_mode / chains_->temperature();
+    out[3] = of_mode * of_mode / chains.temperature();
   }
   /// 0 where the system knows no potential.
   static T potential_of(const burn_in_chains& chains, const state& x) {
@@ -209,68 +230,50 @@ class burn_in_pilot {
     return system.facts().has_potential ? system.kernels<T>().potential(x.q) : T(0.0);
   }
 
-  void follow(block& here, std::int64_t first, std::int64_t end, std::int64_t every,
-              watched_interval& result) {
+  void follow(block& here, std::int64_t end, std::int64_t every, watched_interval& result) {
     of_watched<T> begin;
-    of_watched<T> sum;
-    of_watched<T> squares;
-    sum.fill(T(0.0));
-    squares.fill(T(0.0));
-    // Not among the numbers that are observed: these are kept for some steps, of which forces would take
-    // much.
-    auto of_forces = make_vector<T>(here.chains->system());
-    const auto observe = [&](const state& x, std::span<T> out) { read(*here.chains, x, out, of_forces); };
-    observe(here.run.synchronous(), begin);
-    for (Eigen::Index i = 0; i < of_forces.size(); ++i) of_forces[i] = T(0.0);
-    std::int64_t observations = 0;
-    here.run.go_on(end, every, watched_numbers, observe,
-                   [&](std::int64_t, std::span<const T> seen, const auto&) {
-                     ++observations;
-                     for (std::size_t i = 0; i < watched_numbers; ++i) {
-                       sum[i] += seen[i];
-                       squares[i] += seen[i] * seen[i];
-                     }
-                   });
+    sums_over_time sums{*this, *here.chains, make_vector<T>(here.chains->system())};
+    sums.read(here.run.synchronous(), begin);
+    for (T& square : sums.of_forces) square = T(0.0);
+    here.run.go_on(end, every, sums);
     for (int k = 0; k < here.count; ++k) {
-      const auto chain = static_cast<std::size_t>(first + k);
-      const auto mean = [&](const T& of) { return lane(of, k) / static_cast<double>(observations); };
+      const auto chain = static_cast<std::size_t>(here.first + k);
       for (std::size_t i = 0; i < watched_numbers; ++i) {
         result.begin[i][chain] = lane(begin[i], k);
-        result.mean[i][chain] = mean(sum[i]);
-        result.square[i][chain] = mean(squares[i]);
+        result.mean[i][chain] = sums.mean(sums.sum[i], k);
+        result.square[i][chain] = sums.mean(sums.squares[i], k);
       }
       auto& forces = result.force_square[chain];
-      forces.resize(of_forces.size());
-      for (Eigen::Index i = 0; i < forces.size(); ++i) forces[i] = mean(of_forces[i]);
+      forces.resize(sums.of_forces.size());
+      for (Eigen::Index i = 0; i < forces.size(); ++i) forces[i] = sums.mean(sums.of_forces[i], k);
     }
   }
 
-  void read_way(const block& here, std::int64_t first, std::vector<double>& way) const {
+  void read_way(const block& here, std::vector<double>& way) const {
     const state x = here.run.synchronous();
     T sum(0.0);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       const T d = x.q[i] - here.start.q[i];
       sum += d * d;
     }
-    for (int k = 0; k < here.count; ++k) way[static_cast<std::size_t>(first + k)] = lane(sum, k);
+    for (int k = 0; k < here.count; ++k) way[static_cast<std::size_t>(here.first + k)] = lane(sum, k);
   }
 
   void require_all_alive() const {
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      for (int k = 0; k < blocks_[b].count; ++k) {
-        const auto lost = blocks_[b].run.diverged_at(k);
+    for (const block& here : blocks_) {
+      for (int k = 0; k < here.count; ++k) {
+        const auto lost = here.run.diverged_at(k);
         if (!lost) continue;
         const std::string text = sentence(
             "gibbs: the motion of {} must be confined and the step small enough, got pilot chain {} that "
             "diverged at time {} with the step {}",
-            describe(chains_->system().base()), b * width + static_cast<std::size_t>(k),
-            in_digits(static_cast<double>(*lost) * chains_->step(), 6), in_digits(chains_->step(), 6));
+            describe(chains().system().base()), here.first + k,
+            in_digits(static_cast<double>(*lost) * chains().step(), 6), in_digits(chains().step(), 6));
         throw chain_diverged(text, *lost);
       }
     }
   }
 
-  std::shared_ptr<const burn_in_chains> chains_;
   int threads_;
   int count_;
   const Eigen::VectorXd* slowest_;

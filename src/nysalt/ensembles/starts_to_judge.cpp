@@ -8,6 +8,32 @@
 
 namespace nysalt {
 
+namespace {
+
+using state = phase_point<double, Eigen::Dynamic>;
+
+/// Starts of trajectories first .. first + most - 1, or of as many as there are; made as many at a time as
+/// the system has lanes.
+std::vector<state> starts_made_in_lanes(const model& system, const initial_states& ensemble,
+                                        std::uint64_t seed, std::int64_t first, std::int64_t most) {
+  return detail::with_scalar_of(system, [&]<class T>(T) {
+    std::vector<state> made;
+    for (std::int64_t n = 0; n < most; n += lanes_in<T>) {
+      const auto count = static_cast<int>(std::min<std::int64_t>(lanes_in<T>, most - n));
+      try {
+        const auto block = sound_starts<T>(system, ensemble, seed, first + n, count);
+        for (int k = 0; k < count; ++k) made.push_back(lane(block, k));
+      } catch (const std::exception&) {
+        if (n == 0) throw;
+        break;  // it has no more
+      }
+    }
+    return made;
+  });
+}
+
+}  // namespace
+
 phase_points starts_to_judge(const model& system, const initial_states& ensemble) {
   constexpr std::uint64_t seed = 1;  // of all judges: a verdict does not depend on the seed of a command
   constexpr std::int64_t enough = 512;
@@ -16,21 +42,7 @@ phase_points starts_to_judge(const model& system, const initial_states& ensemble
   const std::int64_t that_fit = std::max<std::int64_t>(8, numbers / (2 * size(system)));
   std::int64_t wanted = std::min(ensemble.is_expensive() ? if_expensive : enough, that_fit);
   wanted = std::min(wanted, ensemble.size());
-  phase_points result = detail::with_scalar_of(system, [&]<class T>(T) {
-    phase_points made;
-    for (std::int64_t n = 0; n < wanted; n += lanes_in<T>) {
-      const auto count = static_cast<int>(std::min<std::int64_t>(lanes_in<T>, wanted - n));
-      phase_point<T, Eigen::Dynamic> block;
-      try {
-        block = sound_starts<T>(system, ensemble, seed, n, count);
-      } catch (const std::exception&) {
-        if (n == 0) throw;
-        break;  // it has no more
-      }
-      for (int k = 0; k < count; ++k) made.push_back(lane(block, k));
-    }
-    return made;
-  });
+  phase_points result = starts_made_in_lanes(system, ensemble, seed, 0, wanted);
   const auto is_first = [&](std::size_t k) {
     return result[k].q == result[0].q && result[k].p == result[0].p;
   };
@@ -45,15 +57,9 @@ phase_points starts_to_judge(const model& system, const initial_states& ensemble
   return result;
 }
 
-namespace {
-
-using state = phase_point<double, Eigen::Dynamic>;
-
-/// Those of the ensemble are made as many at a time as T has lanes.
-template <class T>
-std::vector<state> starts_made_in_lanes(const model& system, const initial_states& ensemble,
-                                        std::uint64_t seed, std::int64_t first,
-                                        std::int64_t most_if_expensive) {
+std::vector<state> typical_and_energetic_starts(const model& system, const initial_states& ensemble,
+                                                std::uint64_t seed, std::int64_t first,
+                                                std::int64_t most_if_expensive) {
   constexpr auto plain = static_cast<std::int64_t>(plain_starts);
   constexpr std::int64_t energetic = 64;
   constexpr std::int64_t pool = 896;
@@ -64,22 +70,11 @@ std::vector<state> starts_made_in_lanes(const model& system, const initial_state
   most = std::min(most, ensemble.size() - first);
   std::vector<state> result;
   std::vector<std::pair<double, state>> by_energy;
-  for (std::int64_t n = 0; n < most; n += lanes_in<T>) {
-    const auto count = static_cast<int>(std::min<std::int64_t>(lanes_in<T>, most - n));
-    phase_point<T, Eigen::Dynamic> block;
-    try {
-      block = sound_starts<T>(system, ensemble, seed, first + n, count);
-    } catch (const std::exception&) {
-      if (n == 0) throw;
-      break;  // it has no more
-    }
-    for (int k = 0; k < count; ++k) {
-      state start = lane(block, k);
-      if (n + k < plain) {
-        result.push_back(std::move(start));
-      } else if (has_energy(system)) {
-        by_energy.emplace_back(nysalt::energy<double>(system, start), std::move(start));
-      }
+  for (state& start : starts_made_in_lanes(system, ensemble, seed, first, most)) {
+    if (std::ssize(result) < plain) {
+      result.push_back(std::move(start));
+    } else if (has_energy(system)) {
+      by_energy.emplace_back(nysalt::energy<double>(system, start), std::move(start));
     }
   }
   const auto taken = std::min<std::ptrdiff_t>(energetic, std::ssize(by_energy));
@@ -89,16 +84,6 @@ std::vector<state> starts_made_in_lanes(const model& system, const initial_state
     result.push_back(std::move(by_energy[static_cast<std::size_t>(k)].second));
   }
   return result;
-}
-
-}  // namespace
-
-std::vector<state> typical_and_energetic_starts(const model& system, const initial_states& ensemble,
-                                                std::uint64_t seed, std::int64_t first,
-                                                std::int64_t most_if_expensive) {
-  return detail::with_scalar_of(system, [&]<class T>(T) {
-    return starts_made_in_lanes<T>(system, ensemble, seed, first, most_if_expensive);
-  });
 }
 
 }  // namespace nysalt

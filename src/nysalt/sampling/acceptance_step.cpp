@@ -55,40 +55,6 @@ std::vector<double> shares_of_steps(double longest) {
   return shares;
 }
 
-/// (H' - H)/kT after each number of steps, state by state; infinite once a trajectory has diverged.
-std::vector<double> energy_errors(const model& system, const tabulated& method, double step,
-                                  const initial_states& states, const proposal_options& options,
-                                  std::int64_t steps) {
-  const auto width = static_cast<std::size_t>(steps);
-  std::vector<double> errors(static_cast<std::size_t>(options.states) * width,
-                             std::numeric_limits<double>::infinity());
-  std::vector<double> at_start(static_cast<std::size_t>(options.states));
-  const auto read = [&]<class T>(const phase_point<T, Eigen::Dynamic>& x, std::span<T> number) {
-    number[0] = energy<T>(system, x);
-  };
-  const auto take = [&](std::int64_t m, std::int64_t n, std::span<const double> energy) {
-    const auto row = static_cast<std::size_t>(m);
-    if (n == 0) {
-      at_start[row] = energy[0];
-      return;
-    }
-    const double error = (energy[0] - at_start[row]) / options.temperature;
-    if (std::isfinite(error)) errors[row * width + static_cast<std::size_t>(n - 1)] = error;
-  };
-  const ensemble_options each_step{.trajectories = options.states,
-                                   .steps = steps,
-                                   .every = 1,
-                                   .seed = options.seed,
-                                   .threads = options.threads,
-                                   .ranks = options.ranks};
-  const auto stepper = make_stepper(system, method, step);
-  detail::with_scalar_of(system, [&]<class T>(T) {
-    integrate_ensemble<T>(stepper, states, each_step, 1, read, take);
-    return 0;
-  });
-  return errors;
-}
-
 /// d acceptance_at(mu)/d mu.
 double slope_of_acceptance(double mu) {
   return -0.5 * std::exp(-0.25 * mu) / std::sqrt(std::numbers::pi * mu);
@@ -101,7 +67,15 @@ proposal_acceptance acceptance_of_proposals(const model& system, const tabulated
   require_proposals(system, method, step, options);
   const auto shares = shares_of_steps(2.0 * options.length / step);
   const std::size_t width = shares.size();
-  const auto errors = energy_errors(system, method, step, states, options, static_cast<std::int64_t>(width));
+  auto errors = detail::rises_of_energy(system, method, step, states,
+                                        {.trajectories = options.states,
+                                         .steps = static_cast<std::int64_t>(width),
+                                         .every = 1,
+                                         .seed = options.seed,
+                                         .threads = options.threads,
+                                         .ranks = options.ranks})
+                    .of_each;
+  for (double& rise : errors) rise /= options.temperature;
   const shard mine(options.states, *options.ranks);
   const auto first = static_cast<std::size_t>(mine.first());
   const auto end = first + static_cast<std::size_t>(mine.count());

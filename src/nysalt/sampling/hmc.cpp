@@ -31,7 +31,7 @@ void require_options(const model& system, const hmc_options& options) {
   at_least("chains", options.chains, 1);
   at_least("draws", options.draws, 1);
   at_least("burn_in", options.burn_in, options.acceptance || options.diagonal_masses ? 100 : 0);
-  constexpr std::int64_t most = std::int64_t{1} << 48U;  // trajectories with noise of their own
+  constexpr std::int64_t most = detail::numbers_with_own_noise;
   const auto of_chain = static_cast<double>(options.burn_in) + static_cast<double>(options.draws);
   if (static_cast<double>(options.chains) * of_chain > static_cast<double>(most)) {
     throw std::invalid_argument(

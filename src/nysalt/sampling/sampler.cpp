@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
@@ -29,6 +31,28 @@ void require_metropolis_applies(const char* who, const model& system, const tabu
   if (!(temperature > 0.0) || !std::isfinite(temperature)) {
     throw std::invalid_argument(sentence("{}: kT must be positive and finite, got {}", who, temperature));
   }
+}
+
+energy_rises rises_of_energy(const model& system, const tabulated& method, double step,
+                             const initial_states& starts, const ensemble_options& options) {
+  const auto samples = static_cast<std::size_t>(options.steps / options.every);
+  std::vector<double> at_start(static_cast<std::size_t>(options.trajectories));
+  std::vector<double> rises(at_start.size() * samples, std::numeric_limits<double>::infinity());
+  const auto read = [&]<class T>(const phase_point<T, Eigen::Dynamic>& x, std::span<T> number) {
+    number[0] = energy<T>(system, x);
+  };
+  const auto take = [&](std::int64_t m, std::int64_t n, std::span<const double> energy) {
+    const auto row = static_cast<std::size_t>(m);
+    if (n == 0) at_start[row] = energy[0];
+    const double rise = energy[0] - at_start[row];
+    if (n > 0 && std::isfinite(rise))
+      rises[row * samples + static_cast<std::size_t>(n / options.every) - 1] = rise;
+  };
+  const auto stepper = make_stepper(system, method, step);
+  return with_scalar_of(system, [&]<class T>(T) -> energy_rises {
+    auto diverged_at = integrate_ensemble<T>(stepper, starts, options, 1, read, take);
+    return {std::move(rises), std::move(diverged_at)};
+  });
 }
 
 Eigen::VectorXd deviations_of(const std::vector<moments>& of_chains, const shard& mine, std::int64_t chains,

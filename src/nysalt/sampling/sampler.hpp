@@ -25,6 +25,7 @@
 #include "nysalt/hmc.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/shard.hpp"
@@ -37,24 +38,31 @@ namespace nysalt::detail {
 void require_metropolis_applies(const char* who, const model& system, const tabulated& method,
                                 double temperature);
 
+/// Rises H' - H of the energy along trajectories of an ensemble.
+struct energy_rises {
+  std::vector<double> of_each;  ///< after each of the samples but the start, one trajectory after the other
+  std::vector<std::optional<std::int64_t>> diverged_at;  ///< steps of divergence, on all ranks
+};
+
+/// The rises on the trajectories of this rank; infinite once a trajectory has diverged. Collective.
+energy_rises rises_of_energy(const model& system, const tabulated& method, double step,
+                             const initial_states& starts, const ensemble_options& options);
+
 // Means and variances of chains, from which masses follow.
 
-/// Numbers of a state that is saved, one after the other.
+/// Numbers of a state that is saved or restored, one after the other.
 class saved_numbers {
  public:
-  explicit saved_numbers(std::span<double> numbers) : left_(numbers) {}
-  void put(double x) {
-    left_.front() = x;
+  saved_numbers(std::span<double> numbers, bool restores) : left_(numbers), restores_(restores) {}
+  /// Saves x as the next number, or restores it.
+  void pass(double& x) {
+    (restores_ ? x : left_.front()) = restores_ ? left_.front() : x;
     left_ = left_.subspan(1);
-  }
-  double get() {
-    const double x = left_.front();
-    left_ = left_.subspan(1);
-    return x;
   }
 
  private:
   std::span<double> left_;
+  bool restores_;
 };
 
 /// Mean and variance of the draws of a chain, by Welford's recurrence.
@@ -72,16 +80,11 @@ struct moments {
   }
 
   static Eigen::Index width(Eigen::Index size) { return 1 + 2 * size; }  // numbers that are saved
-  void write(Eigen::Index size, saved_numbers& row) const {
-    row.put(count);
-    for (Eigen::Index i = 0; i < size; ++i) row.put(count > 0.0 ? mean[i] : 0.0);
-    for (Eigen::Index i = 0; i < size; ++i) row.put(count > 0.0 ? squares[i] : 0.0);
-  }
-  void read(Eigen::Index size, saved_numbers& row) {
-    count = row.get();
-    mean = squares = Eigen::VectorXd::Zero(size);
-    for (double& x : mean) x = row.get();
-    for (double& x : squares) x = row.get();
+  void pass(Eigen::Index size, saved_numbers& row) {
+    row.pass(count);
+    if (mean.size() == 0) mean = squares = Eigen::VectorXd::Zero(size);
+    for (double& x : mean) row.pass(x);
+    for (double& x : squares) row.pass(x);
   }
 };
 
@@ -186,11 +189,8 @@ struct chain_sums {
   double last = 0.0;  // acceptance of the last trajectory
 
   static constexpr Eigen::Index width = 4;  // numbers that are saved
-  void write(saved_numbers& row) const {
-    for (const double x : {acceptance, squares, diverged, last}) row.put(x);
-  }
-  void read(saved_numbers& row) {
-    for (double* x : {&acceptance, &squares, &diverged, &last}) *x = row.get();
+  void pass(saved_numbers& row) {
+    for (double* x : {&acceptance, &squares, &diverged, &last}) row.pass(*x);
   }
 };
 
@@ -277,15 +277,15 @@ class block_of_chains {
   void forget_sums() { sums_.assign(sums_.size(), {}); }
 
   /// All that chain k must remember, as numbers in `row`, or from there.
-  void write(int k, saved_numbers& row) const {
-    for (Eigen::Index i = 0; i < x_.q.size(); ++i) row.put(lane(x_.q[i], k));
-    row.put(lane(potential_, k));
-    sums(k).write(row);
-  }
-  void read(int k, saved_numbers& row) {
-    for (Eigen::Index i = 0; i < x_.q.size(); ++i) set_lane(x_.q[i], k, row.get());
-    set_lane(potential_, k, row.get());
-    sums_[static_cast<std::size_t>(k)].read(row);
+  void pass(int k, saved_numbers& row) {
+    const auto pass_lane = [&](T& all) {
+      double one = lane(all, k);
+      row.pass(one);
+      set_lane(all, k, one);
+    };
+    for (T& x : x_.q) pass_lane(x);
+    pass_lane(potential_);
+    sums_[static_cast<std::size_t>(k)].pass(row);
   }
 
  private:
@@ -325,11 +325,8 @@ class sampler {
     result_.step = options.step;
     const std::int64_t blocks = (mine_.count() + lanes_in<T> - 1) / lanes_in<T>;
     blocks_.resize(static_cast<std::size_t>(blocks));
-    collectively(*options.ranks, [&] {
-      for_each_block([&](std::size_t b, std::int64_t first, int count) {
-        blocks_[b] =
-            std::make_unique<block_of_chains<T>>(own_copy(system), starts, options.seed, first, count);
-      });
+    for_each_block_of_chains([&](const model& own, auto& block, std::int64_t first, int count) {
+      block = std::make_unique<block_of_chains<T>>(own, starts, options.seed, first, count);
     });
     if (options.diagonal_masses) seen_.resize(static_cast<std::size_t>(mine_.count()));
     begin_tuning();
@@ -347,9 +344,8 @@ class sampler {
       const std::int64_t every = options_.keep_every;
       const std::int64_t next = every > 0 ? std::min(all, (done_ / every + 1) * every) : all;
       for (std::int64_t n = done_; n < next; ++n) count_steps(n);
-      collectively(*options_.ranks, [&] {
-        for_each_block([&](std::size_t b, std::int64_t, int) { draw(*blocks_[b], next, take); });
-      });
+      for_each_block_of_chains(
+          [&](const model& own, auto& block, std::int64_t, int) { draw(own, *block, next, take); });
       done_ = next;
       keep_and_report();
     }
@@ -361,10 +357,11 @@ class sampler {
   }
 
  private:
-  void for_each_block(const std::function<void(std::size_t, std::int64_t, int)>& body) {
-    nysalt::for_each_block(mine_.count(), lanes_in<T>, options_.threads, [&](std::int64_t first, int count) {
-      body(static_cast<std::size_t>(first / lanes_in<T>), mine_.first() + first, count);
-    });
+  void for_each_block_of_chains(const auto& body) {
+    const auto visit = [&](const model& own, std::int64_t first, int count) {
+      body(own, blocks_[static_cast<std::size_t>((first - mine_.first()) / lanes_in<T>)], first, count);
+    };
+    for_each_lane_block(target_, mine_, lanes_in<T>, options_.threads, visit);
   }
 
   double evaluations(double trajectories, double steps) const {
@@ -405,8 +402,8 @@ class sampler {
     }
     if (tuned_) result_.step = tuned_->step();
     const std::int64_t steps = count_steps(n);
-    collectively(*options_.ranks, [&] {
-      for_each_block([&](std::size_t b, std::int64_t, int) { go_on(*blocks_[b], n, steps); });
+    for_each_block_of_chains([&](const model& own, auto& block, std::int64_t, int) {
+      block->propose(make_stepper(own, method_, result_.step), options_.temperature, options_.seed, n, steps);
     });
     if (tuned_) tuned_->take(acceptance_of_last());
     if (options_.diagonal_masses && n >= half / 2 && n < half) watch();
@@ -433,15 +430,9 @@ class sampler {
     if (options_.keep_every > 0 && options_.keep && done_ % options_.keep_every == 0) options_.keep(state());
   }
 
-  void go_on(block_of_chains<T>& block, std::int64_t n, std::int64_t steps) {
-    const model own = own_copy(target_);
-    const auto stepper = make_stepper(own, method_, result_.step);
-    block.propose(stepper, options_.temperature, options_.seed, n, steps);
-  }
-
   /// Trajectories done_ .. next - 1.
-  void draw(block_of_chains<T>& block, std::int64_t next, const std::function<void(const hmc_draw&)>& take) {
-    const model own = own_copy(target_);
+  void draw(const model& own, block_of_chains<T>& block, std::int64_t next,
+            const std::function<void(const hmc_draw&)>& take) {
     const auto stepper = make_stepper(own, method_, result_.step);
     for (std::int64_t n = done_; n < next; ++n) {
       block.propose(stepper, options_.temperature, options_.seed, n,
@@ -484,31 +475,40 @@ class sampler {
     const Eigen::Index watched = options_.diagonal_masses ? moments::width(size(system_)) : 0;
     return dimension() + 1 + static_cast<std::size_t>(chain_sums::width + watched);
   }
-  saved_numbers row_of(std::span<double> numbers, std::int64_t chain) const {
-    const std::size_t first = width_of_head() + static_cast<std::size_t>(chain) * width_of_row();
-    return saved_numbers(numbers.subspan(first, width_of_row()));
+  /// Saves all that the chains of this rank, and what they share, must remember; or restores it.
+  void pass(std::span<double> numbers, bool restores) {
+    saved_numbers shared(numbers.first(width_of_head()), restores);
+    for (double* x : {&result_.step, &steps_, &steps_of_burn_in_}) shared.pass(*x);
+    auto memory = tuned_ ? tuned_->saved() : dual_averaging::memory{};
+    for (double& x : memory) shared.pass(x);
+    if (tuned_) tuned_->restore(memory);
+    if (options_.diagonal_masses && done_ > options_.burn_in / 2) {
+      Eigen::VectorXd deviations = Eigen::VectorXd::Zero(size(system_));
+      std::ranges::copy(result_.deviations, deviations.begin());
+      for (double& x : deviations) shared.pass(x);
+      if (restores) use_deviations(deviations);
+    }
+    std::size_t m = 0;
+    for (auto& block : blocks_) {
+      for (int k = 0; k < block->count(); ++k, ++m) {
+        const std::size_t chain = static_cast<std::size_t>(block->first() + k);
+        saved_numbers row(numbers.subspan(width_of_head() + chain * width_of_row(), width_of_row()),
+                          restores);
+        block->pass(k, row);
+        if (options_.diagonal_masses) seen_[m].pass(size(system_), row);
+      }
+    }
   }
 
-  hmc_state state() const {
+  hmc_state state() {
     const std::size_t head = width_of_head();
     const std::size_t width = width_of_row();
     hmc_state result{done_, std::vector<double>(head + static_cast<std::size_t>(options_.chains) * width)};
-    std::size_t m = 0;
-    for (const auto& block : blocks_) {
-      for (int k = 0; k < block->count(); ++k, ++m) {
-        auto row = row_of(result.numbers, block->first() + k);
-        block->write(k, row);
-        if (options_.diagonal_masses) seen_[m].write(size(system_), row);
-      }
-    }
+    pass(result.numbers, false);
     std::vector<std::size_t> first_of_rank;
     for (int r = 0; r <= options_.ranks->size(); ++r)
       first_of_rank.push_back(head + static_cast<std::size_t>(mine_.first_of(r)) * width);
     first_of_rank.front() = 0;  // the head is of rank 0
-    saved_numbers shared(std::span<double>(result.numbers).first(head));
-    for (const double x : {result_.step, steps_, steps_of_burn_in_}) shared.put(x);
-    for (const double x : tuned_ ? tuned_->saved() : dual_averaging::memory{}) shared.put(x);
-    for (const double x : result_.deviations) shared.put(x);
     all_gather_items(*options_.ranks, result.numbers, first_of_rank);
     return result;
   }
@@ -525,24 +525,7 @@ class sampler {
     }
     done_ = saved.trajectories;
     std::vector<double> numbers = saved.numbers;
-    saved_numbers shared(std::span<double>(numbers).first(width_of_head()));
-    for (double* x : {&result_.step, &steps_, &steps_of_burn_in_}) *x = shared.get();
-    dual_averaging::memory memory{};
-    for (double& x : memory) x = shared.get();
-    if (tuned_) tuned_->restore(memory);
-    if (options_.diagonal_masses && done_ > options_.burn_in / 2) {
-      Eigen::VectorXd deviations(size(system_));
-      for (double& x : deviations) x = shared.get();
-      use_deviations(deviations);
-    }
-    std::size_t m = 0;
-    for (auto& block : blocks_) {
-      for (int k = 0; k < block->count(); ++k, ++m) {
-        auto row = row_of(numbers, block->first() + k);
-        block->read(k, row);
-        if (options_.diagonal_masses) seen_[m].read(size(system_), row);
-      }
-    }
+    pass(numbers, true);
   }
 
   void sum_up(double draws) {
@@ -570,7 +553,7 @@ class sampler {
   const tabulated& method_;
   const hmc_options& options_;
   shard mine_;
-  std::function<void(std::int64_t)> report_;
+  progress_callback report_;
   std::vector<std::unique_ptr<block_of_chains<T>>> blocks_;
   std::optional<dual_averaging> tuned_;
   std::vector<moments> seen_;  // of the chains of this rank, with `diagonal_masses`

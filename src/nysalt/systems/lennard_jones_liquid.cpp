@@ -81,7 +81,7 @@ void for_each_atom(const detail::neighbour_list& list, int threads, const detail
           });
     }
   };
-  for_each_block(list.blocks(), 1, threads, [&of_block](std::int64_t block, int) { of_block(block); });
+  for_each_trajectory(list.blocks(), threads, of_block);
 }
 
 reals only(const integers& mask, const reals& x) {

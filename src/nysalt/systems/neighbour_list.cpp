@@ -83,10 +83,6 @@ std::int64_t neighbour_list::end_slot(std::int64_t block) const {
   return std::min(atoms_, (block + 1) * slots_of_block);
 }
 
-void neighbour_list::for_each_block_of_slots(const auto& body) const {
-  for_each_block(blocks(), 1, threads_, [&body](std::int64_t block, int) { body(block); });
-}
-
 bool neighbour_list::update(const Eigen::VectorXd& q) {
   const state found = take(q);
   if (found == state::outdated) make(q);
@@ -100,7 +96,7 @@ neighbour_list::state neighbour_list::take(const Eigen::VectorXd& q) {
     }
     return state::outdated;
   }
-  for_each_block_of_slots([&](std::int64_t block) {
+  for_each_trajectory(blocks(), threads_, [&](std::int64_t block) {
     const double per_side = 1.0 / side_;
     const double farthest = 0x1p16 * side_;
     double most_moved = 0.0;
@@ -129,7 +125,7 @@ neighbour_list::state neighbour_list::take(const Eigen::VectorXd& q) {
 
 void neighbour_list::make(const Eigen::VectorXd& q) {
   sort_into_cells(q);
-  for_each_block_of_slots([&](std::int64_t block) { make_rows(block); });
+  for_each_trajectory(blocks(), threads_, [&](std::int64_t block) { make_rows(block); });
   ++made_;
 }
 

@@ -69,7 +69,6 @@ class neighbour_list {
   std::int32_t far_from(const place& at) const;
   void sort_into_cells(const Eigen::VectorXd& q);
   void make_rows(std::int64_t block);
-  void for_each_block_of_slots(const auto& body) const;
 
   std::int64_t atoms_;
   double side_;
