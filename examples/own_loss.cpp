@@ -50,7 +50,7 @@ int main() {
   const auto unseen = revolutions(2);
 
   // [learn]
-  const learn_options<family> options{.fixed = {1.0 / 6.0, std::nullopt}};
+  const fit_options options{.fixed = {1.0 / 6.0, std::nullopt}};
   const auto usual = learn(family{}, system, data, unseen, options);  // the error of the state
   const auto own = learn(family{}, system, data, unseen, options, turning);
   // [/learn]

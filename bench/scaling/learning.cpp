@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "../../src/nysalt/learning/problem.hpp"
 #include "measure.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
@@ -48,8 +49,7 @@ struct learning_case {
   explicit learning_case(const size_of_work& size)
       : data(make_data(size, 1)),
         held_out(make_data(size, 2)),
-        problem(make_learning_problem(run_time_family(nystrom{}), chain, data, held_out,
-                                      {.threads = size.threads})) {}
+        problem(run_time_family(nystrom{}), chain, data, held_out, {.threads = size.threads}) {}
 
   double loss() const { return problem.loss(problem.family.starts.front().theta).value; }
 };
@@ -116,9 +116,8 @@ void race_learning(const std::deque<first_ranks>& all, std::int64_t trajectories
         size.who->take_part() ? std::make_shared<both>(make_data(size, 1), make_data(size, 2)) : nullptr;
     wait_for_all();
     runners.push_back({row_of("learn", size), size.who, [data_sets, size, &seen] {
-                         const learn_options<nystrom> options{.threads = size.threads};
-                         const auto found =
-                             learn(nystrom{}, chain, data_sets->first, data_sets->second, options);
+                         const auto found = learn(nystrom{}, chain, data_sets->first, data_sets->second,
+                                                  {.threads = size.threads});
                          require_same(seen, size.trajectories, found.summary.loss);
                        }});
   }

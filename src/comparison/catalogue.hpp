@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "nysalt/detail/known_letters.hpp"
-#include "nysalt/learning/problem.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/methods/tabulated.hpp"
 #include "nysalt/run_time_family.hpp"

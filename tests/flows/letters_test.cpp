@@ -499,10 +499,10 @@ BOOST_AUTO_TEST_CASE(what_is_learned_with_it_is_what_is_learned_with_the_library
   };
   const auto first = data(1);
   const auto second = data(2);
-  const learn_options<own_family> options{.classical_starts = false, .random_starts = 0, .guarded = false};
-  const learn_options<aba<3>> same{.classical_starts = false, .random_starts = 0, .guarded = false};
+  const fit_options options{
+      .start = run_time_family(aba<3>()).starts.front().theta, .random_starts = 0, .guarded = false};
   const auto own = learn(own_family(), system, first, second, options);
-  const auto known = learn(aba<3>(), system, first, second, same);
+  const auto known = learn(aba<3>(), system, first, second, options);
   BOOST_TEST(own.summary.loss == known.summary.loss);
   BOOST_TEST(own.method.parameters() == known.method.parameters());
   // Of drifts and kicks of one's own, but of the library's own letters the bands.

@@ -70,9 +70,7 @@ learned<nystrom> fitted(coordinates how) {
         chain, law, fine_steps<>(.02 / 20),
         {.step = .02, .horizon = .4, .trajectories = 15, .seed = seed_for(which, seed)});
   };
-  learn_options<nystrom> options;
-  options.coordinates = how;
-  return learn(nystrom{}, chain, pairs(role::training), pairs(role::held_out), options);
+  return learn(nystrom{}, chain, pairs(role::training), pairs(role::held_out), {.coordinates = how});
 }
 
 }  // namespace

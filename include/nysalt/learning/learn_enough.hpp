@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nysalt/learn.hpp"
@@ -44,39 +44,40 @@ struct enough_course {
 enough_course until_enough(std::int64_t first, const enough_options& options,
                            const std::function<fit_summary(std::int64_t trajectories)>& learn);
 
-/// A learned method, and the number of trajectories of the fit.
-template <Family F>
-struct learned_enough {
-  tuned_method<F> method;  ///< carries its step and system, and refuses others
-  fit_summary summary;     ///< summary of the last fit
-  enough_course course;    ///< history of all fits
+/// The data of learn_enough(), and how many trajectories they may grow to.
+struct growing_data {
+  data_options first;               ///< data of the first fit
+  std::uint64_t held_out_seed = 2;  ///< seed of the held-out data, as many as those to learn from
+  enough_options enough{};          ///< when to stop; at most as many trajectories as fit into memory
 };
 
-/// learn() with as many trajectories as necessary, see until_enough(): from first.trajectories on, at most as
-/// many as fit into memory. Each time data are made for as many more, and the held-out data, of another seed,
-/// have as many too. What comes out is what learn() gives for that number. Throws what these do.
-template <Family F, SeparableSystem S, Ensemble<S> E, Reference<S> R, class... Own>
-learned_enough<F> learn_enough(const F& family, const S& system, const E& ensemble, const R& reference,
-                               data_options first, std::uint64_t held_out_seed, enough_options enough = {},
-                               const learn_options<F>& options = {}, const own_loss<Own>&... own) {
+/// The last fit, and the course of all fits.
+struct learned_enough : fit {
+  enough_course course;  ///< history of all fits
+};
+
+/// learn() with as many trajectories as necessary, see until_enough(): each time data are made for as many
+/// more. What comes out is what learn() gives for that number. Throws what these do.
+template <SeparableSystem S, Ensemble<S> E, Reference<S> R>
+learned_enough learn_enough(const run_time_family& family, const S& system, const E& ensemble,
+                            const R& reference, const growing_data& growing,
+                            const fit_options& options = {}) {
   flow_map_data data;
   flow_map_data held_out;
-  const auto grow = [&](flow_map_data& data_set, std::int64_t trajectories, std::uint64_t seed) {
-    data_options wanted = first;
+  fit found;
+  const auto learn_from = [&](std::int64_t trajectories) {
+    data_options wanted = growing.first;
     wanted.trajectories = trajectories;
-    wanted.seed = seed;
-    extend_data(system, ensemble, reference, wanted, data_set);
+    extend_data(system, ensemble, reference, wanted, data);
+    wanted.seed = growing.held_out_seed;
+    extend_data(system, ensemble, reference, wanted, held_out);
+    found = learn(family, system, data, held_out, options);
+    return found.summary;
   };
-  enough.most = std::min(enough.most, most_trajectories(first, size(system)));
-  std::optional<learned<F>> found;
-  const auto learn_with = [&](std::int64_t trajectories) {
-    grow(data, trajectories, first.seed);
-    grow(held_out, trajectories, held_out_seed);
-    found.emplace(learn(family, system, data, held_out, options, own...));
-    return found->summary;
-  };
-  const auto course = until_enough(first.trajectories, enough, learn_with);
-  return {found->method, found->summary, course};
+  enough_options enough = growing.enough;
+  enough.most = std::min(enough.most, most_trajectories(growing.first, size(system)));
+  auto course = until_enough(growing.first.trajectories, enough, learn_from);
+  return {std::move(found), std::move(course)};
 }
 
 }  // namespace nysalt
