@@ -82,7 +82,7 @@ minimum minimise_by_blocks(const Blocks& blocks, const is_defined& defined, cons
   for (std::size_t n = 0; n < blocks.windows(); ++n) {
     problem.AddResidualBlock(new sample_cost<Blocks>(blocks, n, defined), nullptr, found.theta.data());
   }
-  nysalt::detail::descend(problem, free, max_iterations, found);
+  nysalt::detail::descend(problem, free, {max_iterations}, found);
   nysalt::detail::polish(std::cref(blocks), defined, free, found);
   return found;
 }
@@ -105,7 +105,7 @@ class problem {
   double samples() const { return static_cast<double>(data_.pairs()); }
 
   /// One pass over the data: loss, gradient and normal matrix.
-  squares pass(const after_steps<>& loss) const { return squares_at(loss, start_); }
+  squares pass(const after_steps<>& loss) const { return loss.at(start_); }
   std::shared_ptr<const after_steps<>> loss() const {
     return std::make_shared<const after_steps<>>(family_, model(chain_), data_, state_error(measure_));
   }

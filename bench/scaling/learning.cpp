@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "../../src/nysalt/learning/problem.hpp"
 #include "measure.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
@@ -48,8 +49,7 @@ struct learning_case {
   explicit learning_case(const size_of_work& size)
       : data(make_data(size, 1)),
         held_out(make_data(size, 2)),
-        problem(make_learning_problem(run_time_family(nystrom{}), chain, data, held_out,
-                                      {.threads = size.threads})) {}
+        problem(run_time_family(nystrom{}), chain, data, held_out, {.threads = size.threads}) {}
 
   double loss() const { return problem.loss(problem.family.starts.front().theta).value; }
 };

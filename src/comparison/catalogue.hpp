@@ -10,6 +10,8 @@
 
 #include "nysalt/letters.hpp"
 #include "nysalt/learning/problem.hpp"
+#include "nysalt/letters.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/run_time_family.hpp"

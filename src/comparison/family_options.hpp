@@ -9,7 +9,7 @@
 
 #include "catalogue.hpp"
 #include "number.hpp"
-#include "nysalt/learning/problem.hpp"
+#include "nysalt/learn.hpp"
 #include "refusal.hpp"
 #include "settings.hpp"
 

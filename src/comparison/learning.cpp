@@ -10,8 +10,7 @@
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "judging.hpp"
-#include "learnable.hpp"
-#include "nysalt/learning/problem.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "seeds.hpp"
 
@@ -41,25 +40,6 @@ void require_sound(const learning_options& how, const std::string& prefix) {
   if (how.random_starts && (*how.random_starts < 0 || *how.random_starts > 10'000)) {
     refuse("--{}random-starts must be from 0 to 10000, got {}", prefix.substr(2), *how.random_starts);
   }
-}
-
-learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& progress) const {
-  auto [problem, energies] = make_learnable(plan, progress);
-  const run_time_family& family = problem.family;
-  if (progress) {  // called at each pass, with all data made, so that the progress may end the search
-    const auto watched = [&](objective& loss) {
-      loss = [loss = std::move(loss), progress, all = plan.how.trajectories](const auto& theta) {
-        progress(all);
-        return loss(theta);
-      };
-    };
-    for (learning_problem* each = &problem; each != nullptr; each = each->shorter.get()) {
-      watched(each->loss);
-      for (auto& stage : each->stages) watched(stage.loss);
-    }
-  }
-  auto [theta, fit, learned] = solve(problem);
-  return {std::move(fit), learned.anywhere(), energies};
 }
 
 namespace {

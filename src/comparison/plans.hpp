@@ -47,8 +47,6 @@ struct learn_plan {
   std::shared_ptr<std::any> kept = {};
 };
 
-struct learnable;  // learnable.hpp, which is expensive to compile
-
 struct learned_scheme {
   fit_summary fit;
   tabulated method;                      // with its letters O

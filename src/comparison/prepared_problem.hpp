@@ -31,7 +31,6 @@ class run_time_family;
 
 namespace nysalt::program {
 
-struct learnable;       // learnable.hpp, which is expensive to compile
 class model_reference;  // model_reference.hpp
 
 /// Name or parameter of a system, as scheme files hold it.
@@ -154,9 +153,7 @@ class prepared_problem {
                          const learning_options& how, double step) const;
   /// Trajectories to learn from that fit into memory.
   std::int64_t most_trajectories(const learn_plan& plan) const;
-  /// Makes the data. What is made refers to this.
-  learnable make_learnable(const learn_plan& plan, const counter& progress) const;
-  /// Compiled once, and not for each system.
+  /// Makes the data, and learns from them.
   learned_scheme learn(const learn_plan& plan, const counter& progress) const;
 
   /// Throws refusal if there is no such measure of this system, the fine step does not divide the step, whose

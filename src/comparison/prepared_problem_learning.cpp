@@ -7,9 +7,8 @@
 #include "all_ranks.hpp"
 #include "catalogue.hpp"
 #include "family_options.hpp"
-#include "learnable.hpp"
 #include "model_reference.hpp"
-#include "nysalt/learning/problem.hpp"
+#include "nysalt/learn.hpp"
 #include "prepared_problem.hpp"
 #include "refusal.hpp"
 
@@ -62,7 +61,7 @@ std::int64_t prepared_problem::most_trajectories(const learn_plan& plan) const {
   return nysalt::most_trajectories(options, size(made_.system));
 }
 
-learnable prepared_problem::make_learnable(const learn_plan& plan, const counter& progress) const {
+learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& progress) const {
   require_learnable(plan.family, plan.where, plan.how, plan.step);
   const run_time_family family = placed(plan.family, plan.where, letters());
   const int parts = noise_parts(family);
@@ -70,6 +69,8 @@ learnable prepared_problem::make_learnable(const learn_plan& plan, const counter
   // The random starts of the search are those of every seed: a seed decides on data, not on the minima that
   // are found.
   options.frequency = frequency_asked_;
+  options.check_force = false;  // systems of users were checked when they were made
+  if (progress) options.progress = [&progress, all = plan.how.trajectories] { progress(all); };
   if (!plan.from.empty()) {
     const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(plan.from.data(), std::ssize(plan.from));
     if (plan.only_from_there) {
@@ -100,7 +101,10 @@ learnable prepared_problem::make_learnable(const learn_plan& plan, const counter
   };
   make(data, plan.seed);
   make(held_out, plan.held_out_seed);
-  return {make_learning_problem(family, made_.system, data, held_out, options), data.energies};
+  auto [theta, fit] = nysalt::learn(family, made_.system, data, held_out, options);
+  const tabulated method(family.name, family.letters, family.coefficients(theta),
+                         {family.order, family.symmetric, family.requires_quadratic_kinetic});
+  return {std::move(fit), method, data.energies};
 }
 
 int prepared_problem::noise_parts(const run_time_family& family) const {

@@ -9,7 +9,7 @@
 #include "comparison/seeds.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/learning/problem.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "parts.hpp"
@@ -44,8 +44,7 @@ std::vector<estimate> fitted(const fpu_chain<3>& system, const pairs& data, cons
   fit_options options{
       .coordinates = which, .loss = loss_named("state:1"), .random_starts = 0, .threads = threads};
   options.fixed.resize(2);
-  const auto [theta, summary] =
-      solve(make_learning_problem(family_named("nystrom"), system, data, held_out, options));
+  const auto [theta, summary] = learn(family_named("nystrom"), system, data, held_out, options);
   std::vector<estimate> result;
   for (const auto& p : summary.parameters) result.push_back({p.value, p.standard_error});
   return result;

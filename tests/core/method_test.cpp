@@ -4,10 +4,10 @@
 #include <map>
 
 #include "../support/draws.hpp"
+#include "../support/parameters.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/core.hpp"
-#include "nysalt/losses/squares.hpp"
 #include "nysalt/run_time_family.hpp"
 
 using namespace nysalt;

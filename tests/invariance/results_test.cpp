@@ -162,10 +162,10 @@ result sums_over_windows(const division& how, const model& system, const flow_ma
     const after_steps<R> loss(family, system, data, state_error<R>(measure),
                               {.steps = {1, 3}, .threads = how.threads});
     const Eigen::Vector2d theta(0.45, 0.38);
-    const squares found = squares_at(loss, theta);
+    const squares found = loss.at(theta);
     all.of_all << found.value << found.half_gradient << found.normal_matrix.reshaped()
-               << trajectory_losses(loss, theta);
-    for (const auto& gradient : trajectory_gradients(loss, theta)) all.of_all << gradient;
+               << loss.by_trajectory(theta);
+    for (const auto& gradient : loss.gradients(theta)) all.of_all << gradient.reshaped();
   };
   how.in_lanes ? add(detail::lanes(0.0)) : add(0.0);
   return all;

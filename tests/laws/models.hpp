@@ -5,12 +5,12 @@
 
 #include <tuple>
 
+#include "../support/parameters.hpp"
 #include "../support/systems.hpp"
 #include "laws.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/gradient_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/losses/squares.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/phase_fitted.hpp"

@@ -62,7 +62,7 @@ double allowed(const flow_map_data& data, const Eigen::VectorXd& theta, double r
   const after_steps<> loss(two_stages, exact, data, state_error(measure));
   const symmetric_eigen of_loss(hessian(loss, theta));
   const double jacobian = std::sqrt(0.5 * of_loss.values[1]);  // the Hessian is 2 J^T J and a little more
-  return 2.0 * std::sqrt(loss_value(loss, theta)) * 2.0 * jacobian * relative / of_loss.values[0];
+  return 2.0 * std::sqrt(loss.value(theta)) * 2.0 * jacobian * relative / of_loss.values[0];
 }
 
 double distance_of(const fit& a, const fit& b) { return (a.theta - b.theta).cwiseAbs().maxCoeff(); }

@@ -7,6 +7,7 @@
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
 #include "nysalt/learning/reach.hpp"
+#include "nysalt/learning/stability_guard.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -6,15 +6,15 @@
 #include <Eigen/LU>
 #include <cstdio>
 
+#include "../../src/nysalt/learning/curvature.hpp"
 #include "../../src/nysalt/learning/minimise.hpp"
+#include "../../src/nysalt/learning/search.hpp"
 #include "../support/draws.hpp"
 #include "../support/losses.hpp"
 #include "../support/rounding.hpp"
 #include "../support/scratch.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/learning/curvature.hpp"
-#include "nysalt/learning/search.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <mutex>
 
+#include "../../src/nysalt/learning/problem.hpp"
 #include "../support/learned.hpp"
 #include "../support/ranks_as_threads.hpp"
 #include "nysalt/detail/tree_sum.hpp"
@@ -98,7 +99,7 @@ BOOST_AUTO_TEST_CASE(a_pass_over_the_data_is_one_sum_whatever_the_data) {
     std::mutex guard;
     run_ranks(size, [&](const thread_communicator& ours) {
       const auto data = make(trajectories, 1, ours);
-      const auto problem = make_learning_problem(two_stages, swing, data, data, {});
+      const learning_problem problem(two_stages, swing, data, data, {});
       const traffic before = ours.seen();
       problem.loss(problem.family.starts.front().theta);
       const std::lock_guard lock(guard);
@@ -135,7 +136,7 @@ BOOST_AUTO_TEST_CASE(an_own_loss_that_throws_on_one_rank_throws_on_all) {
       return finish.q[0] - wanted.q[0];
     };
     const own_loss of_place{"place", 1, error};
-    const auto problem = make_learning_problem(two_stages, swing, data, data, {}, of_place);
+    const learning_problem problem(two_stages, swing, data, data, {.loss = loss_of(swing, of_place)});
     problem.loss(problem.family.starts.front().theta);
   });
 }

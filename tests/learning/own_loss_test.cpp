@@ -3,6 +3,7 @@
 // it is learned as they are: found, judged, and given its errors.
 #include "nysalt/losses/window_error.hpp"
 
+#include "../../src/nysalt/learning/problem.hpp"
 #include "../support/learned.hpp"
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
@@ -38,7 +39,7 @@ template <Scalar R>
 squares squares_of(const model& system, const flow_map_data& data, const window_error<R>& error,
                    int threads = 1) {
   const after_steps<R> loss(family, system, data, error, {.steps = {5}, .threads = threads});
-  return squares_at(loss, theta);
+  return loss.at(theta);
 }
 
 /// The state's error after three steps, with weights that a metric has estimated, or others.
@@ -167,60 +168,91 @@ BOOST_AUTO_TEST_CASE(the_librarys_loss_written_as_ones_own_is_learned_to_the_bit
 BOOST_AUTO_TEST_CASE(weights_of_ones_own_have_no_error_and_the_own_loss_judges) {
   const auto& [data, held_out] = two_sets();
   const metric measure(galaxy, data, coordinates::qp);
-  const auto problem = make_learning_problem(family, galaxy, data, held_out, {}, state_after_three(measure));
-  const auto usual = make_learning_problem(family, galaxy, data, held_out, {.loss = loss_named("state:3")});
+  const auto problem_of = [&](const loss_choice& loss) {
+    return learning_problem(family, galaxy, data, held_out, {.loss = loss});
+  };
+  const auto problem = problem_of(loss_of(galaxy, state_after_three(measure)));
+  const auto usual = problem_of(loss_named("state:3"));
   const after_steps<> loss(family, galaxy, data, state_error(measure), {.steps = {3}});
-  const auto by_residual = residual_gradients(loss, theta);
-  const auto of_all_residuals = trajectory_gradients(loss, theta);
+  const auto gradients = loss.gradients(theta);
   const auto ours = problem.scores(theta);
   const auto with_weights = usual.scores(theta);
-  BOOST_REQUIRE(ours.of_each.size() == by_residual.size());
+  BOOST_REQUIRE(ours.of_each.size() == gradients.size());
   int differ = 0;
-  for (std::size_t m = 0; m < by_residual.size(); ++m) {
+  for (std::size_t m = 0; m < gradients.size(); ++m) {
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(2);
-    for (Eigen::Index k = 0; k < 4; ++k) gradient += by_residual[m].col(k);
+    for (Eigen::Index k = 0; k < 4; ++k) gradient += gradients[m].col(k);
     BOOST_TEST((ours.of_each[m] == gradient));
-    // Eight products in another order: four residuals of two windows.
-    BOOST_TEST((of_all_residuals[m] - gradient).norm() <= 16.0 * eps * by_residual[m].cwiseAbs().sum());
     // The library's weights are estimates, of which each trajectory has its part.
     differ += (with_weights.of_each[m] - gradient).norm() > 0.01 * gradient.norm();
   }
   BOOST_TEST(differ > 20);  // of thirty
   // Between several minima the own loss judges.
-  const auto own = make_learning_problem(family, galaxy, data, held_out, {}, state_after_three(measure, 2.0));
-  BOOST_TEST(own.judge(theta) == own.held_out.sum(own.held_out_losses(theta)));
-  BOOST_TEST(own.judge(theta) != own.loss_at_end(theta));
-  BOOST_TEST(usual.judge(theta) == usual.loss_at_end(theta));
-  BOOST_TEST(usual.judge(theta) != usual.held_out.sum(usual.held_out_losses(theta)));
+  const auto own = problem_of(loss_of(galaxy, state_after_three(measure, 2.0)));
+  BOOST_TEST(own.judge(theta) == own.over_held_out->value(theta));
+  BOOST_TEST(own.judge(theta) != own.at_end_of_held_out->value(theta));
+  BOOST_TEST(usual.judge(theta) == usual.at_end_of_held_out->value(theta));
+  BOOST_TEST(usual.judge(theta) != usual.over_held_out->value(theta));
 }
+
+namespace {
+
+/// 1e-3 + |theta - (.5, .4)|^2, in sixty blocks with scores of one size. Two of them may have another
+/// curvature, with either sign.
+class sixty_blocks final : public loss_on_data {
+ public:
+  explicit sixty_blocks(double curvature_of_two) : curvature_of_two_(curvature_of_two) {}
+
+  squares at(const Eigen::VectorXd& theta) const override {
+    const Eigen::Vector2d off = theta - least;
+    return {1e-3 + off.squaredNorm(), off, Eigen::Matrix2d::Identity()};
+  }
+  std::vector<double> by_trajectory(const Eigen::VectorXd& theta) const override {
+    return std::vector<double>(blocks, at(theta).value / blocks);
+  }
+  Eigen::VectorXd by_residual(const Eigen::VectorXd& theta) const override {
+    return Eigen::VectorXd::Constant(1, at(theta).value);
+  }
+  std::vector<Eigen::MatrixXd> gradients(const Eigen::VectorXd& theta) const override {
+    const Eigen::Vector2d off = theta - least;
+    std::vector<Eigen::MatrixXd> scores;
+    for (int b = 0; b < blocks; ++b) {
+      const double sign = b % 2 == 0 ? 1.0 : -1.0;
+      const double curvature = 2.0 / blocks + (b < 2 ? sign * curvature_of_two_ : 0.0);
+      scores.emplace_back(curvature * off + sign * Eigen::Vector2d(1e-5, 1e-5));
+    }
+    return scores;
+  }
+  std::size_t residuals() const override { return 1; }
+  bool has_estimated_weights() const override { return false; }
+  std::unique_ptr<const loss_on_data> of_family(const run_time_family&) const override {
+    return std::make_unique<const sixty_blocks>(*this);
+  }
+  const shard& share() const override { return share_; }
+  std::int64_t evaluations() const override { return 0; }
+
+  inline static const Eigen::Vector2d least{0.5, 0.4};
+
+ private:
+  static constexpr int blocks = 60;
+  double curvature_of_two_;
+  shard share_{blocks};
+};
+
+}  // namespace
 
 // Of 60 trajectories with equal scores, sixty decide; but two may have ten times the curvature of all, with
 // either sign, so that others like them would have another minimum.
 BOOST_AUTO_TEST_CASE(errors_are_withheld_where_single_trajectories_make_the_curvature) {
   const data_sets& sets = two_sets();
-  const Eigen::Vector2d least(0.5, 0.4);
   const auto fitted = [&](double curvature_of_two) {
-    auto problem = make_learning_problem(family, galaxy, sets.data, sets.held_out,
-                                         {.start = least + Eigen::Vector2d(0.01, 0.01), .random_starts = 0});
-    problem.loss = [=](const Eigen::VectorXd& at) {
-      const Eigen::Vector2d off = at - least;
-      return squares{1e-3 + off.squaredNorm(), off, Eigen::Matrix2d::Identity()};
-    };
-    problem.judge = [loss = problem.loss](const Eigen::VectorXd& at) { return loss(at).value; };
+    learning_problem problem(family, galaxy, sets.data, sets.data,
+                             {.loss = loss_named("state:3"),
+                              .start = sixty_blocks::least + Eigen::Vector2d(0.01, 0.01),
+                              .random_starts = 0});
+    problem.over_data = std::make_shared<const sixty_blocks>(curvature_of_two);
+    problem.loss = objective_of(*problem.over_data);
     problem.stages.clear();
-    problem.shorter.reset();
-    problem.scores = [=](const Eigen::VectorXd& at) {
-      constexpr int blocks = 60;
-      const Eigen::Vector2d off = at - least;
-      std::vector<Eigen::VectorXd> scores;
-      for (int b = 0; b < blocks; ++b) {
-        const double sign = b % 2 == 0 ? 1.0 : -1.0;
-        const double curvature = 2.0 / blocks + (b < 2 ? sign * curvature_of_two : 0.0);
-        scores.emplace_back(curvature * off + sign * Eigen::Vector2d(1e-5, 1e-5));
-      }
-      return trajectory_scores(std::move(scores));
-    };
-    problem.held_out_scores = {};
     problem.facts.trajectory_steps = problem.facts.loss_steps;
     return solve(problem).summary;
   };
@@ -252,7 +284,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const metric measure(galaxy, data, coordinates::qp);
   auto loss = state_after_three(measure);
   const auto refused = [&](const fit_options& options, said words) {
-    return refuses([&] { make_learning_problem(family, galaxy, data, data, options, loss); }, words);
+    return refuses([&] { detail::with_loss(options, loss_of(galaxy, loss)); }, words);
   };
   BOOST_TEST(!refused({}, {}));
   BOOST_TEST(refused({.loss = loss_named("energy:6")}, {"energy:6", "my state:3", "must be one"}));
@@ -263,5 +295,5 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   }
   loss.name = "mine";
   loss.steps = 5;
-  BOOST_TEST(refused({}, {"5 steps", "longer horizon"}));
+  BOOST_TEST(refuses([&] { learn(family, galaxy, data, data, {}, loss); }, {"5 steps", "longer horizon"}));
 }

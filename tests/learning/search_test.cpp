@@ -2,12 +2,14 @@
 // Compiled with -O1: 10 s at -O0, 4.2 s at -O1.
 // The search ends at the minimum: the member that made the data, wherever it lies, from wherever it starts.
 // What a fit to whole trajectories has over a fit to one step, and how it is found.
-#include "../../src/nysalt/learning/losses_of_problem.hpp"
+#include "../../src/nysalt/learning/problem.hpp"
+#include "../../src/nysalt/learning/starts_of_fit.hpp"
 #include "../support/dense.hpp"
 #include "../support/draws.hpp"
 #include "../support/learned.hpp"
 #include "../support/members.hpp"
 #include "../support/rounding.hpp"
+#include "nysalt/learning/learn_enough.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -45,7 +47,7 @@ double recovery_error(const data_sets& sets, const run_time_family& family, cons
                       double increment) {
   const metric measure(galaxy, sets.data, coordinates::qp);
   const after_steps<> loss(family, galaxy, sets.data, state_error(measure));
-  const symmetric_eigen of_loss(squares_at(loss, theta).normal_matrix);
+  const symmetric_eigen of_loss(loss.at(theta).normal_matrix);
   return std::sqrt(4.0) * 100.0 * eps / increment / std::sqrt(of_loss.values[0]);
 }
 
@@ -56,8 +58,8 @@ Eigen::VectorXd pair(double b1, double beta1) { return Eigen::Vector2d(b1, beta1
 double remaining_step(const data_sets& sets, const Eigen::VectorXd& theta, Eigen::Index free) {
   const metric measure(galaxy, sets.data, coordinates::qp);
   const after_steps<> loss(two_stages, galaxy, sets.data, state_error(measure));
-  const curvature bend(hessian(loss, theta), {free});
-  return std::abs(bend.solve(squares_at(loss, theta).gradient())[free]);
+  const curvature bend(hessian(objective_of(loss), theta), {free});
+  return std::abs(bend.solve(loss.at(theta).gradient())[free]);
 }
 
 template <Family F>
@@ -189,7 +191,7 @@ BOOST_AUTO_TEST_CASE(a_flat_direction_is_reported_and_the_rest_is_learned) {
     BOOST_TEST(fit.summary.loss <= 1e-24);
     BOOST_REQUIRE(fit.summary.flat_directions.size() == 1);
     const Eigen::VectorXd flat = Eigen::Map<const Eigen::Vector3d>(fit.summary.flat_directions[0].data());
-    const symmetric_eigen of_loss(squares_at(loss, fit.theta).normal_matrix);
+    const symmetric_eigen of_loss(loss.at(fit.theta).normal_matrix);
     // Residuals vanish at the minimum, so the normal matrix is half the Hessian: the same direction is flat.
     BOOST_TEST(std::abs(of_loss.vectors.col(0).dot(flat)) >= 1.0 - 1e-6);
     BOOST_TEST(of_loss.values[0] <= 1e-8 * of_loss.values[2]);
@@ -234,7 +236,7 @@ BOOST_AUTO_TEST_CASE(what_follows_a_slow_motion_alone_follows_not) {
   for (const double step : {0.06, 0.003}) {
     const data_options options{.step = step, .horizon = 100.0 * step, .trajectories = 3};
     const data_sets sets(two_speeds{}, starts, fine_steps(step / 60.0), options);
-    const auto problem = make_learning_problem(family, two_speeds{}, sets.data, sets.held_out, {});
+    const learning_problem problem(family, two_speeds{}, sets.data, sets.held_out, {});
     BOOST_TEST(problem.follows(family.starts.front().theta) == (step == 0.003));
   }
 }
@@ -257,7 +259,7 @@ BOOST_AUTO_TEST_CASE(a_larger_family_begins_at_the_optimum_of_the_one_that_it_co
 BOOST_AUTO_TEST_CASE(the_loss_takes_the_energy_coordinates_of_systems_with_modes_unless_told) {
   const auto sets = sets_at(0.05);
   const auto coordinates_of = [&](const fit_options& options) {
-    return make_learning_problem(two_stages, chain, sets.data, sets.held_out, options).facts.coordinates;
+    return learning_problem(two_stages, chain, sets.data, sets.held_out, options).facts.coordinates;
   };
   BOOST_TEST(coordinates_of({}) == "energy");
   BOOST_TEST(coordinates_of({.coordinates = coordinates::qp}) == "qp");
@@ -275,6 +277,18 @@ BOOST_AUTO_TEST_CASE(more_effort_is_more_starts) {
   BOOST_TEST(tried(effort::normal, "trajectory") == quick + 16);  // a fifth of 120 in place of 40
   BOOST_TEST(tried(effort::quick, "state:1") == quick);
   BOOST_TEST(tried(effort::thorough, "state:1") == quick + 72);  // and 400
+}
+
+BOOST_AUTO_TEST_CASE(enough_trajectories_tell_what_as_many_tell_at_once) {
+  data_options made{.step = h, .horizon = 5.0 * h, .trajectories = 8};
+  const fine_steps reference(h / 20.0);
+  const fit_options options{.loss = loss_named("state:1"), .random_starts = 0, .planned_steps = 500};
+  const auto enough = learn_enough(two_stages, galaxy, gentle_starts, reference,
+                                   {.first = made, .enough = {.share = 0.05, .most = 64}}, options);
+  made.trajectories = enough.course.stops.back().trajectories;
+  BOOST_TEST(made.trajectories > 8);
+  const data_sets sets(galaxy, gentle_starts, reference, made);
+  BOOST_TEST((enough.theta == sets.learned(two_stages, galaxy, options).theta));
 }
 
 BOOST_AUTO_TEST_CASE(the_loss_on_oscillators_is_the_distance_of_the_matrices_and_its_gradient_the_slope) {

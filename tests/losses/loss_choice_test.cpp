@@ -159,9 +159,9 @@ BOOST_AUTO_TEST_CASE(names_are_understood_and_told_again) {
     BOOST_TEST(loss_named(name).description() == name);
   }
   // Each says what it needs.
-  for (const loss_kind* kind : losses()) {
+  for (const auto& kind : losses()) {
     BOOST_TEST(loss_named(kind->name).kind == kind);
-    BOOST_TEST(kind->over_data != nullptr);
+    BOOST_TEST(static_cast<bool>(kind->over_data));
     BOOST_TEST((kind->asks_data() || !kind->counts_steps));
   }
   BOOST_TEST(loss_patterns(true) == "state:K, energy:K");

@@ -11,16 +11,17 @@
 #include <utility>
 #include <vector>
 
+#include "../../src/nysalt/losses/after_steps.hpp"
 #include "nysalt/family.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/losses/after_steps.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/stepper.hpp"
+#include "parameters.hpp"
 
 namespace nysalt::test {
 
@@ -49,6 +50,14 @@ class central_difference {
 /// Whether two passes over data came to the same bits.
 inline bool same(const squares& a, const squares& b) {
   return a.value == b.value && a.half_gradient == b.half_gradient && a.normal_matrix == b.normal_matrix;
+}
+
+/// The contribution of each trajectory to the gradient of a loss.
+inline std::vector<Eigen::VectorXd> trajectory_gradients(const loss_on_data& loss,
+                                                         const Eigen::VectorXd& theta) {
+  std::vector<Eigen::VectorXd> result;
+  for (const auto& of_residuals : loss.gradients(theta)) result.emplace_back(of_residuals.rowwise().sum());
+  return result;
 }
 
 struct steps_options {

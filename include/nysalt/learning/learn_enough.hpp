@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nysalt/learn.hpp"
@@ -43,5 +43,23 @@ struct enough_course {
 /// 2 <= first <= most. Cost: twice that of the last fit.
 enough_course until_enough(std::int64_t first, const enough_options& options,
                            const std::function<fit_summary(std::int64_t trajectories)>& learn);
+
+/// The data of learn_enough(), and how many trajectories they may grow to.
+struct growing_data {
+  data_options first;               ///< data of the first fit
+  std::uint64_t held_out_seed = 2;  ///< seed of the held-out data, as many as those to learn from
+  enough_options enough{};          ///< when to stop; at most as many trajectories as fit into memory
+};
+
+/// The last fit, and the course of all fits.
+struct learned_enough : fit {
+  enough_course course;  ///< history of all fits
+};
+
+/// learn() with as many trajectories as necessary, see until_enough(): each time data are made for as many
+/// more. What comes out is what learn() gives for that number. Throws what these do.
+learned_enough learn_enough(const run_time_family& family, const model& system, const initial_states& ensemble,
+                            const reference& reference, const growing_data& growing,
+                            const fit_options& options = {});
 
 }  // namespace nysalt

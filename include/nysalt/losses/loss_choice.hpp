@@ -2,6 +2,8 @@
 // The losses of the library and the program: what each needs, and which is chosen.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,17 +11,30 @@
 #include <vector>
 
 #include "nysalt/bath.hpp"
-#include "nysalt/losses/after_steps.hpp"
 #include "nysalt/losses/squares.hpp"
+#include "nysalt/losses/window_error.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/run_time_family.hpp"
 
 namespace nysalt {
 
-namespace detail {
-struct data_loss;    // in src/nysalt/losses/data_loss.hpp
-struct loss_inputs;  // there, too
-}  // namespace detail
+/// Numbers of steps after which an error counts.
+struct after_steps_options {
+  std::vector<int> steps{1};  ///< rising numbers; the last is the length K of a window
+  int apart = 1;              ///< steps from the beginning of one window to that of the next
+  int every = 1;              ///< trajectory counts whose number this divides
+  int threads = 1;            ///< changes no bit
+};
+
+/// From what a loss over data is made. The loss copies the data, and refers to the metric.
+struct loss_inputs {
+  const run_time_family& family;  ///< family to fit
+  const model& system;            ///< system that the data are of
+  const flow_map_data& data;      ///< data to sum over
+  const metric& measure;          ///< weights of an error of the state
+  after_steps_options how;        ///< steps after which an error counts
+  bool in_lanes;                  ///< whether windows are in lanes
+};
 
 /// The criterion that is least for the best of several minima: the loss on held-out data; the state's error
 /// at the ends of held-out trajectories; or the loss on the data that were learned from, so that held-out
@@ -29,10 +44,9 @@ enum class judge_of_minima { held_out_loss, held_out_end, training_loss };
 /// The error after K steps, from four states of each trajectory first, then from each.
 std::vector<after_steps_options> after_each_step(int K, int shortest);
 
-/// A loss that text can name: what it needs, how it is made, and how it is judged. Each is declared in one
-/// file, src/nysalt/losses/NAME.cpp, and listed in losses.cpp there.
+/// A kind of loss: what it needs, how it is made, and how it is judged.
 struct loss_kind {
-  std::string_view name;     ///< name, as in "state:K"
+  std::string name;          ///< name, as in "state:K"
   bool counts_steps = true;  ///< the number K of steps follows the name
   bool needs_modes = false;  ///< whether the loss needs the modes of the system
   bool needs_bath = false;   ///< whether the loss needs a bath with friction and temperature
@@ -47,24 +61,22 @@ struct loss_kind {
   std::vector<after_steps_options> (*stages)(int K, int shortest) = after_each_step;
   /// The loss over data; where the loss itself asks none, the estimate of what was learned from held-out
   /// data.
-  detail::data_loss (*over_data)(const detail::loss_inputs& from);
+  std::function<std::unique_ptr<const loss_on_data>(const loss_inputs& from)> over_data;
   /// The loss of a step, if it asks no data; else nullptr.
   objective (*without_data)(const model& system, const run_time_family& family, double step) = nullptr;
 
-  constexpr bool asks_data() const {
-    return without_data == nullptr;
-  }  ///< whether the loss is minimised over data
+  bool asks_data() const { return without_data == nullptr; }  ///< whether the loss is minimised over data
 };
 
-/// All losses; the first is the default.
-std::span<const loss_kind* const> losses();
+/// All losses that text can name, a table in src/nysalt/losses/losses.cpp; the first is the default.
+std::span<const std::shared_ptr<const loss_kind>> losses();
 
 // Choice of a loss to learn with.
 
 /// A loss and its number of steps; by default that of trajectories.
 struct loss_choice {
-  const loss_kind* kind = losses().front();  ///< kind of the loss
-  int steps = 1;                             ///< K; of no account where the kind counts no steps
+  std::shared_ptr<const loss_kind> kind = losses().front();  ///< kind of the loss
+  int steps = 1;  ///< K; of no account where the kind counts no steps
 
   friend bool operator==(const loss_choice&, const loss_choice&) = default;  ///< equal in both
 
@@ -76,6 +88,19 @@ struct loss_choice {
 /// friction and noise make an end of phases, and what trajectories gain in phase they lose in the
 /// distribution of energies.
 loss_choice usual_loss(const bath& around);
+
+namespace detail {
+/// Throws std::invalid_argument unless the name is one line, and no name of losses().
+loss_choice own_choice(const std::string& name, int steps, const window_error<lanes>& error);
+loss_choice own_choice(const std::string& name, int steps, const window_error<double>& error);
+}  // namespace detail
+
+/// A loss of the user's, as a choice. Throws std::invalid_argument unless its name is one line, and no name
+/// of losses(); and what own_error() does.
+template <SeparableSystem S, class Error>
+loss_choice loss_of(const S& system, const own_loss<Error>& own) {
+  return detail::own_choice(own.name, own.steps, own_error(system, own.error));
+}
 
 /// "state:5", "energy:10", "covariance"; K is 1 where it is not said. Throws std::invalid_argument for
 /// anything else.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // The Hessian of a loss, and the uncertainty of a minimum that follows from it.
 
-#include "nysalt/learning/curvature.hpp"
+#include "curvature.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -47,6 +47,24 @@ Eigen::MatrixXd hessian(const objective& loss, const Eigen::VectorXd& theta) {
     }
   }
   return 0.5 * (result + result.transpose());
+}
+
+trajectory_scores scores_of(const loss_on_data& loss, const Eigen::VectorXd& theta,
+                            const Eigen::MatrixXd& deviations) {
+  const auto by_trajectory = loss.gradients(theta);
+  const Eigen::MatrixXd zero =
+      Eigen::MatrixXd::Zero(theta.size(), static_cast<Eigen::Index>(loss.residuals()));
+  const Eigen::MatrixXd sum = loss.share().sum(by_trajectory, zero);
+  std::vector<Eigen::VectorXd> result;
+  for (std::size_t m = 0; m < by_trajectory.size(); ++m) {
+    result.push_back(Eigen::VectorXd::Zero(sum.rows()));
+    for (Eigen::Index k = 0; k < sum.cols(); ++k) {
+      result[m] += by_trajectory[m].col(k);
+      if (!loss.has_estimated_weights()) continue;
+      result[m] -= sum.col(k) * deviations(k % deviations.rows(), static_cast<Eigen::Index>(m));
+    }
+  }
+  return {std::move(result), loss.share()};
 }
 
 curvature::curvature(const Eigen::MatrixXd& hessian, std::vector<Eigen::Index> free)

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "../losses/windows.hpp"
 #include "nysalt/communicator.hpp"
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/spectrum.hpp"

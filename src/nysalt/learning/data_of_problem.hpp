@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nysalt/flow_map_data.hpp"
-#include "nysalt/losses/after_steps.hpp"
+#include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_point.hpp"

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/learning/curvature.hpp"
+#include "curvature.hpp"
 #include "nysalt/learning/fit_summary.hpp"
-#include "nysalt/learning/problem.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/shard.hpp"
+#include "problem.hpp"
 
 namespace nysalt::detail {
 

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace nysalt {
 
@@ -36,6 +38,27 @@ enough_course until_enough(std::int64_t first, const enough_options& options,
     course.is_reached = share <= options.share && !fit.is_decided_by_few();
     if (course.is_reached || std::isnan(share) || trajectories == options.most) return course;
   }
+}
+
+learned_enough learn_enough(const run_time_family& family, const model& system, const initial_states& ensemble,
+                            const reference& reference, const growing_data& growing,
+                            const fit_options& options) {
+  flow_map_data data;
+  flow_map_data held_out;
+  std::optional<fit> found;
+  const auto learn_from = [&](std::int64_t trajectories) {
+    data_options wanted = growing.first;
+    wanted.trajectories = trajectories;
+    extend_data(system, ensemble, reference, wanted, data);
+    wanted.seed = growing.held_out_seed;
+    extend_data(system, ensemble, reference, wanted, held_out);
+    found = learn(family, system, data, held_out, options);
+    return found->summary;
+  };
+  enough_options enough = growing.enough;
+  enough.most = std::min(enough.most, most_trajectories(growing.first, size(system)));
+  auto course = until_enough(growing.first.trajectories, enough, learn_from);
+  return {std::move(*found), std::move(course)};
 }
 
 }  // namespace nysalt

@@ -2,7 +2,6 @@
 
 #include "minimise.hpp"
 
-#include <ceres/cost_function.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
@@ -13,7 +12,7 @@
 #include <memory>
 #include <utility>
 
-#include "nysalt/learning/curvature.hpp"
+#include "curvature.hpp"
 
 // The few residuals that have the loss, gradient and normal matrix of many.
 
@@ -21,7 +20,10 @@ namespace nysalt {
 
 compressed_cost::compressed_cost(objective loss, std::function<bool(const Eigen::VectorXd&)> defined,
                                  int parameters)
-    : loss_(std::move(loss)), defined_(std::move(defined)), parameters_(parameters) {}
+    : loss_(std::move(loss)), defined_(std::move(defined)) {
+  set_num_residuals(parameters + 1);
+  mutable_parameter_block_sizes()->push_back(parameters);
+}
 
 bool compressed_cost::is_usable_at(const Eigen::VectorXd& theta) const {
   if (!defined_(theta)) return false;
@@ -34,7 +36,7 @@ bool compressed_cost::is_usable_at(const Eigen::VectorXd& theta) const {
 }
 
 bool compressed_cost::Evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
-  const Eigen::Index count = parameters_;
+  const Eigen::Index count = num_residuals() - 1;
   if (!is_usable_at(Eigen::Map<const Eigen::VectorXd>(blocks[0], count))) return false;
   if (jacobians != nullptr && jacobians[0] != nullptr) {
     std::copy_n(residuals_.data(), count + 1, residuals);
@@ -67,33 +69,10 @@ void compressed_cost::compress() const {
 
 // The minimum of a loss: Ceres, then Newton's method for the last digits.
 
-namespace {
-
-/// A compressed cost as Ceres takes it.
-class cost_of_ceres final : public ceres::CostFunction {
- public:
-  cost_of_ceres(objective loss, std::function<bool(const Eigen::VectorXd&)> defined, int parameters)
-      : cost_(std::move(loss), std::move(defined), parameters) {
-    set_num_residuals(parameters + 1);
-    mutable_parameter_block_sizes()->push_back(parameters);
-  }
-
-  bool is_usable_at(const Eigen::VectorXd& theta) const { return cost_.is_usable_at(theta); }
-
-  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
-    return cost_.Evaluate(blocks, residuals, jacobians);
-  }
-
- private:
-  compressed_cost cost_;
-};
-
-}  // namespace
-
 namespace detail {
 
-void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, int max_iterations,
-             minimum& found, double function_tolerance, bool may_climb) {
+void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, const descent& how,
+             minimum& found) {
   Eigen::VectorXd& theta = found.theta;
   std::vector<int> fixed;
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
@@ -104,11 +83,11 @@ void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, int
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = max_iterations;
-  options.function_tolerance = function_tolerance;
+  options.max_num_iterations = how.max_iterations;
+  options.function_tolerance = how.function_tolerance;
   options.gradient_tolerance = 0.0;
   options.parameter_tolerance = 1e-8;
-  options.use_nonmonotonic_steps = may_climb;
+  options.use_nonmonotonic_steps = how.may_climb;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
@@ -156,19 +135,35 @@ void polish(const objective& loss, const std::function<bool(const Eigen::VectorX
 
 }  // namespace detail
 
+namespace {
+
+/// descend() from theta; false from where the loss is not usable.
+bool descend_by_few_residuals(const objective& loss,
+                              const std::function<bool(const Eigen::VectorXd&)>& defined,
+                              const std::vector<Eigen::Index>& free, const detail::descent& how,
+                              minimum& found) {
+  auto cost = std::make_unique<compressed_cost>(loss, defined, static_cast<int>(found.theta.size()));
+  if (!cost->is_usable_at(found.theta)) {
+    found.loss = std::numeric_limits<double>::infinity();
+    return false;
+  }
+  if (free.empty()) return true;
+  ceres::Problem problem;
+  problem.AddResidualBlock(cost.release(), nullptr, found.theta.data());
+  detail::descend(problem, free, how, found);
+  return true;
+}
+
+}  // namespace
+
 std::pair<Eigen::VectorXd, double> descend_roughly(const objective& loss,
                                                    const std::function<bool(const Eigen::VectorXd&)>& defined,
                                                    const Eigen::VectorXd& start,
                                                    const std::vector<Eigen::Index>& free, bool may_climb) {
-  constexpr int most_iterations = 40;
-  constexpr double hardly = 0.01;
+  const detail::descent roughly{.max_iterations = 40, .function_tolerance = 0.01, .may_climb = may_climb};
   minimum found{start};
-  auto cost = std::make_unique<cost_of_ceres>(loss, defined, static_cast<int>(start.size()));
-  if (!cost->is_usable_at(start)) return {start, std::numeric_limits<double>::infinity()};
-  if (!free.empty()) {
-    ceres::Problem problem;
-    problem.AddResidualBlock(cost.release(), nullptr, found.theta.data());
-    detail::descend(problem, free, most_iterations, found, hardly, may_climb);
+  if (!descend_by_few_residuals(loss, defined, free, roughly, found)) {
+    return {start, found.loss};
   }
   return {found.theta, loss(found.theta).value};
 }
@@ -176,22 +171,13 @@ std::pair<Eigen::VectorXd, double> descend_roughly(const objective& loss,
 minimum minimise(const objective& loss, const std::function<bool(const Eigen::VectorXd&)>& defined,
                  const Eigen::VectorXd& start, const std::vector<Eigen::Index>& free, int max_iterations) {
   minimum found{start};
+  found.hessian = Eigen::MatrixXd::Zero(start.size(), start.size());  // where the direction is not needed
   if (free.empty()) {
     found.loss = loss(start).value;
-    found.hessian = Eigen::MatrixXd::Zero(start.size(), start.size());  // the direction is not needed
     found.converged = true;
-    return found;
+  } else if (descend_by_few_residuals(loss, defined, free, {max_iterations}, found)) {
+    detail::polish(loss, defined, free, found);
   }
-  auto cost = std::make_unique<cost_of_ceres>(loss, defined, static_cast<int>(start.size()));
-  if (!cost->is_usable_at(start)) {
-    found.loss = std::numeric_limits<double>::infinity();
-    found.hessian = Eigen::MatrixXd::Zero(start.size(), start.size());
-    return found;
-  }
-  ceres::Problem problem;
-  problem.AddResidualBlock(cost.release(), nullptr, found.theta.data());
-  detail::descend(problem, free, max_iterations, found);
-  detail::polish(loss, defined, free, found);
   return found;
 }
 

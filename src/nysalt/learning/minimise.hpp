@@ -2,6 +2,7 @@
 // A loss of any number of residuals as a Ceres cost with few.
 #pragma once
 
+#include <ceres/cost_function.h>
 #include <Eigen/Core>
 #include <functional>
 #include <utility>
@@ -21,7 +22,7 @@ namespace nysalt {
 /// Normal equations square the condition number, which decides how well a step is known and not where the
 /// search ends: that is where J^T r, summed from the residuals themselves, vanishes. Ceres' own damping,
 /// the same for blocks, stops steps along directions that are left out here.
-class compressed_cost {
+class compressed_cost final : public ceres::CostFunction {
  public:
   /// Points where `defined` is false, or anything is not finite, are rejected, with or without the Jacobian:
   /// Ceres writes to the standard error stream where one that it has accepted has none.
@@ -32,7 +33,7 @@ class compressed_cost {
 
   /// Overrides ceres::CostFunction: false where the point is rejected. Cost: a pass with derivatives at a new
   /// point.
-  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const;
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override;
 
  private:
   void compress() const;
@@ -41,7 +42,6 @@ class compressed_cost {
 
   objective loss_;
   std::function<bool(const Eigen::VectorXd&)> defined_;
-  Eigen::Index parameters_;
   // A step that is tried is nearly always taken, and then its derivatives are asked for: one pass gives all.
   mutable Eigen::VectorXd theta_;
   mutable squares at_theta_;
@@ -73,13 +73,19 @@ struct minimum {
 
 namespace detail {
 
+/// When a descent ends, and whether it may climb: it then takes up to five steps on which the loss grows, by
+/// which it crosses the bends of a narrow valley, and ends at the least loss that it met.
+struct descent {
+  int max_iterations;
+  double function_tolerance = 0.0;
+  bool may_climb = false;
+};
+
 /// Ceres from theta, which becomes where it ends; parameters that are not free stay. The loss is flat along
 /// a valley, on which Gauss-Newton steps are short: so the search does not end on small changes of the loss,
-/// but on small steps. Where it does not end so, the last quarter of the iterations detects a valley. A
-/// search that may climb takes up to five steps on which the loss grows, by which it crosses the bends of a
-/// narrow valley; it ends at the least loss that it met.
-void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, int max_iterations,
-             minimum& found, double function_tolerance = 0.0, bool may_climb = false);
+/// but on small steps. Where it does not end so, the last quarter of the iterations detects a valley.
+void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, const descent& how,
+             minimum& found);
 
 /// Newton steps with the Hessian of where they begin, until rounding is reached; then it is that of the end,
 /// to a part in a million.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // From several starts to the best minimum that may be used.
 
-#include "nysalt/learning/search.hpp"
+#include "search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -107,6 +107,11 @@ Eigen::VectorXd inside(const run_time_family& family, Eigen::VectorXd theta) {
 
 namespace {
 
+struct start_with_loss {
+  named_parameters at;
+  double loss;
+};
+
 /// The best minima of an earlier loss that differ, those first that the guard admits. Every other two of the
 /// searches may climb: they cross the bends of narrow valleys, and the others stay where they begin, so that
 /// either find minima that the others miss. And the least loss that was found.
@@ -115,12 +120,8 @@ std::pair<std::vector<named_parameters>, double> most_promising(const search_tas
                                                                 const std::vector<named_parameters>& starts,
                                                                 std::size_t most) {
   constexpr double far_apart = 0.05;  // of coefficients of order one
-  struct found {
-    named_parameters at;
-    double loss;
-  };
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
-  std::vector<found> all;
+  std::vector<start_with_loss> all;
   for (std::size_t n = 0; n < starts.size(); ++n) {
     const auto& start = starts[n];
     auto [theta, value] = descend_roughly(loss, is_defined, start.theta, task.free, n / 2 % 2 == 1);
@@ -130,7 +131,7 @@ std::pair<std::vector<named_parameters>, double> most_promising(const search_tas
     }
     if (std::isfinite(value)) all.push_back({{start.name, std::move(theta)}, value});
   }
-  std::ranges::stable_sort(all, {}, &found::loss);
+  std::ranges::stable_sort(all, {}, &start_with_loss::loss);
   std::vector<named_parameters> admitted;
   std::vector<named_parameters> others;
   for (const auto& one : all) {
@@ -179,109 +180,115 @@ std::vector<named_parameters> one_step_minima(const search_task& task,
 /// Those with the least losses, from the least on; none without a finite one.
 void keep_least(std::vector<named_parameters>& starts, const objective& loss, std::size_t most) {
   if (starts.size() <= most) return;
-  std::vector<std::pair<double, named_parameters>> all;
+  std::vector<start_with_loss> all;
   for (auto& start : starts) {
     const double value = loss(start.theta).value;
-    if (std::isfinite(value)) all.emplace_back(value, std::move(start));
+    if (std::isfinite(value)) all.push_back({std::move(start), value});
   }
-  std::ranges::stable_sort(all, {}, &std::pair<double, named_parameters>::first);
-  if (all.size() > most) all.resize(most, {0.0, {}});
+  std::ranges::stable_sort(all, {}, &start_with_loss::loss);
   starts.clear();
-  for (auto& [value, start] : all) starts.push_back(std::move(start));
+  for (std::size_t n = 0; n < std::min(most, all.size()); ++n) starts.push_back(std::move(all[n].at));
 }
 
-/// Starts from which a search goes along the edge of stability, which takes many passes over the data: of
-/// twelve, after some passes, the best three.
-constexpr std::size_t most_at_edge = 12;
-constexpr std::size_t most_to_the_end = 3;
-constexpr int some_passes = 40;
+/// Puts in place of the starts what the stages lead to, and adds minima of the one-step loss. The number of
+/// steps of the stage at which the search is given up; 0: it is not.
+int pass_stages(const search_task& task, std::vector<named_parameters>& starts) {
+  // Minima that are carried on: three from the last stage, four times as many from each before.
+  std::vector<std::size_t> most_of(task.stages.size(), 3);
+  for (std::size_t n = task.stages.size(); n-- > 1;) most_of[n - 1] = 4 * most_of[n];
+  std::vector<named_parameters> of_one_step;
+  for (std::size_t n = 0; n < task.stages.size(); ++n) {
+    const search_stage& stage = task.stages[n];
+    if (starts.size() <= most_of[n]) continue;
+    auto [next, least] = most_promising(task, stage.loss, starts, most_of[n]);
+    if (least > stage.lost_above && task.kept.empty()) return stage.steps;
+    if (!next.empty()) starts = std::move(next);
+    if (task.one_step_loss && of_one_step.empty()) of_one_step = one_step_minima(task, starts);
+  }
+  starts.insert(starts.end(), of_one_step.begin(), of_one_step.end());
+  return 0;
+}
+
+/// Where minima are admitted, or the search at the edge of those that are.
+bool is_allowed(const search_task& task, const Eigen::VectorXd& theta) {
+  const auto& admits = task.admits_at_edge ? task.admits_at_edge : task.admits;
+  return task.family->is_defined(theta) && task.family->is_in_range(theta) && admits(theta);
+}
+
+/// Where all minima that are admitted err by more than twice what a refused one does, or by more than a kept
+/// start, there may be better ones at the edge.
+bool edge_may_be_better(const search_task& task, const candidate& found, const candidate& least) {
+  constexpr double twofold = 4.0;  // of squared errors
+  if (found.theta == least.theta) return false;
+  return twofold * least.judged < found.judged ||
+         std::ranges::any_of(task.kept, [&](const named_parameters& start) {
+           return task.judge(start.theta) < found.judged && is_allowed(task, start.theta);
+         });
+}
+
+/// What searches among admitted points only lead to. A search along the edge of stability takes many passes
+/// over the data: twelve starts go on for some passes, and the best three of them to the end.
+std::vector<candidate> along_edge(const search_task& task, std::vector<named_parameters> from) {
+  constexpr std::size_t most = 12;
+  constexpr std::size_t most_to_the_end = 3;
+  constexpr int some_passes = 40;
+  const auto admits = [&](const Eigen::VectorXd& theta) { return is_allowed(task, theta); };
+  std::erase_if(from, [&](const named_parameters& start) { return !admits(start.theta); });
+  keep_least(from, task.loss, most);
+  if (from.size() > most_to_the_end) {
+    for (auto& start : from) {
+      start.theta = descend_at_edge(task.loss, admits, start.theta, task.free, some_passes);
+    }
+    keep_least(from, task.loss, most_to_the_end);
+  }
+  if (task.most_stable_member && admits(task.most_stable_member->theta)) {
+    from.push_back(*task.most_stable_member);
+  }
+  std::vector<candidate> held;
+  for (const auto& start : from) {
+    candidate one{
+        .from = start.name, .theta = start.theta, .hessian = {}, .free = task.free, .is_held = true};
+    one.theta = descend_at_edge(task.loss, admits, start.theta, task.free);
+    one.loss = task.loss(one.theta).value;
+    one.judged = task.judge(one.theta);
+    held.push_back(one);
+  }
+  return held;
+}
 
 }  // namespace
 
 search_result search(const search_task& task, const std::vector<named_parameters>& given) {
   std::vector<named_parameters> starts = given;
-  std::vector<std::size_t>
-      most_of;  // minima that are carried on: three from the last stage, four times as many before
-  for (std::size_t n = task.stages.size(), most = 3; n-- > 0; most *= 4) most_of.push_back(most);
-  std::vector<named_parameters> of_one_step;
-  for (const search_stage& stage : task.stages) {
-    const std::size_t most = most_of.back();
-    most_of.pop_back();
-    if (starts.size() <= most) continue;
-    auto [next, least] = most_promising(task, stage.loss, starts, most);
-    if (least > stage.lost_above && task.kept.empty()) {
-      search_result none{.best = {}, .unguarded = {}, .tried = static_cast<int>(given.size())};
-      none.lost_after = stage.steps;
-      return none;
-    }
-    if (!next.empty()) starts = std::move(next);
-    if (task.one_step_loss && of_one_step.empty()) of_one_step = one_step_minima(task, starts);
-  }
-  starts.insert(starts.end(), of_one_step.begin(), of_one_step.end());
+  search_result result{.best = {}, .unguarded = {}, .tried = static_cast<int>(given.size())};
+  result.lost_after = pass_stages(task, starts);
+  if (result.lost_after > 0) return result;
   starts.insert(starts.end(), task.kept.begin(), task.kept.end());
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return task.family->is_defined(theta); };
   std::vector<candidate> all;
   for (const auto& start : starts) all.push_back(descend(task, is_defined, start));
-  search_result result{.best = all.front(), .unguarded = {}, .tried = static_cast<int>(given.size())};
-
-  if (starts.size() <
-      given.size()) {  // what is left is near its minimum: it may take many steps to come there
+  result.best = all.front();
+  const bool are_chosen = starts.size() < given.size();
+  if (are_chosen) {  // what is left is near its minimum: it may take many steps to come there
     for (auto& one : all) one.in_valley = !one.converged;
   }
   std::erase_if(all, [](const candidate& c) { return !c.converged && !c.in_valley; });
   const auto sound = by_judgement(std::move(all), task.free);
   if (sound.empty()) return result;
-  result.best = sound.front();
   const auto found = first_to_withstand(task, sound);
-  const auto is_allowed = [&](const Eigen::VectorXd& theta) {
-    const auto& admits = task.admits_at_edge ? task.admits_at_edge : task.admits;
-    return is_defined(theta) && task.family->is_in_range(theta) && admits(theta);
-  };
-  // Where all minima that are admitted err by more than twice what a refused one does, or by more than a kept
-  // start, there may be better ones at the edge.
-  const bool is_best = found && found->theta == sound.front().theta;
-  const auto found_is_above = [&](double judged) { return found && judged < found->judged; };
-  constexpr double twofold = 4.0;  // of squared errors
-  const bool edge_may_be_better =
-      !is_best && (found_is_above(twofold * sound.front().judged) ||
-                   std::ranges::any_of(task.kept, [&](const named_parameters& start) {
-                     return found_is_above(task.judge(start.theta)) && is_allowed(start.theta);
-                   }));
-  if (!is_best) result.unguarded = sound.front();
-  if (found && !edge_may_be_better) {
-    result.best = *found;
-    return result;
-  }
+  result.best = found.value_or(sound.front());
+  if (result.best.theta != sound.front().theta || !found) result.unguarded = sound.front();
+  if (found && !edge_may_be_better(task, *found, sound.front())) return result;
 
-  std::vector<candidate> held;
   std::vector<named_parameters> from = starts;
-  if (starts.size() < given.size()) from.insert(from.end(), given.begin(), given.end());
-  std::erase_if(from, [&](const named_parameters& start) { return !is_allowed(start.theta); });
-  keep_least(from, task.loss, most_at_edge);
-  if (from.size() > most_to_the_end) {
-    for (auto& start : from) {
-      start.theta = descend_at_edge(task.loss, is_allowed, start.theta, task.free, some_passes);
-    }
-    keep_least(from, task.loss, most_to_the_end);
-  }
-  if (task.most_stable_member && is_allowed(task.most_stable_member->theta))
-    from.push_back(*task.most_stable_member);
-  for (const auto& start : from) {
-    candidate one{
-        .from = start.name, .theta = start.theta, .hessian = {}, .free = task.free, .is_held = true};
-    one.theta = descend_at_edge(task.loss, is_allowed, start.theta, task.free);
-    one.loss = task.loss(one.theta).value;
-    one.judged = task.judge(one.theta);
-    held.push_back(one);
-    ++result.tried;
-  }
+  if (are_chosen) from.insert(from.end(), given.begin(), given.end());
+  auto held = along_edge(task, std::move(from));
+  result.tried += static_cast<int>(held.size());
   held = by_judgement(std::move(held), task.free);
   const auto at_edge = first_to_withstand(task, held);
   constexpr double hardly = 0.99;  // a minimum, of which more is known, is as good
-  if (found && !(at_edge && at_edge->judged < hardly * found->judged)) {
-    result.best = *found;
-  } else if (!held.empty()) {
-    result.best = at_edge.value_or(held.front());
+  if (found ? at_edge && at_edge->judged < hardly * found->judged : !held.empty()) {
+    result.best = at_edge ? *at_edge : held.front();
   }
   return result;
 }

@@ -139,30 +139,30 @@ void stability_guard::estimate(const frequencies_along& along, std::size_t typic
   }
 }
 
-void stability_guard::extend(const frequencies_along& along, std::size_t typical) {
-  const std::vector<frequency_band> declared = bands_;
-  const auto is_declared = [&](double omega) {
-    return std::ranges::any_of(declared,
-                               [&](const auto& band) { return band.low <= omega && omega <= band.high; });
-  };
+namespace {
+
+enum where : std::size_t { above, below };
+using of_states = std::vector<double>;  // of the states that have one
+
+/// How far frequencies lie outside of bands.
+struct beyond_bands {
+  std::vector<std::array<of_states, 2>> of_band;  // the farthest above and below each band that is nearest
+  of_states under_all;                            // the highest of those below all bands
+};
+
+/// By the frequencies of the first states.
+beyond_bands beyond(const std::vector<frequency_band>& declared, const frequencies_along& along,
+                    std::size_t states) {
   const auto distance = [](const frequency_band& band, double omega) {
     return omega > band.high ? omega - band.high : band.low - omega;
   };
-  enum where : std::size_t { above, below };
-  using of_states = std::vector<double>;  // of those that have one
-  struct beyond_bands {
-    std::vector<std::array<of_states, 2>> of_band;
-    of_states under_all;
-  };
-  beyond_bands all{std::vector<std::array<of_states, 2>>(declared.size()), {}};
-  beyond_bands of_typical = all;
   const double lowest = std::ranges::min(declared, {}, &frequency_band::low).low;
-  for (std::size_t state = 0; state < along.of_state.size(); ++state) {
-    const auto& one = along.of_state[state];
+  beyond_bands result{std::vector<std::array<of_states, 2>>(declared.size()), {}};
+  for (std::size_t state = 0; state < std::min(states, along.of_state.size()); ++state) {
     std::vector<std::array<double, 2>> farthest(declared.size(), {0.0, 0.0});
     double under = 0.0;
-    for (const double omega : one) {
-      if (omega == 0.0 || is_declared(omega)) continue;
+    for (const double omega : along.of_state[state]) {
+      if (omega == 0.0) continue;
       if (omega < lowest) {
         under = std::max(under, omega);
         continue;
@@ -171,18 +171,24 @@ void stability_guard::extend(const frequencies_along& along, std::size_t typical
           std::ranges::min_element(declared, {}, [&](const auto& band) { return distance(band, omega); }) -
           declared.begin());
       auto& far = farthest[nearest][omega > declared[nearest].high ? above : below];
-      far = std::max(far, distance(declared[nearest], omega));
+      far = std::max(far, distance(declared[nearest], omega));  // below zero within a band
     }
-    for (beyond_bands* found : {&all, &of_typical}) {
-      if (found == &of_typical && state >= typical) continue;
-      for (std::size_t k = 0; k < declared.size(); ++k) {
-        for (const where side : {above, below}) {
-          if (farthest[k][side] > 0.0) found->of_band[k][side].push_back(farthest[k][side]);
-        }
+    for (std::size_t k = 0; k < declared.size(); ++k) {
+      for (const where side : {above, below}) {
+        if (farthest[k][side] > 0.0) result.of_band[k][side].push_back(farthest[k][side]);
       }
-      if (under > 0.0) found->under_all.push_back(under);
     }
+    if (under > 0.0) result.under_all.push_back(under);
   }
+  return result;
+}
+
+}  // namespace
+
+void stability_guard::extend(const frequencies_along& along, std::size_t typical) {
+  const std::vector<frequency_band> declared = bands_;
+  const beyond_bands all = beyond(declared, along, along.of_state.size());
+  const beyond_bands of_typical = beyond(declared, along, typical);
   const std::size_t states = along.of_state.size();
   for (std::size_t k = 0; k < declared.size(); ++k) {
     const auto& [over, down] = all.of_band[k];

@@ -4,23 +4,74 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <type_traits>
 
-#include "losses_of_problem.hpp"
 #include "minimise.hpp"
-#include "nysalt/communicator.hpp"
-#include "nysalt/learning/search.hpp"
+#include "nysalt/methods/phase_fitted.hpp"
 
 namespace nysalt::detail {
+
+namespace {
+
+/// What defects of z^2 are multiplied with to be those of the matrix itself, its four entries counted. Of a
+/// kernel only the phase counts, which is the first: a processor does the rest.
+Eigen::VectorXd weights_of_defects(Eigen::Index count, double z, bool is_kernel) {
+  const double root = std::numbers::sqrt2;  // the half trace is of two entries, and so does the difference
+  Eigen::VectorXd weights(4);
+  weights << root * std::pow(z, 4), std::pow(z, 3), std::pow(z, 3), root * z * z;
+  if (is_kernel) weights.tail(3).setZero();
+  return weights.head(count);
+}
+
+}  // namespace
+
+objective oscillator_loss(const run_time_family& family, const std::vector<frequency_band>& bands,
+                          double step) {
+  constexpr int points_of_band = 4;
+  std::vector<double> angles;
+  for (const auto& [low, high] : bands) {
+    for (int k = 0; k < points_of_band; ++k) {
+      const double z = step * (low + (high - low) * (k + 1.0) / points_of_band);
+      if (z > 0.0 && std::isfinite(z)) angles.push_back(z);
+    }
+  }
+  if (angles.empty() || family.letters.rotates()) return {};
+  return [family, angles](const Eigen::VectorXd& theta) {
+    const Eigen::Index count = theta.size();
+    squares sum{0.0, Eigen::VectorXd::Zero(count), Eigen::MatrixXd::Zero(count, count)};
+    const auto coefficients = family.coefficients(theta);
+    for (const double z : angles) {
+      Eigen::VectorXd r = defect_of_rotation(family.letters, coefficients, family.symmetric, z * z);
+      const Eigen::VectorXd weights = weights_of_defects(r.size(), z, family.letters.is_processed());
+      r = r.cwiseProduct(weights);
+      const Eigen::MatrixXd slopes = weights.asDiagonal() * jacobian_of_defect(family, theta, z * z);
+      sum.value += r.squaredNorm();
+      sum.half_gradient += slopes.transpose() * r;
+      sum.normal_matrix += slopes.transpose() * slopes;
+    }
+    const double share = 1.0 / static_cast<double>(angles.size());
+    return squares{share * sum.value, share * sum.half_gradient, share * sum.normal_matrix};
+  };
+}
 
 void fix(const fit_options& options, Eigen::VectorXd& theta) {
   for (std::size_t k = 0; k < options.fixed.size(); ++k) {
     if (options.fixed[k]) theta[static_cast<Eigen::Index>(k)] = *options.fixed[k];
   }
+}
+
+std::vector<Eigen::Index> free_parameters(const run_time_family& family, const fit_options& options) {
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index k = 0; k < family.parameters(); ++k) {
+    if (options.fixed.empty() || !options.fixed[static_cast<std::size_t>(k)]) free.push_back(k);
+  }
+  return free;
 }
 
 namespace {
@@ -29,7 +80,7 @@ namespace {
 /// few.
 int usual_random_starts(const learning_problem& problem, effort how_much, std::size_t free) {
   if (problem.stages.empty()) return 0;
-  if (problem.is_of_black_box) return 4;
+  if (is_black_box(problem.system)) return 4;
   const int all = how_much == effort::quick ? 40 : how_much == effort::normal ? 120 : 400;
   return free <= 2 ? all / 5 : all;
 }
@@ -47,7 +98,7 @@ std::vector<named_parameters> starts_of(const run_time_family& family, const fit
   const objective on_oscillators =
       problem.stages.empty() || family.letters.has_own_letters()
           ? objective()
-          : oscillator_loss(family, problem.guard.frequencies(met::often), problem.step);
+          : oscillator_loss(family, problem.guard.frequencies(met::often), problem.facts.step);
   const auto is_defined = [&](const Eigen::VectorXd& theta) { return family.is_defined(theta); };
   const int random_starts =
       options.random_starts.value_or(usual_random_starts(problem, options.effort, free.size()));

@@ -6,14 +6,25 @@
 #include <vector>
 
 #include "nysalt/communicator.hpp"
-#include "nysalt/learning/problem.hpp"
-#include "nysalt/learning/search.hpp"
+#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/run_time_family.hpp"
+#include "problem.hpp"
+#include "search.hpp"
 
 namespace nysalt::detail {
 
+/// The mean over frequencies of the bands of |M - R|^2 in coordinates (omega q, p), M the matrix of one step
+/// and R that of the exact flow; nothing for words with rotations, which are exact on their modes. Its minima
+/// are starts of a search where the step is so large that no trajectory from elsewhere stays finite. Cost:
+/// some microseconds.
+objective oscillator_loss(const run_time_family& family, const std::vector<frequency_band>& bands,
+                          double step);
+
 /// Puts in the values of parameters that are not to be learned.
 void fix(const fit_options& options, Eigen::VectorXd& theta);
+
+/// The numbers of the parameters that are to be learned.
+std::vector<Eigen::Index> free_parameters(const run_time_family& family, const fit_options& options);
 
 /// Those of the family or the one that was asked for, further ones, and random ones. Of `problem` only what
 /// is known of the system and the data counts.

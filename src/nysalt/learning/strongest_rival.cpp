@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <numeric>
+#include <stdexcept>
 #include <utility>
 
+#include "data_of_problem.hpp"
 #include "describe.hpp"
 #include "nysalt/methods/classical.hpp"
 
@@ -39,46 +41,106 @@ double relative_median(const contender& chosen, const contender& rival, const sh
   return median_of(rival.losses, share) / median_of(losses_beside(chosen, rival), share);
 }
 
-/// Classical methods at equal cost that the system serves.
-std::vector<contender> classical_rivals(const learning_problem& problem, const contender& chosen) {
-  const run_time_family& family = problem.family;
-  const shard& share = problem.held_out;
-  std::vector<contender> result;
-  if (family.letters.has_own_letters()) return result;  // what these cost is for their author to declare
-  for (const auto& method : classical_methods()) {
-    // Rotations are not counted, and are not free: words with them are compared with each other.
-    if (method.letters().reads_modes != family.letters.reads_modes) continue;
-    if (!method.letters().is_symplectic && family.letters.is_symplectic) continue;
-    // Nor do words without a processor pay for looking.
-    if (method.letters().evaluations_to_observe > family.letters.evaluations_to_observe) continue;
-    const auto known = problem.rival(method);
-    if (!known) continue;
-    contender one{.name = known->name, .losses = known->held_out_losses};
-    one.loss = share.sum(one.losses);
-    one.step = known->step;
-    if (known->losses_beside) {
-      one.losses_beside = known->losses_beside(chosen.theta);
-      one.loss_beside = share.sum(one.losses_beside);
-    }
-    one.objection = [&problem, method = known->method, step = known->judged_step] {
-      const judgement found = problem.judged(method, step);
-      return found.holds() ? std::string() : found.in_words();
-    };
-    result.push_back(std::move(one));
+/// Where a word has its letters O; nothing if it has none, or not as placement says.
+std::optional<placement> placement_in(const run_time_word& word) {
+  const std::string& letters = word.letters();
+  constexpr char o = ornstein_uhlenbeck::letter;
+  if (word.stochastic_letters == 2 && letters.front() == o && letters.back() == o)
+    return placement::symmetric;
+  if (word.stochastic_letters != 1) return std::nullopt;
+  return letters.back() == o ? placement::end : placement::middle;
+}
+
+/// The method with letters O where the family has its own; nothing where it cannot have them.
+std::optional<tabulated> placed(const tabulated& method, const run_time_word& family) {
+  if (family.stochastic_letters == 0) return method;
+  const auto place = placement_in(family);
+  if (!place || method.letters().is_processed()) return std::nullopt;
+  if (*place == placement::middle && method.letters().length % 2 == 0) return std::nullopt;
+  return thermostat(method, *place);
+}
+
+bool is_served(const run_time_word& word, const learning_problem& problem) {
+  try {
+    require_served_with_slopes(word, problem.system, problem.in_lanes());
+  } catch (const std::invalid_argument&) {
+    return false;
   }
-  return result;
+  return true;
+}
+
+std::vector<double> losses_of(const tabulated& method, const loss_on_data& loss) {
+  const run_time_family as_family(method.name(), method.letters(), method.coefficients());
+  return loss.of_family(as_family)->by_trajectory({});
 }
 
 }  // namespace
 
-bool is_better(const contender& a, const contender& b, const shard& share) {
-  return is_better(a.losses, b.losses, share);
+held_out_by_times::held_out_by_times(const learning_problem& problem)
+    : problem_(&problem), known_{{1, problem.over_held_out}} {}
+
+const shared_loss& held_out_by_times::at_every(int times) {
+  const auto [found, is_new] = known_.try_emplace(times);
+  shared_loss& result = found->second;
+  if (!is_new) return result;
+  const auto& problem = *problem_;
+  const auto longer = in_longer_steps(problem.times, times, shortest_of(problem.held_out));
+  if (!longer.steps.empty()) {
+    result = problem.made(*problem.chosen.kind, coarser(problem.held_out, times), longer);
+  }
+  return result;
 }
 
-void summarise_rival(const learning_problem& problem, const contender& chosen, std::vector<contender> rivals,
-                     fit_summary& summary) {
-  const shard& share = problem.held_out;
-  for (auto& one : classical_rivals(problem, chosen)) rivals.push_back(std::move(one));
+std::optional<contender> rival_of(const learning_problem& problem, held_out_by_times& held_out,
+                                  const tabulated& method, const Eigen::VectorXd& theta) {
+  if (method.requires_quadratic_kinetic && !has_quadratic_kinetic(problem.system)) return std::nullopt;
+  const run_time_word& family = problem.family.letters;
+  const int ours = family.evaluations_per_step;
+  const int theirs = method.letters().evaluations_per_step;
+  if (ours < 1 || theirs < 1) return std::nullopt;
+  // `steps` steps of the family last as long, and cost as much, as `times` of the method.
+  const int steps = theirs / std::gcd(ours, theirs);
+  const int times = ours / std::gcd(ours, theirs);
+  const bool is_in_bath = family.stochastic_letters > 0;
+  if (steps > 1 && (is_in_bath || family.is_processed() || family.has_own_letters())) return std::nullopt;
+  if ((steps > 1 || times > 1) && method.letters().is_processed()) return std::nullopt;
+  const auto stepped = placed(repeated(method, times), family);
+  if (!stepped || !is_served(stepped->letters(), problem)) return std::nullopt;
+  const shared_loss loss = held_out.at_every(steps);
+  if (loss == nullptr) return std::nullopt;
+  const shard share = problem.share();
+  contender result{.name = method.name(),
+                   .losses = losses_of(*stepped, *loss),
+                   .method = is_in_bath ? *stepped : method,
+                   .step = problem.facts.step * theirs / ours};
+  result.loss = share.sum(result.losses);
+  result.judged_step = is_in_bath ? problem.facts.step : result.step;
+  if (steps > 1) {
+    result.losses_beside = losses_of(repeated(problem.member(theta), steps), *loss);
+    result.loss_beside = share.sum(result.losses_beside);
+  }
+  return result;
+}
+
+std::vector<contender> classical_rivals(const learning_problem& problem, const Eigen::VectorXd& theta) {
+  const run_time_word& family = problem.family.letters;
+  std::vector<contender> result;
+  if (family.has_own_letters()) return result;  // what these cost is for their author to declare
+  held_out_by_times held_out(problem);
+  for (const auto& method : classical_methods()) {
+    const run_time_word& word = method.letters();
+    // Rotations are not counted, and are not free: words with them are compared with each other.
+    if (has_rotation(word) != has_rotation(family)) continue;
+    if (!word.is_symplectic && family.is_symplectic) continue;
+    // Nor do words without a processor pay for looking.
+    if (word.evaluations_to_observe > family.evaluations_to_observe) continue;
+    if (auto one = rival_of(problem, held_out, method, theta)) result.push_back(*std::move(one));
+  }
+  return result;
+}
+
+void summarise_rival(const contender& chosen, std::vector<contender> rivals, const shard& share,
+                     const objection_to& objection, fit_summary& summary) {
   std::erase_if(rivals, [](const auto& one) { return one.name == "start" || !std::isfinite(one.loss); });
   std::ranges::stable_sort(
       rivals, {}, [&](const contender& one) { return std::pair(relative_loss(chosen, one), one.loss); });
@@ -88,11 +150,11 @@ void summarise_rival(const learning_problem& problem, const contender& chosen, s
   for (const auto& rival : rivals) {
     const bool is_beaten = is_better(losses_beside(chosen, rival), rival.losses, share);
     if (!is_beaten) {
-      const std::string objection = rival.objection();
-      if (!objection.empty()) {
+      const std::string said = objection(rival);
+      if (!said.empty()) {
         if (failed == nullptr && rival.step > 0.0) {
           failed = &rival;
-          why = objection;
+          why = said;
         }
         continue;
       }

@@ -2,49 +2,47 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "data_loss.hpp"
+#include "after_steps.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/losses/stationary_covariance.hpp"
 #include "nysalt/losses/window_error.hpp"
 
-namespace nysalt::detail {
+namespace nysalt {
+
+std::vector<after_steps_options> after_each_step(int K, int shortest) {
+  return {{.steps = {K}, .apart = std::max(1, shortest / 4)}, {.steps = {K}}};
+}
 
 namespace {
-template <Scalar R>
-data_loss made(const loss_inputs& from, const window_error<R>& error) {
-  const auto loss =
-      std::make_shared<const after_steps<R>>(from.family, from.system, from.data, error, from.how);
-  return without_type(loss, from.measure);
-}
-}  // namespace
 
-data_loss after_steps_of(const loss_inputs& from, const window_error<lanes>& error) {
-  return made(from, error);
-}
-data_loss after_steps_of(const loss_inputs& from, const window_error<double>& error) {
-  return made(from, error);
+using made_loss = std::unique_ptr<const loss_on_data>;
+
+template <Scalar R>
+made_loss after_steps_of(const loss_inputs& from, const window_error<R>& error) {
+  return std::make_unique<const after_steps<R>>(from.family, from.system, from.data, error, from.how);
 }
 
 // state:K, the state's error after K steps.
 
-data_loss of_states(const loss_inputs& from) {
-  return from.in_lanes ? after_steps_of(from, state_error<lanes>(*from.measure))
-                       : after_steps_of(from, state_error<double>(*from.measure));
+made_loss of_states(const loss_inputs& from) {
+  return from.in_lanes ? after_steps_of(from, state_error<detail::lanes>(from.measure))
+                       : after_steps_of(from, state_error<double>(from.measure));
 }
 
-constinit const loss_kind state_loss{
-    .name = "state", .judge = judge_of_minima::held_out_end, .over_data = of_states};
+}  // namespace
 
 // energy:K, the energy's error after K steps.
+
+namespace detail {
 
 double scale_of_energies(const model& system, const flow_map_data& data) {
   if (!system.facts().has_energy_over_slopes) {
@@ -62,16 +60,16 @@ double scale_of_energies(const model& system, const flow_map_data& data) {
   return 1.0 / std::sqrt(data.share().sum(squares) / static_cast<double>(data.all_pairs()));
 }
 
-data_loss of_energies(const loss_inputs& from) {
-  return from.in_lanes ? after_steps_of(from, energy_error<lanes>(from.system, from.data))
+}  // namespace detail
+
+namespace {
+
+made_loss of_energies(const loss_inputs& from) {
+  return from.in_lanes ? after_steps_of(from, energy_error<detail::lanes>(from.system, from.data))
                        : after_steps_of(from, energy_error<double>(from.system, from.data));
 }
 
-constinit const loss_kind energy_loss{.name = "energy", .is_for_sampling = true, .over_data = of_energies};
-
 // trajectory, the state's error at several times of whole trajectories.
-
-namespace {
 
 /// Of the first stages, which find where minima lie and should cost little: two windows a trajectory.
 after_steps_options at_first(std::vector<int> steps, int shortest) {
@@ -98,31 +96,11 @@ std::vector<after_steps_options> stages_of_trajectory(int, int shortest) {
   return result;
 }
 
-}  // namespace
-
-constinit const loss_kind trajectory_loss{.name = "trajectory",
-                                          .counts_steps = false,
-                                          .judge = judge_of_minima::training_loss,
-                                          .is_of_energy_norm = true,
-                                          .is_shortened = true,
-                                          .stages = stages_of_trajectory,
-                                          .over_data = of_states};
-
 // covariance, the loss of the stationary distribution of a thermostatted word: no data are needed.
 
-namespace {
 objective of_law(const model& system, const run_time_family& family, double step) {
   return objective_of(stationary_covariance(system, family.letters, step), family);
 }
-}  // namespace
-
-constinit const loss_kind covariance_loss{.name = "covariance",
-                                          .counts_steps = false,
-                                          .needs_modes = true,
-                                          .needs_bath = true,
-                                          .over_data = of_states,
-                                          .without_data = of_law};
-
 // acceptance, the energy's error at several times of whole trajectories: what Metropolis' rule rejects by.
 
 /// Lengths of proposals are random: up to the length of the data, each of several counts as much. Of
@@ -145,16 +123,7 @@ std::vector<after_steps_options> stages_of_acceptance(int /*K*/, int shortest) {
   return result;
 }
 
-constinit const loss_kind acceptance_loss{.name = "acceptance",
-                                          .counts_steps = false,
-                                          .is_of_proposals = true,
-                                          .is_for_sampling = true,
-                                          .stages = stages_of_acceptance,
-                                          .over_data = of_energies};
-
 // gaussian_acceptance, the mean energy error of proposals where forces are linear: no data are asked.
-
-namespace {
 
 /// Number of oscillators by frequency: the modes; where none are declared, as many as there
 /// are degrees of freedom, spread evenly over the bands.
@@ -199,7 +168,7 @@ objective of_spectrum(const model& system, const run_time_family& family, double
     const auto coefficients = family.coefficients(theta);
     const Eigen::MatrixXd jacobian = family.jacobian(theta);
     for (const auto& [omega, count] : count_of) {
-      const energy_defect defect = energy_defect_on_oscillator(family.letters, coefficients, step * omega);
+      const auto defect = detail::energy_defect_on_oscillator(family.letters, coefficients, step * omega);
       const Eigen::VectorXd slope = jacobian.transpose() * defect.slopes;
       const double weight = 0.5 * count;
       sum.value += weight * defect.value * defect.value;
@@ -210,35 +179,83 @@ objective of_spectrum(const model& system, const run_time_family& family, double
   };
 }
 
+std::shared_ptr<const loss_kind> row(loss_kind kind) {
+  return std::make_shared<const loss_kind>(std::move(kind));
+}
+
 }  // namespace
 
-constinit const loss_kind gaussian_acceptance_loss{.name = "gaussian_acceptance",
-                                                   .counts_steps = false,
-                                                   .is_of_proposals = true,
-                                                   .is_for_sampling = true,
-                                                   .stages = stages_of_acceptance,
-                                                   .over_data = of_energies,
-                                                   .without_data = of_spectrum};
+// The table of all losses.
 
-}  // namespace nysalt::detail
-
-// The list of all losses.
-
-namespace nysalt {
-
-std::vector<after_steps_options> after_each_step(int K, int shortest) {
-  return {{.steps = {K}, .apart = std::max(1, shortest / 4)}, {.steps = {K}}};
-}
-
-std::span<const loss_kind* const> losses() {
-  static constexpr std::array all{&detail::trajectory_loss,
-                                  &detail::state_loss,
-                                  &detail::energy_loss,
-                                  &detail::acceptance_loss,
-                                  &detail::gaussian_acceptance_loss,
-                                  &detail::covariance_loss};
+std::span<const std::shared_ptr<const loss_kind>> losses() {
+  static const std::vector<std::shared_ptr<const loss_kind>> all{
+      row({.name = "trajectory",
+           .counts_steps = false,
+           .judge = judge_of_minima::training_loss,
+           .is_of_energy_norm = true,
+           .is_shortened = true,
+           .stages = stages_of_trajectory,
+           .over_data = of_states}),
+      row({.name = "state", .judge = judge_of_minima::held_out_end, .over_data = of_states}),
+      row({.name = "energy", .is_for_sampling = true, .over_data = of_energies}),
+      row({.name = "acceptance",
+           .counts_steps = false,
+           .is_of_proposals = true,
+           .is_for_sampling = true,
+           .stages = stages_of_acceptance,
+           .over_data = of_energies}),
+      row({.name = "gaussian_acceptance",
+           .counts_steps = false,
+           .is_of_proposals = true,
+           .is_for_sampling = true,
+           .stages = stages_of_acceptance,
+           .over_data = of_energies,
+           .without_data = of_spectrum}),
+      row({.name = "covariance",
+           .counts_steps = false,
+           .needs_modes = true,
+           .needs_bath = true,
+           .over_data = of_states,
+           .without_data = of_law})};
   return all;
 }
+
+// A loss of the user's.
+
+namespace {
+
+/// A summary must not take one loss for another, and names it in a line.
+void require_name(const std::string& name) {
+  std::vector<std::string_view> taken;
+  for (const auto& kind : losses()) taken.push_back(kind->name);
+  const bool is_taken = std::ranges::find(taken, name) != taken.end();
+  if (!name.empty() && !is_taken && name.find_first_of("\n\r") == std::string::npos) return;
+  const auto last = taken.back();
+  taken.pop_back();
+  throw std::invalid_argument(
+      fmt::format("learn: the name of an own loss must be one line and none of {1} and {2}, got '{0}'", name,
+                  fmt::join(taken, ", "), last));
+}
+
+template <Scalar R>
+loss_choice choice_by_residuals(const std::string& name, int steps, const window_error<R>& error) {
+  require_name(name);
+  const auto over_data = [error](const loss_inputs& from) { return after_steps_of(from, error); };
+  return {row({.name = name, .is_for_sampling = true, .over_data = over_data}), steps};
+}
+
+}  // namespace
+
+namespace detail {
+
+loss_choice own_choice(const std::string& name, int steps, const window_error<lanes>& error) {
+  return choice_by_residuals(name, steps, error);
+}
+loss_choice own_choice(const std::string& name, int steps, const window_error<double>& error) {
+  return choice_by_residuals(name, steps, error);
+}
+
+}  // namespace detail
 
 // A loss as text, and from it.
 
@@ -256,12 +273,12 @@ std::optional<int> steps_in(std::string_view text) {
 }  // namespace
 
 std::string loss_choice::description() const {
-  return kind->counts_steps ? fmt::format("{}:{}", kind->name, steps) : std::string(kind->name);
+  return kind->counts_steps ? fmt::format("{}:{}", kind->name, steps) : kind->name;
 }
 
 std::optional<loss_choice> find_loss(std::string_view text) {
   const auto colon = text.find(':');
-  for (const loss_kind* kind : losses()) {
+  for (const auto& kind : losses()) {
     if (kind->name != text.substr(0, colon)) continue;
     if (colon == std::string_view::npos) return loss_choice{kind, 1};
     const auto steps = kind->counts_steps ? steps_in(text.substr(colon + 1)) : std::nullopt;
@@ -281,7 +298,7 @@ loss_choice loss_named(std::string_view text) {
 
 std::string loss_patterns(bool count_steps) {
   std::string all;
-  for (const loss_kind* kind : losses()) {
+  for (const auto& kind : losses()) {
     if (kind->counts_steps != count_steps) continue;
     all += fmt::format("{}{}{}", all.empty() ? "" : ", ", kind->name, count_steps ? ":K" : "");
   }

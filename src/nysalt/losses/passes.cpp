@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "after_steps.hpp"
 #include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/losses/after_steps.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/window_error.hpp"
 
@@ -157,8 +157,15 @@ bool squares::is_finite() const {
   return std::isfinite(value) && half_gradient.allFinite() && normal_matrix.allFinite();
 }
 
-namespace detail {
+// The sums over windows that a pass adds up.
 
+namespace {
+
+Eigen::Index terms_of_column(Eigen::Index parameters) {
+  return 1 + parameters + parameters * (parameters + 1) / 2;
+}
+
+/// Squares from a column: r^T r, J^T r and the upper triangle of J^T J.
 squares from_column(const Eigen::VectorXd& column, Eigen::Index parameters) {
   squares result{column[0], column.segment(1, parameters), Eigen::MatrixXd(parameters, parameters)};
   Eigen::Index term = 1 + parameters;
@@ -171,11 +178,96 @@ squares from_column(const Eigen::VectorXd& column, Eigen::Index parameters) {
   return result;
 }
 
-Eigen::Index terms_of_column(Eigen::Index parameters) {
-  return 1 + parameters + parameters * (parameters + 1) / 2;
+/// A column of (r, J): `rows` numbers that are `stride` apart.
+template <class R>
+struct column_of_residuals {
+  const R* first;
+  std::size_t stride;
+  std::size_t rows;
+};
+
+/// The products of a column with `Count` columns side by side, from `others` on. Their sums stay in
+/// registers.
+template <std::size_t Count, class R>
+R* products_of_columns(const column_of_residuals<R>& one, const column_of_residuals<R>& others, R* products) {
+  std::array<R, Count> sums;
+  sums.fill(R(0.0));
+  for (std::size_t k = 0; k < one.rows; ++k) {
+    const R& left = one.first[k * one.stride];
+    const R* const right = others.first + k * others.stride;
+    for (std::size_t c = 0; c < Count; ++c) sums[c] += right[c] * left;
+  }
+  return std::copy(sums.begin(), sums.end(), products);
 }
 
-}  // namespace detail
+/// The same of `count` columns side by side.
+template <class R>
+R* products_of_columns(const column_of_residuals<R>& one, column_of_residuals<R> others, std::size_t count,
+                       R* products) {
+  for (; count >= 4; count -= 4, others.first += 4) products = products_of_columns<4>(one, others, products);
+  if (count == 3) return products_of_columns<3>(one, others, products);
+  if (count == 2) return products_of_columns<2>(one, others, products);
+  return count == 1 ? products_of_columns<1>(one, others, products) : products;
+}
+
+/// The terms of a window: row after row of the upper triangle of (r, J)^T (r, J).
+template <Scalar R>
+void products_of_residuals(const residuals_of_window<R>& r, std::vector<R>& terms) {
+  const std::size_t parameters = r.parameters;
+  const column_of_residuals<R> values{r.values.data(), 1, r.values.size()};
+  column_of_residuals<R> slopes{r.slopes.data(), parameters, r.values.size()};
+  R* next = products_of_columns(values, values, 1, terms.data());
+  next = products_of_columns(values, slopes, parameters, next);
+  for (std::size_t i = 0; i < parameters; ++i, ++slopes.first) {
+    next = products_of_columns(slopes, slopes, parameters - i, next);
+  }
+}
+
+}  // namespace
+
+template <Scalar R>
+squares after_steps<R>::at(const Eigen::VectorXd& theta) const {
+  const Eigen::Index terms = terms_of_column(parameters());
+  const auto by_trajectory = sums(theta, true, terms, products_of_residuals<R>);
+  return from_column(share_.sum(by_trajectory, Eigen::VectorXd(Eigen::VectorXd::Zero(terms))), parameters());
+}
+
+template <Scalar R>
+std::vector<double> after_steps<R>::by_trajectory(const Eigen::VectorXd& theta) const {
+  const auto of_window = [](const auto& r, std::vector<R>& terms) {
+    R sum(0.0);
+    for (const R& x : r.values) sum += x * x;
+    terms[0] = sum;
+  };
+  std::vector<double> result;
+  for (const auto& sum : sums(theta, false, 1, of_window)) result.push_back(sum[0]);
+  return result;
+}
+
+template <Scalar R>
+Eigen::VectorXd after_steps<R>::by_residual(const Eigen::VectorXd& theta) const {
+  const auto of_window = [](const auto& r, std::vector<R>& terms) {
+    for (std::size_t k = 0; k < r.values.size(); ++k) terms[k] = r.values[k] * r.values[k];
+  };
+  const auto count = static_cast<Eigen::Index>(residuals());
+  return share_.sum(sums(theta, false, count, of_window), Eigen::VectorXd(Eigen::VectorXd::Zero(count)));
+}
+
+template <Scalar R>
+std::vector<Eigen::MatrixXd> after_steps<R>::gradients(const Eigen::VectorXd& theta) const {
+  const auto of_window = [](const auto& r, std::vector<R>& terms) {
+    std::size_t term = 0;
+    for (std::size_t k = 0; k < r.values.size(); ++k) {
+      for (std::size_t i = 0; i < r.parameters; ++i) terms[term++] = r.values[k] * r.slope(k, i) * 2.0;
+    }
+  };
+  const auto count = static_cast<Eigen::Index>(residuals());
+  std::vector<Eigen::MatrixXd> result;
+  for (const auto& sum : sums(theta, true, parameters() * count, of_window)) {
+    result.push_back(sum.reshaped(parameters(), count));
+  }
+  return result;
+}
 
 template class after_steps<detail::lanes>;
 template class after_steps<double>;

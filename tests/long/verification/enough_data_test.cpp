@@ -13,12 +13,12 @@
 #include <cmath>
 #include <vector>
 
+#include "../../../src/nysalt/losses/after_steps.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/gradient_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/losses/after_steps.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
@@ -125,13 +125,13 @@ BOOST_AUTO_TEST_CASE(the_loss_is_larger_by_what_is_expected_and_that_falls_as_on
   const metric measure(chain, many(), coordinates::qp);
   const auto unseen = data_of(4000, 2'000'000);
   const after_steps loss(family, chain, unseen, state_error(measure), {.threads = 2});
-  const double least = loss_value(loss, fit_of(family, many()).theta);
+  const double least = loss.value(fit_of(family, many()).theta);
   std::vector<double> log_count, log_lost, log_expected, relative_errors;
   for (const std::int64_t trajectories : {25, 100, 400}) {
     std::vector<double> lost, expected;
     for (int n = 0; n < seeds; ++n) {
       const auto found = fit_of(family, data_of(trajectories, 1 + static_cast<std::uint64_t>(n)));
-      lost.push_back(loss_value(loss, found.theta) - least);
+      lost.push_back(loss.value(found.theta) - least);
       expected.push_back(found.summary.expected_excess);
     }
     const auto mean_lost = mean_and_error(lost);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+// The loss over windows of steps, a pass over the data.
 #pragma once
 
 #include <algorithm>
@@ -14,19 +15,14 @@
 #include "nysalt/communicator.hpp"
 #include "nysalt/detail/ensemble_loop.hpp"
 #include "nysalt/detail/sentence.hpp"
+#include "nysalt/losses/loss_choice.hpp"
+#include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/run_time_family.hpp"
 #include "nysalt/stepper.hpp"
+#include "windows.hpp"
 
 namespace nysalt {
-
-/// Numbers of steps after which an error counts.
-struct after_steps_options {
-  std::vector<int> steps{1};  ///< rising numbers; the last is the length K of a window
-  int apart = 1;              ///< steps from the beginning of one window to that of the next
-  int every = 1;              ///< trajectory counts whose number this divides
-  int threads = 1;            ///< changes no bit
-};
 
 /// The residuals of one window, and their derivatives by theta.
 template <Scalar R>
@@ -48,17 +44,14 @@ using terms_of_window = std::function<void(const residuals_of_window<R>& r, std:
 /// says what they are.
 ///
 /// Windows of a trajectory depend on each other, trajectories do not. R, double or a pack, carries the
-/// windows; neither its lanes nor the threads change a bit of a sum.
-/// The interface of a loss over data to the learner: scalar, parameters(), share(), residuals(), and
-/// sums(theta, with_slopes, terms, of_window). Of trajectories that ranks share, each has its own.
+/// windows; neither its lanes nor the threads change a bit of a sum. Of trajectories that ranks share, each
+/// rank has its own.
 template <Scalar R = detail::lanes>
-class after_steps {
+class after_steps : public loss_on_data {
   using C = dual<R, directions_at_a_time>;
   static constexpr int N = Eigen::Dynamic;
 
  public:
-  using scalar = R;  ///< carries the windows
-
   /// Refers to what the error refers to, and copies the data. Throws std::invalid_argument
   /// if no trajectory is as long, if R is a pack and the system is stepped over double only, or if the
   /// system is in a noisy bath and the data do not hold the noise that the letters O of the word need.
@@ -103,15 +96,21 @@ class after_steps {
         starts_(same.starts_),
         parts_(same.parts_) {}
 
+  squares at(const Eigen::VectorXd& theta) const override;
+  std::vector<double> by_trajectory(const Eigen::VectorXd& theta) const override;
+  Eigen::VectorXd by_residual(const Eigen::VectorXd& theta) const override;
+  std::vector<Eigen::MatrixXd> gradients(const Eigen::VectorXd& theta) const override;
+  bool has_estimated_weights() const override { return error_.weight_deviations != nullptr; }
+  std::unique_ptr<const loss_on_data> of_family(const run_time_family& family) const override {
+    return std::make_unique<const after_steps>(*this, family);
+  }
+  const shard& share() const override { return share_; }
+  /// As `counted` counts the force evaluations for one window after the other.
+  std::int64_t evaluations() const override { return evaluations_; }
+
   Eigen::Index parameters() const { return family_.parameters(); }          ///< length of theta
   std::size_t trajectories() const { return starts_.first_of.size() - 1; }  ///< number of trajectories here
-  const shard& share() const { return share_; }  ///< distribution of the trajectories over ranks
-  /// Number of those of a window, at all of its times.
-  std::size_t residuals() const { return error_.residuals * options_.steps.size(); }
-  const window_error<R>& error() const { return error_; }  ///< the residuals
-  /// Force evaluations of all passes so far at this rank, as `counted` counts them for one window after the
-  /// other.
-  std::int64_t evaluations() const { return evaluations_; }
+  std::size_t residuals() const override { return error_.residuals * options_.steps.size(); }
 
   /// A pass over the data: each trajectory's mean over all windows of the `terms` terms that of_window(r,
   /// terms) makes of the residuals, added in the order of time. Rethrows exceptions of the user's loss on

@@ -35,12 +35,12 @@ struct trajectory_scores {
 /// box has not; two more for each step that is too long.
 Eigen::MatrixXd hessian(const objective& loss, const Eigen::VectorXd& theta);
 
-/// Hessian of a loss over data.
-template <class Loss>
-  requires requires(const Loss& loss) { loss.residuals(); }
-Eigen::MatrixXd hessian(const Loss& loss, const Eigen::VectorXd& theta) {
-  return hessian(objective_of(loss), theta);
-}
+/// The contribution of each trajectory to the gradient of the loss, by its residuals and by its part in the
+/// weights: those of a metric are 1/Sigma, and Sigma is estimated, so that a coordinate whose Sigma comes out
+/// larger by some part counts less by that part: `deviations` are those parts, a row for each coordinate and
+/// a column for each trajectory. Without this the standard errors are two to three times too small.
+trajectory_scores scores_of(const loss_on_data& loss, const Eigen::VectorXd& theta,
+                            const Eigen::MatrixXd& deviations);
 
 /// Standard errors of a minimum by each parameter, and how far they may be relied on.
 struct spread_of_minimum {
