@@ -2,6 +2,7 @@
 // Compiled at -O0, where it runs for 4.6 s: -O1 would take longer to compile than it saves.
 // However a person writes the force, and in whatever units, the same is learned; and the summary says where
 // derivatives came from.
+#include "../../src/nysalt/learning/curvature.hpp"
 #include "../../src/nysalt/learning/data_of_problem.hpp"
 #include "../support/black_box_in_units.hpp"
 #include "../support/dense.hpp"
@@ -60,7 +61,7 @@ const data_sets& pendulums() {
 double allowed(const flow_map_data& data, const Eigen::VectorXd& theta, double relative) {
   const metric measure(exact, data, coordinates::qp);
   const after_steps<> loss(two_stages, exact, data, state_error(measure));
-  const symmetric_eigen of_loss(hessian(loss, theta));
+  const symmetric_eigen of_loss(hessian(objective_of(loss), theta));
   const double jacobian = std::sqrt(0.5 * of_loss.values[1]);  // the Hessian is 2 J^T J and a little more
   return 2.0 * std::sqrt(loss.value(theta)) * 2.0 * jacobian * relative / of_loss.values[0];
 }
