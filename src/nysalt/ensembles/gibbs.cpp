@@ -88,7 +88,7 @@ gibbs_states::gibbs_states(const model& in_bath, const initial_states& from, con
       chains_(gibbs_chains(in_bath.base(), from, in_bath.bath().temperature(), report_)) {}
 
 modal_gibbs::modal_gibbs(const model& system, double temperature) : temperature_(temperature) {
-  const exact_linear linear(system);  // refuses any other
+  exact_linear(system);  // refuses any other
   modes_ = modal_coordinates::of(system);
   if (!(temperature > 0.0) || !std::isfinite(temperature) ||
       !(std::ranges::min(modes_->frequencies()) > 0.0)) {

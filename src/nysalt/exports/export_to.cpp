@@ -54,7 +54,7 @@ bool holds(const template_condition& condition, const template_subject& of, std:
   return std::ranges::all_of(condition, [&](const template_term& term) {
     bool is_so = false;
     if (term.name == "has") {
-      is_so = letters_of(kernel_of(of.method)).find(term.value) != std::string::npos;
+      is_so = letters_written(kernel_of(of.method)).find(term.value) != std::string::npos;
     } else if (!term.value.empty()) {
       is_so = text_of(term.name, of, line) == term.value;
     } else {
@@ -71,7 +71,7 @@ std::string text_of(std::string_view name, const template_subject& of, std::size
     refuse_export(
         "{}:{}: the method for @{}@ must be {}, got {} with the letters {}; put require {}: MESSAGE into the "
         "head",
-        of.host.file, line, name, found.needs, of.method.method.name(), letters_of(composition_of(of.method)),
+        of.host.file, line, name, found.needs, of.method.method.name(), letters_written(composition_of(of.method)),
         found.needs);
   }
   return found.text(of);
@@ -110,7 +110,7 @@ void require_letters(const exported_method& method, const export_template& host)
         "method without a bath, or export to {}",
         host.title, method.method.name(), hosts_that_take("O"));
   }
-  const std::string letters = letters_of(kernel_of(method));
+  const std::string letters = letters_written(kernel_of(method));
   if (method.method.letters().is_processed() && !is_taken(host, "processor")) {
     refuse_export(
         "export: the method for {} must be a list of letters, got {} with a processor; export to {}, or take "

@@ -118,7 +118,7 @@ exported_word composition_of(const exported_method& method) {
   return result;
 }
 
-std::string letters_of(const exported_word& word) {
+std::string letters_written(const exported_word& word) {
   std::string result;
   for (const exported_letter& one : word) result += one.letter;
   return result;

@@ -42,7 +42,7 @@ exported_word finish_of(const exported_method& method);
 /// The kernel without letters of coefficient zero, whose neighbouring drifts are one, and neighbouring kicks.
 exported_word composition_of(const exported_method& method);
 
-std::string letters_of(const exported_word& word);
+std::string letters_written(const exported_word& word);
 /// Both coefficients of letters D.
 std::vector<double> coefficients_of(const exported_word& word);
 

@@ -58,7 +58,7 @@ std::string header(const subject& of) {
 
 /// What the letters of the method do, as a comment of the host.
 std::string explained(const subject& of) {
-  const std::string letters = letters_of(kernel_of(of.method));
+  const std::string letters = letters_written(kernel_of(of.method));
   const std::string_view mark = of.host.comment;
   std::string result =
       fmt::format("{} Letters act from left to right: A(a) is q += a h M^-1 p, B(b) is p += b h f(q)", mark);
@@ -91,12 +91,12 @@ bool is_symmetric(const exported_method& method) {
 
 bool is_two_stage(const exported_method& method) {
   const exported_word word = composition_of(method);
-  return letters_of(word) == "BABAB" && is_symmetric(method) && is_equal(word[1].c, 0.5) &&
+  return letters_written(word) == "BABAB" && is_symmetric(method) && is_equal(word[1].c, 0.5) &&
          is_equal(2.0 * word[0].c + word[2].c, 1.0);
 }
 
 bool has_drifts_and_kicks_only(const exported_method& method) {
-  return letters_of(composition_of(method)).find_first_not_of("AB") == std::string::npos;
+  return letters_written(composition_of(method)).find_first_not_of("AB") == std::string::npos;
 }
 
 /// Letters before the first kick after each drift.
@@ -116,7 +116,7 @@ std::vector<std::size_t> force_places(const exported_word& word) {
 /// Whether no drift comes after the last kick.
 template <exported_word (*Word)(const exported_method&)>
 bool ends_with_known_force(const exported_method& method) {
-  const std::string letters = letters_of(Word(method));
+  const std::string letters = letters_written(Word(method));
   const auto kick = letters.find_last_of("BD"), drift = letters.find_last_of('A');
   return kick != std::string::npos && (drift == std::string::npos || drift < kick);
 }
@@ -164,7 +164,7 @@ std::vector<double> never_empty(const exported_word& word) {
 
 template <exported_word (*Word)(const exported_method&)>
 std::string letters(const subject& of) {
-  return letters_of(Word(of.method));
+  return letters_written(Word(of.method));
 }
 template <exported_word (*Word)(const exported_method&)>
 std::string coefficients(const subject& of) {
@@ -195,10 +195,10 @@ constexpr std::array all_placeholders{
     placeholder{"letters", "", letters<composition_of>},
     placeholder{"coefficients", "", coefficients<composition_of>},
     placeholder{"first", "",
-                [](const subject& of) { return letters_of(composition_of(of.method)).substr(0, 1); }},
+                [](const subject& of) { return letters_written(composition_of(of.method)).substr(0, 1); }},
     placeholder{"kicks", "",
                 [](const subject& of) {
-                  return std::to_string(std::ranges::count(letters_of(composition_of(of.method)), 'B'));
+                  return std::to_string(std::ranges::count(letters_written(composition_of(of.method)), 'B'));
                 }},
     placeholder{
         "forces", "",

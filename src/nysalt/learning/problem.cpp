@@ -66,7 +66,7 @@ int whole_steps(const flow_map_data& data, const flow_map_data& held_out) {
 
 double frequency_known(const model& system, const fit_options& options) {
   if (options.frequency) return *options.frequency;
-  return has_modes(system) ? detail::frequency_to_fit(system) : 0.0;
+  return has_modes(system) ? frequency_to_fit(system) : 0.0;
 }
 
 fit_options within_proposals(fit_options options, const loss_kind& kind, int shortest) {

@@ -130,7 +130,7 @@ std::vector<contender> classical_rivals(const learning_problem& problem, const E
   for (const auto& method : classical_methods()) {
     const run_time_word& word = method.letters();
     // Rotations are not counted, and are not free: words with them are compared with each other.
-    if (has_rotation(word) != has_rotation(family)) continue;
+    if (word.reads_modes != family.reads_modes) continue;
     if (!word.is_symplectic && family.is_symplectic) continue;
     // Nor do words without a processor pay for looking.
     if (word.evaluations_to_observe > family.evaluations_to_observe) continue;
