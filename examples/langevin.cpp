@@ -81,9 +81,9 @@ int main() {
 }
 
 // Expected output:
-// nystrom_symmetric: b1 = 0.523, beta1 = 0.408, usable: yes
+// nystrom: b1 = 0.523, beta1 = 0.408, usable: yes
 //
 //                    path error of H   energy of the bond / kT
 // baoab                        0.295          0.713 +- 0.008
 // baoab_2x                     0.111          0.921 +- 0.010
-// nystrom_symmetric            0.126          1.001 +- 0.011
+// nystrom                      0.126          1.001 +- 0.011
