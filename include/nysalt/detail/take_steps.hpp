@@ -43,7 +43,7 @@ template <class Kick, class S, class State>
 void apply_kick_with_derivative(const S& system, const auto& coefficients, evaluation evaluates, State& x,
                                 auto& room) {
   using T = typename State::scalar_type;
-  if constexpr (Kick::template serves<S, T>) {
+  if constexpr (Kick::template serves<S, T> && ForceOver<S, T, Kick::reads>) {
     const auto c = coefficients;  // local: they cannot alias the state
     if (evaluates != evaluation::none) force_of<Kick::reads, T>(system, x.q, x.f);
     Kick::apply(system, c, x, room);
