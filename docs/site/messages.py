@@ -42,7 +42,7 @@ call = re.compile(r"\bthrow\s+(?!std::logic_error\b)[\w:]+[({]|\b(?:refuse\w*|re
 parts_of_messages = {
     "python/arguments.cpp": {"True or False", "a number", "a text", "a text of whole characters", "a whole number",
                              "a whole number that can be counted"},
-    "include/nysalt/learning/reach.hpp": {"the systems are not of one kind"},
+    "src/nysalt/learning/reach.cpp": {"the systems are not of one kind"},
     "src/nysalt/ensembles/burn_in.hpp": {"be that of equipartition", "not change afterwards"},
     "src/nysalt/run_time_family.cpp": {"have a part of H for each coefficient", "leave out what follows |",
                                        "not have two equal neighbours", "read the same from both ends"},

@@ -75,9 +75,9 @@ tabulated repeated(const tabulated& method, int times) {
 tabulated thermostat(const tabulated& method, placement where) {
   if (method.validity()) {
     throw std::invalid_argument(
-        fmt::format("thermostat: the learned method {} is valid for the system that it was learned for; "
-                    "thermostat its anywhere()",
-                    method.name()));
+        fmt::format("thermostat: the method must not be of one system, got {}, which was learned for {}; take "
+                    "its anywhere()",
+                    method.name(), method.validity()->system));
   }
   const word letters = thermostatted(method.letters(), where);
   return tabulated(method.name(), letters,

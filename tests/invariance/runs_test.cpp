@@ -10,6 +10,7 @@
 #include "nysalt/integrate.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/judgement.hpp"
+#include "nysalt/run_time_family.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -126,7 +126,7 @@ class fine_steps {
 template <class M = baoab>
 class fine_paths {
  public:
-  /// Throws std::invalid_argument unless the step is positive and finite.
+  /// Throws std::invalid_argument unless the step is positive and finite and the method has one letter O.
   explicit fine_paths(double step, const M& method = M{}) : fine_paths(step, method, 0) {}
 
   /// x becomes the state a time t later on its path, interval `at.step` of the path; xi[k] become the
@@ -152,6 +152,11 @@ class fine_paths {
   fine_paths(double step, const M& method, int halvings) : step_(step), method_(method), halvings_(halvings) {
     if (!(step > 0.0) || !std::isfinite(step)) {
       throw std::invalid_argument(sentence("fine_paths: the step must be positive and finite, got {}", step));
+    }
+    if (method.letters().stochastic_letters != 1) {
+      throw std::invalid_argument(
+          sentence("fine_paths: the method must have one letter O, got {} of the word {}; take baoab or aboba",
+                   method.name(), method.letters().letters()));
     }
   }
 
