@@ -141,6 +141,11 @@ struct letters_of_system<S> {
 template <class S>
 using letters_of = typename letters_of_system<S>::type;
 
+/// Whether letters of the library do not step S, since H is not K(p) + V(q).
+template <class S>
+inline constexpr bool steps_by_own_letters_only =
+    !ErasedSystem<S> && !SystemOver<S, double> && std::tuple_size_v<letters_of<S>> > 0;
+
 template <class... L>
 consteval bool are_letters_of_users(const std::tuple<L...>*) {
   return (Flow<L> && ...) && (!is_known_letter(L::letter) && ...);

@@ -85,8 +85,7 @@ void require_kinetic_energy_for(const tabulated& method, const S& system) {
 template <System S, NoiseSource Noise = no_noise>
 stepper<S, double, Noise> make_stepper(const S& system, const tabulated& method, double step,
                                        const Noise& noise = {}) {
-  // Letters that a system declares may know an H that is not K + V.
-  if constexpr (SeparableSystem<S>) require_suited<S>();
+  if constexpr (!detail::steps_by_own_letters_only<S>) require_suited<S>();
   if (method.validity()) method.require_validity(describe(system), step);
   require_kinetic_energy_for(method, system);
   return {system, method.letters(), method.coefficients(), step, noise};

@@ -74,8 +74,10 @@ tabulated repeated(const tabulated& method, int times) {
 
 tabulated thermostat(const tabulated& method, placement where) {
   if (method.validity()) {
-    throw std::invalid_argument(fmt::format(
-        "thermostat: the method must not be a learned one, got {}; take its anywhere()", method.name()));
+    throw std::invalid_argument(
+        fmt::format("thermostat: the method must not be of one system, got {}, which was learned for {}; take "
+                    "its anywhere()",
+                    method.name(), method.validity()->system));
   }
   const word letters = thermostatted(method.letters(), where);
   return tabulated(method.name(), letters,

@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(a_system_that_does_not_serve_a_letter_refuses_the_word) {
                        {letters, "two_masses", "quadratic part", "soft_force", "with_quadratic_part"}));
     BOOST_TEST(refused(letters, black_box(), {letters, "quadratic part"}));
   }
-  for (const char* letters : {"BAGAB", "GA"}) {
+  for (const char* letters : {"BAGAB", "GA", "BDB"}) {
     BOOST_TEST(refused(letters, relativistic(), {letters, "relativistic", "quadratic kinetic energy"}));
   }
   BOOST_TEST(!refused("ABABA", relativistic()));

@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(windows_hold_everywhere_and_wrong_ones_do_not) {
   draws random;
   for (int n = 0; n < 3; ++n) {
     for (const auto& method : methods_as_data(random)) {
-      if (method.letters()).reads_modes continue;
+      if (method.letters().reads_modes) continue;
       BOOST_TEST_CONTEXT(method.name()) BOOST_TEST(first_wrong(stability_windows(method), method) == 0.0);
     }
   }

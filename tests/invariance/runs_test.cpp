@@ -12,6 +12,7 @@
 #include "nysalt/judgement.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/references/fine_steps.hpp"
+#include "nysalt/run_time_family.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

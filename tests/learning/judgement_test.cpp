@@ -29,7 +29,7 @@ phase_points one_start(double q, double p) {
   return std::vector{phase_point<double, Eigen::Dynamic>{numbers(q).head(1), numbers(p).head(1)}};
 }
 const auto in_well = around_rest<1>(1.5, 1.5);
-const tabulated rotation("rotation", run_time_word("RSR"), {0.5, 1.0, 0.5}, {2, true, true});
+const tabulated rotations("rotations", run_time_word("RSR"), {0.5, 1.0, 0.5}, {2, true, true});
 
 const fpu_chain<3> small(50.0);
 const fpu_chain<> large(16, 50.0);
@@ -170,7 +170,7 @@ BOOST_AUTO_TEST_CASE(a_verdict_has_no_units) {
 // Where a method is exact there is rounding alone, which grows with the steps and is no drift.
 BOOST_AUTO_TEST_CASE(rounding_is_no_drift) {
   const linear_chain one(Eigen::MatrixXd::Constant(1, 1, 4.0));
-  const auto exact = judge(one, one_start(1.0, 0.3), rotation, 0.7);
+  const auto exact = judge(one, one_start(1.0, 0.3), rotations, 0.7);
   BOOST_TEST((exact.verdict == step_verdict::good), exact.in_words());
   BOOST_TEST(exact.energy_error.largest < 1e-9);
 }
@@ -225,7 +225,7 @@ BOOST_AUTO_TEST_CASE(a_step_that_no_accurate_motion_can_follow_from_rest_is_not_
   const auto verdict_of = [&](const tabulated& method) {
     return judge(stiff, one_start(1.0, 0.0), method, 0.1, {.steps = 500});
   };
-  const auto found = verdict_of(rotation);
+  const auto found = verdict_of(rotations);
   BOOST_TEST((found.verdict == step_verdict::not_tried), found.in_words());
   BOOST_TEST(found.reason.find("far too long") != std::string::npos, found.reason);
   BOOST_TEST((verdict_of(tabulated(verlet{})).verdict == step_verdict::unstable));

@@ -13,6 +13,8 @@
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/plugin.hpp"
 #include "nysalt/reference.hpp"
+#include "nysalt/references/fine_steps.hpp"
+#include "nysalt/run_time_family.hpp"
 #include "nysalt/systems/sum_of_parts.hpp"
 #include "nysalt/systems/textbook.hpp"
 
@@ -103,7 +105,7 @@ inline void use(const wall& system) {
   const auto stepper = nysalt::make_stepper(system, nysalt::verlet(), 0.01);
   using T = nysalt::scalar_of_lanes<nysalt::lanes_of<wall>>;
   const nysalt::phase_point<T, 1> start{nysalt::vector<T, 1>(T(1.0)), nysalt::vector<T, 1>(T(-1.0))};
-  nysalt::lockstep<nysalt::stepper<wall, nysalt::verlet::word>, T>(stepper, start, 1).go_on(100);
+  nysalt::lockstep<nysalt::stepper<wall>, T>(stepper, start, 1).go_on(100);
 }
 }  // namespace branch_between_lanes
 
@@ -251,23 +253,21 @@ inline void use(const either<nysalt::sum_of_parts<well>, heavy>& sum) {
 // expect: System
 // expect: Flow
 // expect: Family
-// expect: Method
 // expect: NoiseSource
 // expect: Ensemble
 // expect: ReferenceFlow
 namespace concepts_by_name {
 struct nothing {};
 using state = nysalt::phase_point<either<double, float>, 1>;
-using letters = nysalt::word<either<nysalt::drift, nothing>, nysalt::kick>;
-using family = nysalt::member<either<nysalt::nystrom, nothing>>;
+constexpr nysalt::word letters = nysalt::word_of<either<nysalt::drift, nothing>, nysalt::kick>();
 
 inline void everything(const nysalt::pendulum& system, const either<nysalt::pendulum, nothing>& any_system,
-                       const either<nysalt::verlet, nothing>& method,
+                       const either<nysalt::nystrom, nothing>& family,
                        const either<nysalt::no_noise, nothing>& noise,
                        const either<nysalt::listed<1>, nothing>& starts,
                        const either<nysalt::reference, nothing>& accurate) {
   nysalt::make_stepper(any_system, nysalt::verlet(), 0.1);
-  nysalt::make_stepper(system, method, 0.1);
+  const nysalt::run_time_family erased(family);
   nysalt::make_stepper(system, nysalt::verlet(), 0.1, noise);
   nysalt::sound_start(system, starts, 1, 0);
   nysalt::reference{accurate};
@@ -319,7 +319,7 @@ NYSALT_SYSTEM(well, "depth q^2", parameter("depth", &well::depth, "of the well")
 }  // namespace declaration_without_starts
 
 // expect: nysalt: a letter that a system declares must be invertible and reversible, as exact_flow states;
-//   step the word by its type
+//   step the word by the system's type
 namespace declared_letter_that_is_one_way {
 struct own_drift : nysalt::exact_flow<'a'> {
   static void apply(const auto&, const auto&, auto&, auto&) {}

@@ -19,7 +19,7 @@ std::vector<std::string> all_names() {
 std::vector<double> as_vector(const Eigen::VectorXd& theta) { return {theta.begin(), theta.end()}; }
 
 tabulated method_named(const std::string& name) {
-  for (const auto& known : classical_methods()) {
+  for (const auto& known : program::classical_methods()) {
     if (known.method.name() == name) return known.method;
   }
   throw std::invalid_argument(name);
@@ -119,10 +119,10 @@ BOOST_AUTO_TEST_CASE(what_differs_is_not_known) {
 }
 
 BOOST_AUTO_TEST_CASE(every_classical_method_is_known_by_its_name) {
-  for (const auto& one : classical_methods()) {
+  for (const auto& one : program::classical_methods()) {
     BOOST_TEST(known(one.method, {one.method}) == one.method.name());
     std::vector<tabulated> others;
-    for (const auto& other : classical_methods()) {
+    for (const auto& other : program::classical_methods()) {
       if (other.method.name() != one.method.name()) others.push_back(other.method);
     }
     const bool repeats = one.method.name().ends_with("_2x");

@@ -255,7 +255,7 @@ class prepared_word {
     if constexpr (HasQuadraticPart<S> && ForceOver<S, T, field::soft>) {
       if (run_.reads == field::soft) return force_of<field::soft, T>(system, x.q, x.f);
     }
-    if constexpr (SystemOver<S, T>) force<T>(system, x.q, x.f);
+    if constexpr (!detail::steps_by_own_letters_only<S>) force<T>(system, x.q, x.f);
   }
   static bool is_called(const letter& one) {
     return one.what == detail::action::call && one.number >= first_called;

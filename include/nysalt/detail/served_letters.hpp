@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string_view>
-#include <tuple>
 
 #include "nysalt/detail/sentence.hpp"
 #include "nysalt/detail/system_letters.hpp"
@@ -22,11 +21,6 @@ bool serves_letter(const S& system) {
     return L::template serves<S, T>;
   }
 }
-
-/// A system that only its own letters step: H is not K(p) + V(q).
-template <class S>
-inline constexpr bool has_own_motion_only =
-    !ErasedSystem<S> && !SystemOver<S, double> && std::tuple_size_v<letters_of<S>> > 0;
 
 /// Refuses a letter that is not the library's, unless the system declares it.
 template <class T, class S>
@@ -61,7 +55,7 @@ void require_served(const word& letters, const S& system) {
   for (const letter_facts& own : letters.own()) detail::require_declared<T>(letters, own, system);
   for (const char letter : letters.view()) {
     detail::with_letter(letter, known_letters{}, [&]<class L>(const L&) {
-      if constexpr (detail::has_own_motion_only<S> && !StochasticFlow<L>) {
+      if constexpr (detail::steps_by_own_letters_only<S> && !StochasticFlow<L>) {
         throw std::invalid_argument(sentence(
             "cannot step {} by the word {}: the letter {} must be one that the system declares, as the system "
             "has no force of H = K(p) + V(q)",

@@ -43,7 +43,7 @@ template <class Kick, class S, class State>
 void apply_kick_with_derivative(const S& system, const auto& coefficients, evaluation evaluates, State& x,
                                 auto& room) {
   using T = typename State::scalar_type;
-  if constexpr (Kick::template serves<S, T>) {
+  if constexpr (Kick::template serves<S, T> && !steps_by_own_letters_only<S>) {
     const auto c = coefficients;  // local: they cannot alias the state
     if (evaluates != evaluation::none) force_of<Kick::reads, T>(system, x.q, x.f);
     Kick::apply(system, c, x, room);
@@ -81,7 +81,7 @@ template <field F, bool MayCall, class S, class State, class C>
       if constexpr (F == field::whole && HasKick<S, T, C>) {
         if (letter.evaluates == evaluation::unshared) return system.kick(x.q, x.p, c);
       }
-      if constexpr (ForceOver<S, T, F>) {
+      if constexpr (!steps_by_own_letters_only<S>) {
         if (letter.evaluates != evaluation::none) force_of<F, T>(system, x.q, x.f);
       }
       kick_of<F>::apply(system, c, x, room);
@@ -203,7 +203,7 @@ template <field F, class S, class T, class C>
 void take_steps(const S& system, state_in_place<T, S::dimension>& x, auto& room,
                 const step_program<C>& letters, std::int64_t steps, const auto& other,
                 const watch<T>& watched) {
-  if constexpr (F == field::whole && ForceOver<S, T, F> && std::same_as<C, double> && !is_dual<T>) {
+  if constexpr (F == field::whole && !steps_by_own_letters_only<S> && std::same_as<C, double> && !is_dual<T>) {
     if (!letters.pairs.empty()) return take_steps_in_pairs(system, x, room, letters, steps, watched);
   }
   watch_steps(
