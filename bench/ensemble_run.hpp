@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/detail/ensemble_loop.hpp"
+#include "nysalt/core/ensemble_loop.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/lanes.hpp"

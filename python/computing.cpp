@@ -8,7 +8,7 @@
 
 #include "../src/comparison/progress.hpp"
 #include "exit_while_computing.hpp"
-#include "nysalt/detail/rounding.hpp"
+#include "nysalt/core/rounding.hpp"
 
 namespace nysalt::python {
 

@@ -9,7 +9,7 @@
 
 #include <functional>
 
-#include "nysalt/detail/rounding.hpp"
+#include "nysalt/core/rounding.hpp"
 
 namespace nysalt::python {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "nysalt/detail/divergence.hpp"
+#include "nysalt/core/divergence.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/stepper.hpp"

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/systems/sum_of_parts.hpp"
 
 namespace examples {

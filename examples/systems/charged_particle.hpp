@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/method.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/systems/sum_of_parts.hpp"

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {

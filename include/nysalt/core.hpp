@@ -4,7 +4,7 @@
 
 #include "nysalt/bath.hpp"
 #include "nysalt/derivatives/properties.hpp"
-#include "nysalt/detail/lockstep.hpp"
+#include "nysalt/core/lockstep.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/gradient_composition.hpp"
 #include "nysalt/families/nystrom.hpp"

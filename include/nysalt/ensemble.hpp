@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/lanes.hpp"
 
 namespace nysalt {

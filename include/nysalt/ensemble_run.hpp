@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/detail/lockstep.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/ensemble_loop.hpp"
+#include "nysalt/core/lockstep.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/ensemble.hpp"
 
 namespace nysalt {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/scalars/dual.hpp"
 #include "nysalt/word.hpp"
 

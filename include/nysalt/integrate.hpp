@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "nysalt/detail/lockstep.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/lockstep.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/method.hpp"
 
 namespace nysalt {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/detail/lockstep.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/ensemble_loop.hpp"
+#include "nysalt/core/lockstep.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/shard.hpp"

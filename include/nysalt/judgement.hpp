@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "nysalt/detail/divergence.hpp"
+#include "nysalt/core/divergence.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_point.hpp"

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/requirements.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/requirements.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/stepper.hpp"

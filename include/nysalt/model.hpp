@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/typed_system.hpp"
+#include "nysalt/core/typed_system.hpp"
 
 namespace nysalt {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/phase_point.hpp"
 
 namespace nysalt {

@@ -16,7 +16,7 @@
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
-#include "nysalt/detail/ensemble_loop.hpp"
+#include "nysalt/core/ensemble_loop.hpp"
 #include "nysalt/ensemble_run.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/ensembles/gibbs.hpp"

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/requirements.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/requirements.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/system_declaration.hpp"
 #include "nysalt/version.hpp"

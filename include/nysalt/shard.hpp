@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/tree_sum.hpp"
+#include "nysalt/core/tree_sum.hpp"
 
 namespace nysalt {
 

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/prepared_word.hpp"
-#include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/served_letters.hpp"
+#include "nysalt/core/prepared_word.hpp"
+#include "nysalt/core/sentence.hpp"
+#include "nysalt/core/served_letters.hpp"
 #include "nysalt/noise.hpp"
 
 namespace nysalt {

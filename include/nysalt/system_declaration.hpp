@@ -15,7 +15,7 @@
 
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/bath.hpp"
-#include "nysalt/detail/kernels.hpp"
+#include "nysalt/core/kernels.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/reference.hpp"

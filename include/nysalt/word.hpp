@@ -369,6 +369,4 @@ std::vector<C> post_processor_coefficients(const word& letters, const std::vecto
 
 }  // namespace detail
 
-using run_time_word = word;
-
 }  // namespace nysalt

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/detail/steps_in.hpp"
+#include "nysalt/core/steps_in.hpp"
 #include "refusal.hpp"
 #include "seeds.hpp"
 #include "settings.hpp"

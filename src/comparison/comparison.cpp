@@ -11,7 +11,7 @@
 #include "checks.hpp"
 #include "declared_prices.hpp"
 #include "learning.hpp"
-#include "nysalt/detail/served_letters.hpp"
+#include "nysalt/core/served_letters.hpp"
 #include "purpose.hpp"
 #include "refusal.hpp"
 #include "seeds.hpp"
@@ -188,7 +188,7 @@ void comparison::plan_rows() {
 }
 
 std::string comparison::why_not(const method_source& source) const {
-  const run_time_word& word = *source.word;
+  const nysalt::word& word = *source.word;
   if (!system_->heat_bath().acts() && word.stochastic_letters > 0) return "it is for a bath";
   if (source.typed.ends_with("_2x")) return "it is two steps of another method";
   if (!word.is_symplectic && std::ranges::none_of(metrics_, &asked_metric::is_acceptance))

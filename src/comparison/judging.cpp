@@ -133,7 +133,7 @@ std::optional<rival_judgement> loses_fewest(const tabulated& method, const prepa
   };
   std::vector<std::pair<double, const tabulated*>> candidates;  // window an evaluation
   for (const auto& [other, source] : classical_methods()) {
-    const run_time_word& word = other.letters();
+    const nysalt::word& word = other.letters();
     if (!has_windows(word) || word.stochastic_letters > 0 || !is_served(other)) continue;
     if (word.letters() == method.letters().letters() && other.coefficients() == method.coefficients()) {
       continue;

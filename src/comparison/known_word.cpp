@@ -57,7 +57,7 @@ std::vector<letter> merged(const std::vector<letter>& all, double zero) {
   return result;
 }
 
-std::vector<letter> letters_of(const run_time_word& word, const std::vector<double>& coefficients) {
+std::vector<letter> letters_of(const nysalt::word& word, const std::vector<double>& coefficients) {
   std::vector<letter> result;
   for (std::size_t i = 0; i < word.length; ++i) {
     const char name = word.letters()[i];

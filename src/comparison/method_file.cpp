@@ -209,7 +209,7 @@ scheme scheme_in(const json& document, const document_reader& read) {
 }
 
 /// "A adds up to 1, B adds up to 0.9": drifts or rotations, and kicks of any kind; a method needs both.
-std::string sums_of(const run_time_word& word, const std::vector<double>& coefficients) {
+std::string sums_of(const nysalt::word& word, const std::vector<double>& coefficients) {
   std::map<std::string, double> sums{{word.rotates() ? "R" : "A", 0.0}, {word.rotates() ? "S" : "B", 0.0}};
   for (std::size_t i = 0; i < word.length; ++i) {
     std::string letter(1, word.letters()[i]);
@@ -239,11 +239,11 @@ int order_of(const tabulated& method, std::string times) {
   if (!are_two) return method.symmetric ? 2 : 1;
   std::ranges::transform(times, times.begin(),
                          [first = times[0]](char part) { return part == first ? 'A' : 'B'; });
-  return taylor_order(run_time_word(times), method.coefficients()).any_kinetic;
+  return taylor_order(nysalt::word(times), method.coefficients()).any_kinetic;
 }
 
 /// A table with letters of the system.
-tabulated table_of_system(const std::string& name, const run_time_word& word,
+tabulated table_of_system(const std::string& name, const nysalt::word& word,
                           const std::vector<double>& coefficients, const document_reader& read, std::optional<double> declared) {
   const tabulated bare(name, word, coefficients, {1, is_palindrome(word, coefficients), word.rotates()});
   const std::string times = times_of_slots(word);
@@ -341,7 +341,7 @@ tabulated scheme::at(double step) const {
                    {placed_family.order, placed_family.symmetric, placed_family.requires_quadratic_kinetic});
 }
 
-run_time_word scheme::letters() const { return placed(family, where, own_letters).letters; }
+nysalt::word scheme::letters() const { return placed(family, where, own_letters).letters; }
 
 std::string scheme::steps() const {
   const auto& all = curve.steps();

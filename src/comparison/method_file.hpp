@@ -37,7 +37,7 @@ struct scheme {
   tabulated at(double step) const;
   bool is_learned_at(double step) const { return curve.has(step); }
   /// Of the method at any step.
-  run_time_word letters() const;
+  word letters() const;
   /// "the step 0.03", or "steps from 0.02 to 0.03".
   std::string steps() const;
 };

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view to_learn = "learned:";
 
-void count(method_source& source, const run_time_word& word) {
+void count(method_source& source, const nysalt::word& word) {
   source.word = word;
   source.evaluations_per_step = word.evaluations_per_step;
   source.force_derivatives = word.force_derivatives;
@@ -301,7 +301,7 @@ std::optional<placement> placement_in(const method_source& source, const prepare
                                       std::optional<placement> otherwise) {
   if (!system.heat_bath().acts()) return std::nullopt;
   const placement where = source.where.value_or(otherwise.value_or(usual));
-  const run_time_word word = family_named(*source.family, system.letters()).letters;
+  const nysalt::word word = family_named(*source.family, system.letters()).letters;
   if (word.is_processed()) {
     refuse(
         "{}: a processed method must run without a bath, as a kernel that is learned with a processor gives "

@@ -24,7 +24,7 @@ struct method_source {
       0;  // of a processed method: once before the first step, and for each observation
   int evaluations_per_step = 0;  // of a system whose f'(q) v counts one, until charge() knows which
   int force_derivatives = 0;     // f'(q) v in a step
-  std::optional<run_time_word> word;
+  std::optional<nysalt::word> word;
 };
 
 /// What is held goes before all else. Words and tables may have letters of the system that they are for.

@@ -229,7 +229,7 @@ void prepared_problem::start_state(std::uint64_t seed, std::uint64_t n, std::spa
 
 int prepared_problem::lanes() const { return made_.system.facts().in_lanes ? default_lanes : 1; }
 
-void prepared_problem::require_served(const run_time_word& word) const {
+void prepared_problem::require_served(const nysalt::word& word) const {
   try {
     nysalt::require_served<model, double>(word, made_.system);
   } catch (const std::invalid_argument& problem) {
@@ -249,7 +249,7 @@ Eigen::VectorXd column_of(const state_in_double& x) {
 
 /// The rate at which a letter moves the state at x, by a central difference over 2 h, with a coefficient 1 in
 /// one of its slots.
-Eigen::VectorXd rate_of(const model& system, const run_time_word& letter, std::size_t slot,
+Eigen::VectorXd rate_of(const model& system, const nysalt::word& letter, std::size_t slot,
                         const state_in_double& x, double h) {
   std::vector<double> c(letter.slots);
   c[slot] = 1.0;
@@ -281,7 +281,7 @@ struct compared_rates {
 
 /// How the letters of a word move q and p, and how H does. A part of H acts once, however many letters have
 /// its time.
-std::array<compared_rates, 2> rates_of_sum(const model& system, const run_time_word& word,
+std::array<compared_rates, 2> rates_of_sum(const model& system, const nysalt::word& word,
                                            const std::string& times,
                                            const std::vector<state_in_double>& states, double step) {
   const double h =
@@ -294,7 +294,7 @@ std::array<compared_rates, 2> rates_of_sum(const model& system, const run_time_w
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(2 * n);
     std::string known;
     for (std::size_t i = 0; i < word.length; ++i) {
-      const run_time_word letter = word.with_letters(std::string(1, word.letter(i)));
+      const nysalt::word letter = word.with_letters(std::string(1, word.letter(i)));
       for (std::size_t k = 0; k < word.slots_of(i); ++k) {
         const char part = times[word.first_slot(i) + k];
         if (known.find(part) != std::string::npos) continue;
@@ -313,7 +313,7 @@ std::array<compared_rates, 2> rates_of_sum(const model& system, const run_time_w
 
 }  // namespace
 
-void prepared_problem::require_sound_letters(const std::string& name, const run_time_word& word,
+void prepared_problem::require_sound_letters(const std::string& name, const nysalt::word& word,
                                              double step) const {
   constexpr Eigen::Index most = 2000;  // coordinates: the Jacobian of a letter has 4 times their square
   if (examined_ != examination::whole || !word.has_own_letters() || size(made_.system) > most) return;
@@ -334,7 +334,7 @@ void prepared_problem::require_sound_letters(const std::string& name, const run_
   }
   std::string letters = word.letters();
   std::erase(letters, bath_letter);
-  const run_time_word conservative = word.with_letters(letters);
+  const nysalt::word conservative = word.with_letters(letters);
   const auto rates = rates_of_sum(base, conservative, times_of_slots(conservative), states, step);
   for (const auto& [which, rate] : {std::pair("q", rates[0]), std::pair("p", rates[1])}) {
     if (rate.agree()) continue;
@@ -424,7 +424,7 @@ const std::vector<frequency_band>& prepared_problem::bands_along_motion() const 
   });
 }
 
-stability_guard prepared_problem::guard(const run_time_word& word) const {
+stability_guard prepared_problem::guard(const nysalt::word& word) const {
   const auto states = typical_and_energetic_starts(made_.system, made_.starts, 1, 0, 64);
   return {made_.system, states, word};
 }

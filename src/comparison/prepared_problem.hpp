@@ -129,7 +129,7 @@ class prepared_problem {
   const std::vector<frequency_band>& bands_along_motion() const;
   /// For a word, of its bands, or of the frequencies along some states of the initial distribution, and of
   /// kicks of parts of V as a fit has it.
-  stability_guard guard(const run_time_word& word) const;
+  stability_guard guard(const nysalt::word& word) const;
   /// The judgement of a method at a step, on starts of its own, see starts_to_judge(): equal for equal
   /// coefficients, whatever the method is called and whichever command asks. Cost: that of step_judge::of();
   /// of a method that was judged at the step before none.
@@ -140,14 +140,14 @@ class prepared_problem {
   /// Counted, not measured: equal runs have equal judgements.
   const judgement& judged_before(const tabulated& method, const trajectories_plan& run) const;
   /// Throws refusal for a word that the system does not serve.
-  void require_served(const run_time_word& word) const;
+  void require_served(const nysalt::word& word) const;
   /// Letters of one's own that the system has, by name.
   const std::vector<letter_facts>& letters() const { return letters_; }
   /// Tries the letters of one's own in a word by check_letter(), over the step from four states, and whether
   /// its letters add up to H there. Throws refusal, which begins with the name of the method, for the first
   /// that is not what it states. Nothing is tried above 2000 coordinates. Cost: of letters that passed before
   /// none.
-  void require_sound_letters(const std::string& name, const run_time_word& word, double step) const;
+  void require_sound_letters(const std::string& name, const nysalt::word& word, double step) const;
   /// Throws refusal for what cannot be learned, before any work is done.
   void require_learnable(const std::string& family, std::optional<placement> where,
                          const learning_options& how, double step) const;

@@ -7,7 +7,7 @@
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "learning.hpp"
-#include "nysalt/detail/served_letters.hpp"
+#include "nysalt/core/served_letters.hpp"
 #include "purpose.hpp"
 #include "recommendation.hpp"
 #include "seeds.hpp"

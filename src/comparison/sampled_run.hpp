@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/detail/divergence.hpp"
+#include "nysalt/core/divergence.hpp"
 #include "nysalt/ensemble_run.hpp"
 #include "plans.hpp"
 #include "prepared_problem.hpp"

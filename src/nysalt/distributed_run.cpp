@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/tiled_steps.hpp"
-#include "nysalt/detail/tree_sum.hpp"
+#include "nysalt/core/sentence.hpp"
+#include "nysalt/core/tiled_steps.hpp"
+#include "nysalt/core/tree_sum.hpp"
 
 namespace nysalt {
 
@@ -39,7 +39,7 @@ bool is_in_turn(const std::string& letters) {
 }
 
 detail::step_program<double> letters_of(const model& system, const tabulated& method, double step) {
-  const run_time_word& word = method.letters();
+  const nysalt::word& word = method.letters();
   if (word.is_processed()) {
     throw std::invalid_argument(
         sentence("distributed_run: the word must not be processed, got {}; take the word of the kernel",
@@ -75,7 +75,7 @@ Eigen::Index least_share(const site_layout& layout) { return std::max<Eigen::Ind
 }  // namespace
 
 bool detail::can_be_distributed(const model& system, const tabulated& method, const communicator& ranks) {
-  const run_time_word& word = method.letters();
+  const nysalt::word& word = method.letters();
   if (system.bath().acts() || system.sites() == nullptr || word.is_processed() || !is_in_turn(word.letters()))
     return false;
   const site_layout layout = system.sites()->layout();

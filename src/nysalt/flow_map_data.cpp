@@ -12,8 +12,8 @@
 
 #include "learning/data_of_problem.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/detail/steps_in.hpp"
+#include "nysalt/core/ensemble_loop.hpp"
+#include "nysalt/core/steps_in.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 

@@ -258,7 +258,7 @@ phase_points states_of(const accurate_motion& motion, const states& starts, Eige
 }
 
 stability_guard guard_of(const model& system, const accurate_motion& motion, const states& starts,
-                         std::int64_t evaluations, const run_time_word& word) {
+                         std::int64_t evaluations, const nysalt::word& word) {
   std::size_t typical = 0;
   const phase_points at = states_of(motion, starts, size(system), evaluations, typical);
   return {system, at, word, linear_steps, typical == 0 ? at.size() : typical};
@@ -266,7 +266,7 @@ stability_guard guard_of(const model& system, const accurate_motion& motion, con
 
 /// What linear theory says of the method; nothing where the force has no derivatives.
 void add_linear(const stability_guard& guard, const tabulated& method, Eigen::Index size, judgement& found) {
-  const run_time_word& word = method.letters();
+  const nysalt::word& word = method.letters();
   const auto& coefficients = method.coefficients();
   const auto& bands = guard.frequencies(met::often);
   found.frequencies = guard.description();
@@ -315,7 +315,7 @@ step_judge::step_judge(model system, const phase_points& starts, double step,
   made->evaluations = evaluations_of_trial(of, options);
   made->motion = detail::follow(of, made->starts, step, made->evaluations, options);
   try {
-    made->guard = guard_of(of, made->motion, made->starts, made->evaluations, run_time_word("BAB"));
+    made->guard = guard_of(of, made->motion, made->starts, made->evaluations, nysalt::word("BAB"));
   } catch (const std::invalid_argument& problem) {  // the force has no derivative there
     made->no_guard = problem.what();
   }
@@ -328,7 +328,7 @@ step_judge& step_judge::operator=(step_judge&&) noexcept = default;
 
 judgement step_judge::of(const tabulated& method) const {
   const auto& [system, starts, step, options, evaluations, motion, guard, no_guard, unconfined] = *known_;
-  const run_time_word& word = method.letters();
+  const nysalt::word& word = method.letters();
   judgement found;
   found.step = step;
   const detail::trial_plan plan =

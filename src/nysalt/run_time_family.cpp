@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 
 namespace nysalt {
 

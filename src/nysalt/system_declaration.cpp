@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 
 namespace nysalt {
 

@@ -17,7 +17,7 @@
 
 #include "comparison/refusal.hpp"
 #include "nysalt/c_force.h"
-#include "nysalt/detail/fingerprint.hpp"
+#include "nysalt/core/fingerprint.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt::program {

@@ -25,7 +25,7 @@
 #include "force_library.hpp"
 #include "named_signals.hpp"
 #include "names.hpp"
-#include "nysalt/detail/rounding.hpp"
+#include "nysalt/core/rounding.hpp"
 #include "nysalt/plugin.hpp"
 
 namespace nysalt::program {

@@ -17,7 +17,7 @@
 #include "comparison/observables.hpp"
 #include "comparison/refusal.hpp"
 #include "csv_file.hpp"
-#include "nysalt/detail/fingerprint.hpp"
+#include "nysalt/core/fingerprint.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "output/written_arrays.hpp"
 

@@ -23,7 +23,7 @@
 #include "comparison/standard_error.hpp"
 #include "mpi_session.hpp"
 #include "nysalt/atomic_file.hpp"
-#include "nysalt/detail/fingerprint.hpp"
+#include "nysalt/core/fingerprint.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/written_arrays.hpp"
 #include "report/comparison_report.hpp"

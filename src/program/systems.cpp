@@ -22,7 +22,7 @@
 #include "comparison/refusal.hpp"
 #include "comparison/user_system_checks.hpp"
 #include "given_starts.hpp"
-#include "nysalt/detail/rounding.hpp"
+#include "nysalt/core/rounding.hpp"
 #include "output/written_arrays.hpp"
 
 namespace nysalt::program {

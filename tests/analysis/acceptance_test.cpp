@@ -248,7 +248,7 @@ BOOST_AUTO_TEST_CASE(targets_and_proposals_that_cannot_be_are_refused) {
   BOOST_TEST(refuses([&] { at({.length = 1.0, .times_larger = -1.0}); }, {"times_larger"}));
   BOOST_TEST(refuses([&] { at({.length = 1.0}, 1e-9); }, {"at most 1", "take a larger step"}));
   BOOST_TEST(refuses([&] { at({.length = 1.0}, -0.1); }, {"step must be positive"}));
-  const tabulated one_way("one way", run_time_word("AB"), {1.0, 1.0}, {1, false, false});
+  const tabulated one_way("one way", word("AB"), {1.0, 1.0}, {1, false, false});
   BOOST_TEST(refuses([&] { step_of(one_way, 0.9, 0.1, {.length = 1.0}); }, {"must be reversible"}));
   for (const double acceptance : {0.0, 1.0}) {
     BOOST_TEST(refuses([&] { step_of(by_verlet, acceptance, 0.1, {.length = 1.0}); }, {"between 0 and 1"}));

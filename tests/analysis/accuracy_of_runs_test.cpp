@@ -49,7 +49,7 @@ order_measurement measure(const tabulated& method, const reference& accurate, st
 
 const tabulated by_verlet{verlet()};
 /// A mistake in Verlet: the kick is a little too weak, which is not even consistent.
-const tabulated weak_kick("weak_kick", run_time_word("BAB"), {0.499, 1.0, 0.499}, {2, true, false});
+const tabulated weak_kick("weak_kick", word("BAB"), {0.499, 1.0, 0.499}, {2, true, false});
 
 const in_bath warm(henon_heiles(), bath::of_sigma(0.5, 0.1));
 

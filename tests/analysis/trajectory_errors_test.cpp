@@ -52,7 +52,7 @@ const tabulated by_verlet{verlet()};
 const tabulated by_baoab{baoab()};
 const tabulated by_end{thermostat(mclachlan2(), placement::end)};
 const tabulated by_halves{thermostat(mclachlan2(), placement::symmetric)};
-const tabulated by_thirds("thirds", run_time_word("OABOBAO"),
+const tabulated by_thirds("thirds", word("OABOBAO"),
                           std::vector<double>{1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0}, {});
 
 const setting on_the_chain{"chain",

@@ -228,7 +228,7 @@ BOOST_AUTO_TEST_CASE(each_letter_has_a_coefficient_whatever_the_bath) {
     for (const model& system : {warm, trivial, warm.base()}) {
       const auto make = [&] {
         stepper<model, double, counter_noise>(
-            system, run_time_word("OBABO"), std::vector<double>(count, 0.5), 0.1, counter_noise(1));
+            system, word("OBABO"), std::vector<double>(count, 0.5), 0.1, counter_noise(1));
       };
       BOOST_TEST(refuses(make, {"OBABO", "5 letters", got}));
     }
@@ -247,7 +247,7 @@ BOOST_AUTO_TEST_CASE(noise_is_drawn_once) {
   const auto drew = [](const drawn_noise& drawn, std::size_t normals, std::size_t halves) {
     return drawn.normals.size() == normals && drawn.halves.size() == halves;
   };
-  const tabulated mine("mine", run_time_word("OAOBO"), {0.25, 1.0, 0.5, 1.0, 0.25}, {1, false, false});
+  const tabulated mine("mine", word("OAOBO"), {0.25, 1.0, 0.5, 1.0, 0.25}, {1, false, false});
   for (const std::int64_t every : {1, 1000}) {
     BOOST_TEST(drew(drawn_by(warm, by_baoab, every), 100, 0));
     BOOST_TEST(drew(drawn_by<false>(warm, by_baoab, every), 100, 0));

@@ -30,7 +30,7 @@ const std::vector<tabulated> quiet_words{
     verlet(), srkn11b(), takahashi_imada(), omelyan_fg4(), impulse(), start_of<r_fg4>()};
 const std::vector<tabulated> noisy_words{
     baoab(), obabo(), aboba(),
-    tabulated("at one end", run_time_word("OBA"), {1.0, 1.0, 1.0}, {1, false, false})};
+    tabulated("at one end", nysalt::word("OBA"), {1.0, 1.0, 1.0}, {1, false, false})};
 
 /// All numbers of a state, in order.
 void add(std::vector<double>& all, double x) { all.push_back(x); }
@@ -219,7 +219,7 @@ BOOST_AUTO_TEST_CASE(a_model_refuses_what_its_system_refuses_in_the_same_words) 
   const auto check = [&]<class S>(const S& system) {
     const model erased(system);
     for (const char* letters : {"ABA", "BAGAB", "AGA", "RSR", "SRHRS", "ROSOR", "HR", "OABAO"}) {
-      const run_time_word word(letters);
+      const nysalt::word word(letters);
       const auto compare_over = [&]<Scalar T>(T) {
         const auto expected = refusal_of([&] { require_served<S, T>(word, system); });
         BOOST_TEST(refusal_of([&] { require_served<model, T>(word, erased); }) == expected,

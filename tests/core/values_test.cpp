@@ -6,8 +6,8 @@
 #include <string>
 
 #include "nysalt/core.hpp"
-#include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/steps_in.hpp"
+#include "nysalt/core/sentence.hpp"
+#include "nysalt/core/steps_in.hpp"
 #include "nysalt/phase_point.hpp"
 
 using namespace nysalt;

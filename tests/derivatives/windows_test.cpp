@@ -69,7 +69,7 @@ auto windows_at(double b1, double beta1) {
   return stability_windows(member(nystrom(), {b1, beta1}));
 }
 stability_chart chart_of(const std::string& letters, const auto& c) {
-  return chart_stability(run_time_word(letters), {c.begin(), c.end()});
+  return chart_stability(word(letters), {c.begin(), c.end()});
 }
 
 /// First limit of a two-stage method from its one-step matrix on the oscillator: with s = c2 - c1 and

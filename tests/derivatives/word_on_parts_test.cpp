@@ -403,7 +403,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_analysed_is_said_and_admitted) {
       {"for which the guard was made", "make a guard for this word"}));
   BOOST_TEST(pair.objection(0.1).empty());
   // An ordinary word is examined as ever.
-  const run_time_word ordinary("BAB");
+  const nysalt::word ordinary("BAB");
   const stability_guard of_bands(pair.system, of_two, ordinary, steps);
   BOOST_TEST(of_bands.description() == stability_guard(pair.system, of_two, false, steps).description());
   BOOST_TEST(!of_bands.objection(ordinary, {0.5, 1.0, 0.5}, 0.3).empty());

@@ -55,7 +55,7 @@ taylor_orders order_in_other_coordinates(double c) {
   std::vector<double> all = times;
   for (const double of_kernel : {0.5, 1.0, c, 0.5}) all.push_back(of_kernel);
   for (auto time = times.rbegin(); time != times.rend(); ++time) all.push_back(-*time);
-  return taylor_order(run_time_word(forth + "AGA" + back), all);
+  return taylor_order(nysalt::word(forth + "AGA" + back), all);
 }
 
 constexpr double pi = std::numbers::pi;
@@ -82,7 +82,7 @@ double growth(const tabulated& method, double z, int steps) {
 const std::vector<double> halves{0.5, 1.0, 0.5};
 
 /// The largest norm of a power of the step, in coordinates scaled by the frequency.
-double by_powers(const run_time_word& word, const std::vector<double>& c, double theta, double k, int steps) {
+double by_powers(const nysalt::word& word, const std::vector<double>& c, double theta, double k, int steps) {
   const auto times_k = [k](double x) { return k * x; };
   Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
   for (const int i : {0, 1}) step_on_oscillator(word, c, theta, times_k, one(0, i), one(1, i));
@@ -107,7 +107,7 @@ with_quadratic_part<linear_chain> two_modes(const Eigen::Matrix2d& rest) {
 }
 
 /// Logarithm of the spectral radius of the matrix of one step.
-double growth_of_step(const auto& system, const run_time_word& word, const std::vector<double>& c, double h) {
+double growth_of_step(const auto& system, const nysalt::word& word, const std::vector<double>& c, double h) {
   const tabulated method("a step", word, c, {1, false, false});
   const phase_point<double, Eigen::Dynamic> anywhere{Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.3, 0.1)};
   return std::log(spectral_radius(jacobian(step_map(system, method, h), anywhere)));
@@ -127,7 +127,7 @@ tabulated many_steps(int n) {
     c.push_back(1.0 / n);
     c.push_back(k + 1 < n ? 1.0 / n : 0.5 / n);
   }
-  return {"verlet", run_time_word(letters), c, {2, true, false}};
+  return {"verlet", nysalt::word(letters), c, {2, true, false}};
 }
 
 }  // namespace
@@ -238,7 +238,7 @@ BOOST_AUTO_TEST_CASE(an_accident_on_the_oscillator_does_not_count) {
 BOOST_AUTO_TEST_CASE(traces_are_the_known_ones) {
   const auto are = [](const char* letters, const std::vector<double>& c, double theta, double low,
                       double high, double at_low, double at_high) {
-    const auto trace = half_trace(run_time_word(letters), c, theta, low, high);
+    const auto trace = half_trace(nysalt::word(letters), c, theta, low, high);
     BOOST_TEST(std::abs(trace.at_low() - at_low) < 10.0 * eps, letters);
     BOOST_TEST(std::abs(trace.at_high() - at_high) < 100.0 * eps, letters);
   };
@@ -297,7 +297,7 @@ BOOST_AUTO_TEST_CASE(beyond_the_window_it_is_infinite_and_words_that_are_no_plai
   for (const char* name : {"impulse", "baoab", "takahashi_imada_processed"}) {
     BOOST_TEST(refuses([&] { rho(classical_word(name), 0.5); }, {"no rotation", "no processor"}));
   }
-  BOOST_TEST(refuses([] { energy_error_on_oscillator(run_time_word("BAB"), {0.5, 1.0}, 0.5); }, {}));
+  BOOST_TEST(refuses([] { energy_error_on_oscillator(nysalt::word("BAB"), {0.5, 1.0}, 0.5); }, {}));
 }
 
 // The formula lets n t come to pi/2, which some n of 200 do to within a few degrees.
@@ -307,8 +307,8 @@ BOOST_AUTO_TEST_CASE(it_is_that_of_all_powers) {
   for (int n = 0; n < 300; ++n) {
     const double theta = n % 5 == 0 ? 0.0 : random.uniform(0.1, 7.0);
     const double k = random.uniform(0.01, 4.0);
-    const double expected = by_powers(run_time_word("RSR"), halves, theta, k, 200);
-    const double found = transient_growth(run_time_word("RSR"), halves, theta, k, 200);
+    const double expected = by_powers(nysalt::word("RSR"), halves, theta, k, 200);
+    const double found = transient_growth(nysalt::word("RSR"), halves, theta, k, 200);
     if (expected > 1e6) ++unstable;
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", theta " << theta << ", k " << k) {
       if (expected < 1e6) BOOST_TEST(std::abs(found - expected) <= 0.05 * expected);
@@ -324,24 +324,24 @@ BOOST_AUTO_TEST_CASE(impulses_grow_linearly_at_a_resonance) {
   const double k = 0.09;
   const double per_step = k / std::sqrt(pi * pi + k);
   for (const std::int64_t steps : {1000, 10'000}) {
-    const double found = transient_growth(run_time_word("SRS"), {0.5, 1.0, 0.5}, pi, k, steps);
+    const double found = transient_growth(nysalt::word("SRS"), {0.5, 1.0, 0.5}, pi, k, steps);
     const double g = per_step * static_cast<double>(steps);
     // Rounding of pi makes t some 2e-9, and the error (n t)^2.
     BOOST_TEST(std::abs(found / (0.5 * g + std::sqrt(1.0 + 0.25 * g * g)) - 1.0) < 1e-8);
   }
-  BOOST_TEST(transient_growth(run_time_word("RSR"), halves, 0.9 * pi, k, 10'000) < 1.1);
+  BOOST_TEST(transient_growth(nysalt::word("RSR"), halves, 0.9 * pi, k, 10'000) < 1.1);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_exact_magnifies_nothing_and_what_is_no_number_is_not_within_a_bound) {
-  BOOST_TEST(transient_growth(run_time_word("R"), {1.0}, 2.0, 1e-30, 10'000) <= 1.0 + 1e-9);
-  BOOST_TEST(!(transient_growth(run_time_word("RSR"), {0.5, std::nan(""), 0.5}, 2.0, 0.1, 100) <= 1e300));
+  BOOST_TEST(transient_growth(nysalt::word("R"), {1.0}, 2.0, 1e-30, 10'000) <= 1.0 + 1e-9);
+  BOOST_TEST(!(transient_growth(nysalt::word("RSR"), {0.5, std::nan(""), 0.5}, 2.0, 0.1, 100) <= 1e300));
 }
 
 BOOST_AUTO_TEST_CASE(growth_is_that_of_the_eigenvalues_of_a_step) {
   draws random;
   int growing = 0;
   for (const char* letters : {"SRS", "RSRSR", "SRHRS"}) {
-    const run_time_word word{std::string(letters)};
+    const nysalt::word word{std::string(letters)};
     for (int n = 0; n < 200; ++n) {
       std::vector<double> c(word.slots, 0.5);
       if (word.slots == 3) c[1] = 1.0;
@@ -360,7 +360,7 @@ BOOST_AUTO_TEST_CASE(growth_is_that_of_the_eigenvalues_of_a_step) {
   BOOST_TEST(growing > 10);
   // At a difference resonance there is nothing.
   const double h = 2.0 * pi / (omega[1] - omega[0]);
-  BOOST_TEST(growth_of_pair(run_time_word("SRS"), halves, h * omega, h * h * soft) < 1e-6);
+  BOOST_TEST(growth_of_pair(nysalt::word("SRS"), halves, h * omega, h * h * soft) < 1e-6);
 }
 
 // Sixty-four steps turn by z to within z^3/(24 n^2), 0.3 % at 2 pi.

@@ -300,7 +300,7 @@ BOOST_AUTO_TEST_CASE(members_of_any_word_are_palindromes_that_add_up_to_one) {
 BOOST_AUTO_TEST_CASE(a_start_is_made_of_equal_steps) {
   const auto listed = [](const auto& c) { return std::vector<double>(c.begin(), c.end()); };
   const auto start_of_known = [](const std::string& letters) {
-    return start_of(symmetric_word("tried", run_time_word(letters), letters));
+    return start_of(symmetric_word("tried", word(letters), letters));
   };
   close(start_of_known("ABA"), {0.5, 1.0, 0.5});
   close(start_of_known("ABABABABA"), listed(aba<4>::coefficients(aba<4>::start())));

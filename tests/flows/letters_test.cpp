@@ -66,13 +66,13 @@ struct state {
   }
 };
 
-state after(const run_time_word& word, const std::vector<double>& c, state x) {
+state after(const nysalt::word& word, const std::vector<double>& c, state x) {
   step_on_oscillator(
       word, c, spring_and_rest::omega, [](double y) { return spring_and_rest::kappa * y; }, x.q, x.p);
   return x;
 }
 
-state after_stepping(const run_time_word& word, const std::vector<double>& c, const state& x) {
+state after_stepping(const nysalt::word& word, const std::vector<double>& c, const state& x) {
   const spring_and_rest system;
   phase_point<double, 1> z{vector<double, 1>(x.q), vector<double, 1>(x.p)};
   stepper<spring_and_rest>(system, word, c, 1.0).step(z);
@@ -89,7 +89,7 @@ constexpr double rounding = 30.0 * eps;  // some 30 operations on numbers below 
 
 template <SeparableSystem S>
 auto kicked(const char* letter, const S& system, phase_point<double, S::dimension> x, double of_g = c) {
-  stepper(system, run_time_word(letter), {b, of_g}, h).step(x);
+  stepper(system, nysalt::word(letter), {b, of_g}, h).step(x);
   return x;
 }
 
@@ -207,7 +207,7 @@ struct off_family : symmetric_composition<my_drift, off_kick, 7> {
 BOOST_AUTO_TEST_CASE(the_action_on_an_oscillator_is_that_of_the_flow) {
   draws random;
   for_each_hamiltonian([&](auto flow) {
-    const run_time_word word(std::string(1, flow.letter));
+    const nysalt::word word(std::string(1, flow.letter));
     auto c = random_coefficients(random, flow.slots);
     BOOST_TEST_CONTEXT("letter " << flow.letter) {
       BOOST_TEST(after(word, c, {}).is_near(after_stepping(word, c, {})));
@@ -231,7 +231,7 @@ BOOST_AUTO_TEST_CASE(each_letter_is_what_it_states) {
     BOOST_TEST(flow.invertible == (flow.letter != 'D'));
   });
   BOOST_TEST(!ornstein_uhlenbeck::invertible);
-  BOOST_TEST(!after(run_time_word("DD"), {0.7, 0.3, -0.7, -0.3}, {}).is_near({}));
+  BOOST_TEST(!after(nysalt::word("DD"), {0.7, 0.3, -0.7, -0.3}, {}).is_near({}));
 }
 
 BOOST_AUTO_TEST_CASE(letters_of_a_quadratic_part_are_those_that_need_one) {
@@ -239,16 +239,16 @@ BOOST_AUTO_TEST_CASE(letters_of_a_quadratic_part_are_those_that_need_one) {
     using L = decltype(flow);
     const bool is_of_part = L::splits == splitting::quadratic_part_and_rest;
     BOOST_TEST(is_of_part == !(L::template serves<without_parts, double>), flow.letter);
-    BOOST_TEST(is_of_part == run_time_word(std::string(1, flow.letter)).rotates(), flow.letter);
+    BOOST_TEST(is_of_part == nysalt::word(std::string(1, flow.letter)).rotates(), flow.letter);
     BOOST_TEST((L::same_order_as::splits == splitting::kinetic_and_potential), flow.letter);
     BOOST_TEST(L::slots == L::same_order_as::slots, flow.letter);
     BOOST_TEST(L::moves_q == L::same_order_as::moves_q, flow.letter);
   });
   BOOST_TEST((ornstein_uhlenbeck::splits == splitting::any));
-  BOOST_TEST(run_time_word("OSO").rotates());
-  BOOST_TEST(!run_time_word("OSO").reads_modes);
-  BOOST_TEST(run_time_word("ORO").reads_modes);
-  BOOST_TEST(!run_time_word("OBAGO").rotates());
+  BOOST_TEST(nysalt::word("OSO").rotates());
+  BOOST_TEST(!nysalt::word("OSO").reads_modes);
+  BOOST_TEST(nysalt::word("ORO").reads_modes);
+  BOOST_TEST(!nysalt::word("OBAGO").rotates());
   static_assert(word("SRS").rotates() && !word("BAB").rotates());
 }
 
@@ -264,7 +264,7 @@ BOOST_AUTO_TEST_CASE(on_a_linear_system_a_rotation_is_the_exact_flow) {
       BOOST_TEST_CONTEXT("seed " << draws::seed << ", step " << h) {
         const auto off = [&](const char* letters, const std::vector<double>& c) {
           auto y = x;
-          stepper(chain, run_time_word(letters), c, h).step(y);
+          stepper(chain, nysalt::word(letters), c, h).step(y);
           return distance(y, expected);
         };
         BOOST_TEST(off("R", {1.0}) <= rounding_of_modes);
@@ -345,7 +345,7 @@ BOOST_AUTO_TEST_CASE(a_displaced_kick_is_that_of_the_formula) {
 
 BOOST_AUTO_TEST_CASE(gradient_and_displaced_kicks_cost_two_evaluations_and_differences_three) {
   const std::array alone{std::int64_t{2}, std::int64_t{11}};  // the force is known: q does not move
-  BOOST_TEST((evaluations_of(two_masses(), run_time_word("G"), {b, c}) == alone));
+  BOOST_TEST((evaluations_of(two_masses(), nysalt::word("G"), {b, c}) == alone));
   // fg_chin: the last kick's force is the first one's of the next step.
   check_cost<fg_chin>(dynamic_potential(), 4, 1 + 10 * 3);
   check_cost<fg_chin>(black_box(), 5, 1 + 10 * 4);

@@ -19,7 +19,7 @@
 #include "../support/systems.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/divergence.hpp"
+#include "nysalt/core/divergence.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"

@@ -149,7 +149,7 @@ bool suits(const model& system, const tabulated& method, bool over_slopes) {
   if (method.requires_quadratic_kinetic && !facts.has_quadratic_kinetic) return false;
   if (facts.in.acts() && method.letters().stochastic_letters == 0) return false;
   for (const char letter : method.letters().letters()) {
-    if (letter == run_time_word::processor_mark) continue;
+    if (letter == nysalt::word::processor_mark) continue;
     if (!facts.serves<double>(letter)) return false;
     if (over_slopes && !facts.serves<slopes>(letter)) return false;
     // A black box serves gradient kicks, but their derivatives are differences.

@@ -115,9 +115,9 @@ struct solved {
 };
 /// A word and its coefficients, wherever their order holds.
 struct table {
-  run_time_word word;
+  nysalt::word word;
   std::vector<double> coefficients;
-  table(const run_time_word& letters, const std::vector<double>& c) : word(letters), coefficients(c) {}
+  table(const nysalt::word& letters, const std::vector<double>& c) : word(letters), coefficients(c) {}
   table(const tabulated& method) : table(method.letters(), method.coefficients()) {}
 };
 /// Slope of log error against log step, to 0.15 if the first steps are below 1/4 of the fastest motion's time

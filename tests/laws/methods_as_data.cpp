@@ -27,7 +27,7 @@ tabulated shared_equally(const std::string& letters) {
   for (const char letter : letters) {
     c.push_back(1.0 / static_cast<double>(std::count(letters.begin(), letters.end(), letter)));
   }
-  return {"the word " + letters, run_time_word(letters), c, {1, false, false}};
+  return {"the word " + letters, word(letters), c, {1, false, false}};
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ phase_points one_start(double q, double p) {
   return std::vector{phase_point<double, Eigen::Dynamic>{numbers(q).head(1), numbers(p).head(1)}};
 }
 const auto in_well = around_rest<1>(1.5, 1.5);
-const tabulated rotations("rotations", run_time_word("RSR"), {0.5, 1.0, 0.5}, {2, true, true});
+const tabulated rotations("rotations", word("RSR"), {0.5, 1.0, 0.5}, {2, true, true});
 
 const fpu_chain<3> small(50.0);
 const fpu_chain<> large(16, 50.0);
@@ -263,7 +263,7 @@ BOOST_AUTO_TEST_CASE(in_a_bath_only_divergence_counts) {
 BOOST_AUTO_TEST_CASE(a_judge_gives_equal_judgements_of_equal_coefficients) {
   const step_judge judge_of(chain, chain_starts, 0.3, {.steps = 500});
   const tabulated by_name(verlet{});
-  const tabulated by_letters("word", run_time_word("BAB"), by_name.coefficients(), {2, true, false});
+  const tabulated by_letters("word", word("BAB"), by_name.coefficients(), {2, true, false});
   const auto one = judge_of.of(by_name);
   const auto other = judge(chain, chain_starts, by_letters, 0.3, {.steps = 500});
   BOOST_TEST(one.in_words() == other.in_words());

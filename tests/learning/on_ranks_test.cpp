@@ -9,7 +9,7 @@
 #include "../../src/nysalt/learning/problem.hpp"
 #include "../support/learned.hpp"
 #include "../support/ranks_as_threads.hpp"
-#include "nysalt/detail/tree_sum.hpp"
+#include "nysalt/core/tree_sum.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -16,13 +16,13 @@ using namespace nysalt::test;
 namespace {
 
 /// With windows 0 .. sqrt(20/3) and sqrt(10) .. sqrt(50/3), and a gap between.
-const run_time_word two_stages("ABABA");
+const nysalt::word two_stages("ABABA");
 std::vector<double> with_a_gap() {
   const auto c = nystrom::coefficients(std::array{0.5, 0.4});
   return {c.begin(), c.end()};
 }
 
-const run_time_word verlet_word("BAB");
+const nysalt::word verlet_word("BAB");
 const std::vector<double> verlet_coefficients{0.5, 1.0, 0.5};
 
 const std::vector<phase_point<double, 1>> no_states;
@@ -98,7 +98,7 @@ stability_guard guard_of_two_modes(std::int64_t steps) {
   return {with_quadratic_part(chain, stiff), states, true, steps};
 }
 
-const run_time_word one_impulse("RSR");
+const nysalt::word one_impulse("RSR");
 const std::vector<double> halves{0.5, 1.0, 0.5};
 const double resonance = std::numbers::pi / 50.0;
 
@@ -296,7 +296,7 @@ BOOST_AUTO_TEST_CASE(a_pair_of_modes_is_refused_from_a_threefold_growth_on) {
 // that of impulses 24-fold.
 BOOST_AUTO_TEST_CASE(what_was_learned_at_a_resonance_is_admitted_there) {
   const auto guard = guard_of_rotations();
-  const run_time_word word("RSRSRSRSR");
+  const nysalt::word word("RSRSRSRSR");
   const std::vector<double> c{0.09004278, 0.22513766, 0.28760145, 0.27486234, 0.24471153,
                               0.27486234, 0.28760145, 0.22513766, 0.09004278};
   BOOST_TEST(guard.objection(word, c, resonance).empty(), guard.objection(word, c, resonance));

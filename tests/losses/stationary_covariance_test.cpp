@@ -25,7 +25,7 @@ constexpr damped_oscillator oscillator{3.0, 1.5, 0.8};
 const std::vector<tabulated> bathed_methods = langevin_methods();
 const tabulated& baoab_as_data = bathed_methods.front();
 tabulated word_of_letters(const char* letters, const std::vector<double>& c) {
-  return {letters, run_time_word(letters), c, {1, false, false}};
+  return {letters, nysalt::word(letters), c, {1, false, false}};
 }
 
 template <System S>
@@ -221,7 +221,7 @@ BOOST_AUTO_TEST_CASE(a_word_that_keeps_no_law_is_infinitely_far) {
   BOOST_TEST(!loss_of(2.001).is_finite());
   BOOST_TEST(!std::isfinite(loss_of(200.0).value));
 
-  const stationary_covariance symmetric(bathed_system(oscillator), run_time_word("OABAO"), 0.3);
+  const stationary_covariance symmetric(bathed_system(oscillator), nysalt::word("OABAO"), 0.3);
   BOOST_TEST(std::isfinite(symmetric.residuals(std::vector{0.25, 0.5, 1.0, 0.5, 0.75})[0]));
   BOOST_TEST(!std::isfinite(symmetric.residuals(std::vector{-0.1, 0.5, 1.0, 0.5, 1.1})[0]));  // back in time
   BOOST_TEST(!std::isfinite(symmetric.residuals(std::vector{0.0, 0.5, 1.0, 0.5, 0.0})[0]));   // no bath left
@@ -229,11 +229,11 @@ BOOST_AUTO_TEST_CASE(a_word_that_keeps_no_law_is_infinitely_far) {
 
 BOOST_AUTO_TEST_CASE(what_has_no_law_is_refused) {
   const auto warm = bathed_system(oscillator);
-  const run_time_word word("OABAO");
-  const auto made = [](const auto& system, const run_time_word& w, double step) {
+  const nysalt::word word("OABAO");
+  const auto made = [](const auto& system, const nysalt::word& w, double step) {
     return [=] { stationary_covariance(system, w, step); };
   };
-  BOOST_TEST(refuses(made(warm, run_time_word("ABA"), 0.1), {"ABA", "thermostat"}));
+  BOOST_TEST(refuses(made(warm, nysalt::word("ABA"), 0.1), {"ABA", "thermostat"}));
   BOOST_TEST(refuses(made(warm, word, 0.0), {"step", "positive"}));
   BOOST_TEST(refuses(made(warm, word, std::nan("")), {"step", "nan"}));
   const harmonic_oscillator alone(3.0);
@@ -241,7 +241,7 @@ BOOST_AUTO_TEST_CASE(what_has_no_law_is_refused) {
   BOOST_TEST(refuses(made(in_bath(alone, bath::of_sigma(1.0, 0.0)), word, 0.1), {"temperature"}));
   const in_bath free_mass(linear_chain(Eigen::MatrixXd::Zero(1, 1)), bath::of_sigma(1.0, 1.0));
   BOOST_TEST(refuses(made(free_mass, word, 0.1), {"linear_chain", "frequency"}));
-  BOOST_TEST(refuses(made(in_bath(whole_spring(), bath::of_sigma(1.0, 1.0)), run_time_word("OSRSO"), 0.1),
+  BOOST_TEST(refuses(made(in_bath(whole_spring(), bath::of_sigma(1.0, 1.0)), nysalt::word("OSRSO"), 0.1),
                      {"OSRSO", "soft_force"}));
   const stationary_covariance loss(warm, word, 0.1);
   BOOST_TEST(refuses([&] { loss.residuals(std::vector{0.5, 0.5}); }, {"OABAO", "2 coefficients"}));

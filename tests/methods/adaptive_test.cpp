@@ -116,7 +116,7 @@ struct with_rounding {
 
 /// rho by its definition, from the matrix of the step. With entries wrong by delta, B + C errs by
 /// 2 delta max(z, 1/z) and 1 - A^2 by 2 delta; both are doubled, for the closed form.
-with_rounding rho_of_step(const run_time_word& word, const std::vector<double>& c, double x) {
+with_rounding rho_of_step(const nysalt::word& word, const std::vector<double>& c, double x) {
   const auto m = matrix_on_oscillator(word, c, x);
   const double z = std::sqrt(x);
   const double sum = m.qp * z + m.pq / z;
@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(rho_is_that_of_the_step) {
       const double c = random.uniform(method.drawn.first, method.drawn.second);
       const double x = random.uniform(0.1, method.highest_x);
       if (std::abs(x - method.meeting(c)) < 0.1) continue;
-      const auto [rho, error] = rho_of_step(run_time_word(method.letters), method.coefficients(c), x);
+      const auto [rho, error] = rho_of_step(nysalt::word(method.letters), method.coefficients(c), x);
       BOOST_TEST_CONTEXT(method.letters << ", coefficient " << c << ", x " << x) {
         BOOST_TEST(std::abs(method.rho(c, x) - rho) <= error);
         BOOST_TEST(std::abs(method.rho(c + 1e-3, x) - rho) > error);

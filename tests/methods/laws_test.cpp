@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(explicit_euler_is_not_and_a_displaced_kick_is_not) {
     }
   }
   const auto& galaxy = specimen_of("henon_heiles");
-  const tabulated displaced("displaced", run_time_word("BADAB"), {0.2, 0.5, 0.6, 0.05, 0.5, 0.2},
+  const tabulated displaced("displaced", nysalt::word("BADAB"), {0.2, 0.5, 0.6, 0.05, 0.5, 0.2},
                             {2, true, true});
   const auto x = galaxy.at_random(random);
   BOOST_TEST(!displaced.letters().is_symplectic);
@@ -269,7 +269,7 @@ BOOST_AUTO_TEST_CASE(a_repeated_method_is_its_steps_one_after_the_other) {
 BOOST_AUTO_TEST_CASE(tables_that_cannot_be_are_refused) {
   const method_properties nothing{1, false, false};
   const auto made = [&](const std::string& letters, const std::vector<double>& c) {
-    return [=] { tabulated("mine", run_time_word(letters), c, nothing); };
+    return [=] { tabulated("mine", nysalt::word(letters), c, nothing); };
   };
   BOOST_TEST(refuses(made("ABA", {0.5, 1.0}), {"2 coefficients for the 3 letters ABA"}));
   BOOST_TEST(refuses(made("AGA", {0.5, 1.0, 0.5}), {"3 coefficients", "G and H take two"}));
@@ -281,7 +281,7 @@ BOOST_AUTO_TEST_CASE(tables_that_cannot_be_are_refused) {
   BOOST_CHECK_NO_THROW(make_stepper(fast, srkn6b(), 0.1));
   std::string letters;
   for (int n = 0; n < 65; ++n) letters += "BA";
-  const tabulated too_long("long", run_time_word(letters), std::vector<double>(130, 1.0 / 65.0), nothing);
+  const tabulated too_long("long", nysalt::word(letters), std::vector<double>(130, 1.0 / 65.0), nothing);
   BOOST_TEST(refuses([&] { stability_windows(too_long); }, {"<= 64"}));
 }
 
@@ -401,7 +401,7 @@ BOOST_AUTO_TEST_CASE(in_a_quiet_bath_a_step_is_that_of_the_word_without_letters_
   for (const auto& name : {"fpu_chain(pairs=3", "linear_chain(masses=3", "kepler"}) {
     const auto& one = specimen_of(name);
     for (const auto& method : noisy_methods()) {
-      const run_time_word& word = method.letters();
+      const nysalt::word& word = method.letters();
       const tabulated expected("expected", conservative_part(word),
                                conservative_part(word, method.coefficients()), method);
       const auto x = one.at_random(random);

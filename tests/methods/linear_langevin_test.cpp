@@ -286,7 +286,7 @@ BOOST_AUTO_TEST_CASE(a_method_is_thermostatted) {
   BOOST_TEST(same(thermostat(verlet(), symmetric), obabo()));
   BOOST_TEST(same(thermostat(verlet_aba(), middle), aboba()));
   BOOST_TEST(!same(thermostat(verlet(), end), baoab()));
-  const tabulated euler("euler", run_time_word("BA"), {1.0, 1.0}, {1, false, false});
+  const tabulated euler("euler", nysalt::word("BA"), {1.0, 1.0}, {1, false, false});
   BOOST_TEST(thermostat(euler, symmetric).order == 1);
   BOOST_TEST(!thermostat(euler, symmetric).symmetric);
   BOOST_TEST(refuses([&] { thermostat(euler, middle); }, {"central letter"}));

@@ -4,7 +4,7 @@
 #include "../support/refusal.hpp"
 #include "nysalt/analysis/cost_against_error.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
-#include "nysalt/detail/lockstep.hpp"
+#include "nysalt/core/lockstep.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/gradient_composition.hpp"
 #include "nysalt/methods/classical.hpp"
@@ -42,23 +42,23 @@ void try_processed(const trial& f) {
 }
 
 /// Steps of a part of a word.
-any_state after_part(const run_of& whole, const run_time_word& letters, const std::vector<double>& all,
+any_state after_part(const run_of& whole, const nysalt::word& letters, const std::vector<double>& all,
                      const any_state& x, std::int64_t steps = 1) {
   const tabulated part("part", letters, all, whole.method);
   const run_of run{whole.system, part, whole.step};
   return steps == 1 ? run.plain(x, 1) : run.finish(x, steps);
 }
 any_state after_kernel(const run_of& whole, const any_state& x, std::int64_t steps = 1) {
-  const run_time_word& word = whole.method.letters();
+  const nysalt::word& word = whole.method.letters();
   const auto c = whole.method.coefficients();
-  return after_part(whole, run_time_word(word.letters().substr(0, word.length)),
+  return after_part(whole, nysalt::word(word.letters().substr(0, word.length)),
                     {c.begin(), c.begin() + static_cast<std::ptrdiff_t>(word.kernel_slots)}, x, steps);
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_letters_of_kernel_and_processor) {
-  const run_time_word word("ABA|BABA");
+  const nysalt::word word("ABA|BABA");
   BOOST_TEST(word.is_processed());
   BOOST_TEST(word.letters() == "ABA|BABA");
   BOOST_TEST(word.processor() == "BABA");
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(the_letters_of_kernel_and_processor) {
   BOOST_TEST(word.evaluations_to_open == 2);
   BOOST_TEST(word.evaluations_to_observe == 2);
   BOOST_TEST(word.evaluations_of_plain_step == 5);
-  BOOST_TEST(!run_time_word("ABA").is_processed());
+  BOOST_TEST(!nysalt::word("ABA").is_processed());
   BOOST_TEST(detail::pre_processor(word).letters() == "ABAB");
   BOOST_TEST((detail::pre_processor_coefficients<double>(word, {0.5, 1.0, 0.5, 1.0, 2.0, 3.0, 4.0}) ==
               std::vector{-4.0, -3.0, -2.0, -1.0}));
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(the_same_processor_before_and_after_is_not_reversible) {
   const auto& one = specimen_of("pendulum");
   const run_of run{one.system, method, 0.25};
   const auto x = one.at_random(random);
-  const run_time_word& word = method.letters();
+  const nysalt::word& word = method.letters();
   const auto c = method.coefficients();
   auto same = detail::post_processor_coefficients(word, c);
   for (double& each : same) each = -each;
@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(the_same_processor_before_and_after_is_not_reversible) {
 
 BOOST_AUTO_TEST_CASE(a_run_is_its_parts_however_it_is_cut_and_observed) {
   try_processed([](const model& system, const tabulated& method, double step, const any_state& x) {
-    const run_time_word& word = method.letters();
+    const nysalt::word& word = method.letters();
     const auto c = method.coefficients();
     const run_of run{system, method, step};
     auto y = after_part(run, detail::pre_processor(word), detail::pre_processor_coefficients(word, c), x);
@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(what_is_counted_is_what_is_evaluated) {
   const counted watched{pendulum()};
   for (const auto& method : processed_methods(random)) {
     const auto x = random.state(watched, 1.0);
-    const run_time_word& word = method.letters();
+    const nysalt::word& word = method.letters();
     const auto fixed = make_stepper(watched, method, 0.1);
     const auto of_steps = [&](std::int64_t n, std::int64_t looks) {
       return word.evaluations_to_open + n * word.evaluations_per_step + looks * word.evaluations_to_observe;
@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_processed_is_refused) {
                                       {"ABA|OA", "in turn"},
                                       {"BAOAB|BA", "temperature"},
                                       {"RSR|BA", "do not mix"}}) {
-    none([&, letters = letters] { run_time_word{letters}; }, what);
+    none([&, letters = letters] { nysalt::word{letters}; }, what);
   }
   const run_time_family family{fg4()};
   const auto with_three = processed(family, 3);

@@ -3,8 +3,8 @@
 // program, and sentences. The comments are explained in check.py.
 #include "common.hpp"
 #include "nysalt/derivatives/properties.hpp"
-#include "nysalt/detail/lockstep.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/lockstep.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/flows/exact_flow.hpp"

@@ -79,7 +79,7 @@ const state start{{0.1, 0.05}, {-0.05, 0.1}};
 const auto symmetric = thermostat(mclachlan2(), placement::symmetric);
 const auto end = thermostat(mclachlan2(), placement::end);
 const auto middle = thermostat(mclachlan2(), placement::middle);
-const tabulated thirds("thirds", run_time_word("OABOBAO"),
+const tabulated thirds("thirds", word("OABOBAO"),
                        std::vector<double>{1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0}, {});
 
 template <class T = double>

@@ -26,7 +26,7 @@ tabulated method_named(const std::string& name) {
 }
 
 tabulated table_of(const std::string& letters, std::vector<double> coefficients) {
-  return {"mine", run_time_word(letters), std::move(coefficients), {2, true, false}};
+  return {"mine", word(letters), std::move(coefficients), {2, true, false}};
 }
 
 /// kA...k with three times in each k, as a table.

@@ -8,7 +8,7 @@
 #include "../../src/comparison/prepared_problem.hpp"
 #include "../../src/comparison/refusal.hpp"
 #include "../support/systems.hpp"
-#include "nysalt/detail/ensemble_loop.hpp"
+#include "nysalt/core/ensemble_loop.hpp"
 #include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/plugin.hpp"
 

@@ -371,7 +371,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_sampled_is_refused) {
   BOOST_TEST(refused("draws must be at least 1", changed(sound, &hmc_options::draws, 0)));
   BOOST_TEST(refused("acceptance must be between", changed(sound, &hmc_options::acceptance, 1.5)));
   BOOST_TEST(refused("ask for an acceptance", changed(sound, &hmc_options::diagonal_masses, true)));
-  const tabulated one_way("one way", run_time_word("AB"), {1.0, 1.0}, {1, false, false});
+  const tabulated one_way("one way", word("AB"), {1.0, 1.0}, {1, false, false});
   BOOST_TEST(refused("must be reversible", sound, one_way));
   // Beyond the first block of lanes, whose width depends on the machine.
   std::vector<phase_point<double, 1>> starts(40, {number(1.0), number(0.0)});

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../laws/models.hpp"
-#include "nysalt/detail/requirements.hpp"
+#include "nysalt/core/requirements.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/methods/s_aia.hpp"

@@ -4,7 +4,7 @@
 // that they do their work.
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/core.hpp"
-#include "nysalt/detail/requirements.hpp"
+#include "nysalt/core/requirements.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/window_error.hpp"

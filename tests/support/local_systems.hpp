@@ -86,7 +86,7 @@ struct deaf_to_the_left : phi4_chain<> {
 
 /// Symplectic Euler, of order 1: its two letters do not merge.
 inline tabulated euler(const std::string& letters) {
-  return tabulated("symplectic Euler " + letters, run_time_word(letters), {1.0, 1.0}, {1, false, false});
+  return tabulated("symplectic Euler " + letters, word(letters), {1.0, 1.0}, {1, false, false});
 }
 
 /// Drifts and kicks in turn, which begin with either, merge or not, and keep their last force or not.

@@ -4,7 +4,7 @@
 #include "../laws/models.hpp"
 #include "../support/local_systems.hpp"
 #include "nysalt/derivatives/check_force.hpp"
-#include "nysalt/detail/kernels.hpp"
+#include "nysalt/core/kernels.hpp"
 #include "nysalt/systems/gaussian.hpp"
 #include "nysalt/systems/lennard_jones.hpp"
 

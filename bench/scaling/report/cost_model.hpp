@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "least_squares.hpp"
-#include "nysalt/detail/tree_sum.hpp"
+#include "nysalt/core/tree_sum.hpp"
 
 namespace nysalt::bench {
 

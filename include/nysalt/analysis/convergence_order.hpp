@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/reference.hpp"
 

@@ -15,7 +15,7 @@
 
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/divergence.hpp"
+#include "nysalt/core/divergence.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 

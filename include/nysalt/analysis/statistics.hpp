@@ -14,8 +14,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/tree_sum.hpp"
+#include "nysalt/core/sentence.hpp"
+#include "nysalt/core/tree_sum.hpp"
 #include "nysalt/lanes.hpp"
 
 namespace nysalt {

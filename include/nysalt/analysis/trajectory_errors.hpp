@@ -17,7 +17,7 @@
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/divergence.hpp"
+#include "nysalt/core/divergence.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/method.hpp"

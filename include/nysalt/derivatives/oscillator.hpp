@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/word.hpp"
 #include "nysalt/scalars/polynomial.hpp"
 #include "nysalt/system.hpp"
@@ -26,7 +26,7 @@ namespace nysalt {
 /// of a polynomial, or, for two modes, a matrix; theta is a number, or an array of two. With a step h: theta
 /// = h omega, k = h^2 kappa, and p counts in units of q/h.
 template <class P, class Theta>
-void step_on_oscillator(const run_time_word& word, const std::vector<double>& coefficients,
+void step_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
                         const Theta& theta, const auto& times_k, P& q, P& p) {
   const split_stiffness<Theta, std::remove_cvref_t<decltype(times_k)>> stiffness{theta, times_k};
   for (std::size_t i = 0; i < word.length; ++i) {
@@ -53,7 +53,7 @@ struct oscillator_matrix {
   T qp;  ///< q after the step from q = 0, p = 1
   T pp;  ///< p from there
 
-  oscillator_matrix(const run_time_word& word, const std::vector<double>& coefficients, double theta,
+  oscillator_matrix(const nysalt::word& word, const std::vector<double>& coefficients, double theta,
                     const T& zero, const T& one, const auto& times_k)
       : qq(one), pq(zero), qp(zero), pp(one) {
     step_on_oscillator(word, coefficients, theta, times_k, qq, pq);
@@ -69,7 +69,7 @@ struct oscillator_matrix {
 };
 
 /// The matrix at one frequency: of a step 1, all of k = z^2, or of k and an angle theta of rotations.
-inline oscillator_matrix<double> matrix_on_oscillator(const run_time_word& word,
+inline oscillator_matrix<double> matrix_on_oscillator(const nysalt::word& word,
                                                       const std::vector<double>& coefficients, double k,
                                                       double theta = 0.0) {
   return {word, coefficients, theta, 0.0, 1.0, [k](double x) { return k * x; }};
@@ -79,7 +79,7 @@ inline oscillator_matrix<double> matrix_on_oscillator(const run_time_word& word,
 
 /// trace/2 of step_on_oscillator() as a polynomial in k, low <= k <= high. The step is stable where it is
 /// within +-1.
-bernstein_polynomial half_trace(const run_time_word& word, const std::vector<double>& coefficients,
+bernstein_polynomial half_trace(const nysalt::word& word, const std::vector<double>& coefficients,
                                 double theta, double low, double high);
 
 // By how much a symmetric word changes the energy of a harmonic oscillator, exactly.
@@ -91,7 +91,7 @@ struct energy_defect {
   double value;
   Eigen::VectorXd slopes;
 };
-energy_defect energy_defect_on_oscillator(const run_time_word& word, const std::vector<double>& coefficients,
+energy_defect energy_defect_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
                                           double z);
 
 }  // namespace detail
@@ -103,7 +103,7 @@ energy_defect energy_defect_on_oscillator(const run_time_word& word, const std::
 /// = A [blanes_casas_sanz_serna_2014]. Infinite where |A| >= 1, as the word is not stable there. Cost: two
 /// evaluations of each letter on one number. Throws std::invalid_argument unless there is a coefficient for
 /// each slot, or if the word rotates, has letters O or a processor.
-double energy_error_on_oscillator(const run_time_word& word, const std::vector<double>& coefficients,
+double energy_error_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
                                   double z);
 
 // Distance of the steps of a word from half turns of a stiff oscillation.
@@ -127,7 +127,7 @@ inline constexpr double resonance_distance = 0.1;
 /// The first resonance of a band that does not begin at zero, of a word whose step has nearly the phase h
 /// omega there, as those that follow the motion have; nothing if there is none, and of words with rotations.
 /// A processor changes nothing. Cost: some 32 steps on an oscillator for each band.
-std::optional<resonance> near_resonance(const run_time_word& word, const std::vector<double>& coefficients,
+std::optional<resonance> near_resonance(const nysalt::word& word, const std::vector<double>& coefficients,
                                         const std::vector<frequency_band>& bands, double step);
 
 /// "a step turns the frequencies 49 to 51 by nearly 2 pi ..."
@@ -141,7 +141,7 @@ std::string in_words(const resonance& near);
 /// 0 with a = tr M and b = (a^2 - tr M^2)/2. Two modes that K couples grow where theta_1 + theta_2 is near 2
 /// pi k: there eigenvalues of opposite Krein signature meet [hairer_lubich_wanner_2006, section XIII].
 /// Infinite where a coefficient is not finite. Cost: four steps on two oscillators.
-double growth_of_pair(const run_time_word& word, const std::vector<double>& coefficients,
+double growth_of_pair(const nysalt::word& word, const std::vector<double>& coefficients,
                       const Eigen::Array2d& theta, const Eigen::Matrix2d& k);
 
 // Transient growth: how much a word with rotations magnifies an oscillation, by resonances above all.
@@ -152,7 +152,7 @@ double growth_of_pair(const run_time_word& word, const std::vector<double>& coef
 /// without a bound, but slowly; others are stable there but for a width or a rate that is nil. With trace/2 =
 /// +-cos t, t <= pi/2, +-M^n = cos(n t) + (+-M - cos t) sin(n t)/sin t, taken at n t = pi/2 or the last step,
 /// whichever is first; cosh and sinh where it is unstable. NaN where a coefficient is. Cost: a step.
-double transient_growth(const run_time_word& word, const std::vector<double>& coefficients, double theta,
+double transient_growth(const nysalt::word& word, const std::vector<double>& coefficients, double theta,
                         double k, std::int64_t steps);
 
 // Stability of a linear symplectic step, and how near it is to a loss of stability.

@@ -112,7 +112,7 @@ taylor_orders taylor_order_of(const std::vector<double>& coefficients, const com
 ///
 /// Words with rotations obey the order conditions of those with drifts: all that these use of K is that it is
 /// quadratic in p, and so is K with the quadratic part of V.
-taylor_orders taylor_order(const run_time_word& word, const std::vector<double>& coefficients);
+taylor_orders taylor_order(const nysalt::word& word, const std::vector<double>& coefficients);
 
 /// The orders of a method, at its own coefficients.
 inline taylor_orders taylor_order(const tabulated& method) {

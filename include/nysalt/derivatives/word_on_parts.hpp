@@ -55,7 +55,7 @@ class word_on_parts {
   /// A word on the parts of a system of at most most_for_all_frequencies degrees of freedom. The mean is that
   /// of up to 8 of the states, evenly spread; M is examined at as many of them as take some milliseconds
   /// together, and at half as many if has_mean(). Cost: a Jacobian of each letter at each of these states.
-  word_on_parts(const model& system, const phase_points& states, const run_time_word& word);
+  word_on_parts(const model& system, const phase_points& states, const nysalt::word& word);
 
   bool is_known() const { return why_not_.empty(); }       ///< M can be computed
   const std::string& why_not() const { return why_not_; }  ///< M cannot be computed; else empty
@@ -99,12 +99,12 @@ class word_on_parts {
   static linearised diagonal(const motion& about);
   /// Each letter that differs from those before it, as a word by itself. This and the two functions below
   /// throw std::invalid_argument where the linearised motion is not known, and say why.
-  std::vector<run_time_word> kinds_of(const model& system, const run_time_word& word);
+  std::vector<nysalt::word> kinds_of(const model& system, const nysalt::word& word);
   /// Finds of which kind a letter is, and adds what it does about a state, root root^T = K''.
-  static void add_letter(const model& system, const run_time_word& single, kind& of,
+  static void add_letter(const model& system, const nysalt::word& single, kind& of,
                          const phase_point<double, Eigen::Dynamic>& at, const Eigen::MatrixXd& root,
                          motion& to);
-  void examine(const model& system, const phase_points& states, const std::vector<run_time_word>& kinds);
+  void examine(const model& system, const phase_points& states, const std::vector<nysalt::word>& kinds);
   const linearised& of_state(std::size_t state) const { return state < at_.size() ? at_[state] : mean_; }
   void apply(const linearised& at, const std::vector<double>& coefficients, double step,
              Eigen::Ref<Eigen::MatrixXd> x, Eigen::VectorXd* affine) const;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/detail/modal_coordinates.hpp"
+#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/flows/drift_kick.hpp"
 #include "nysalt/flows/gradient_kick.hpp"

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "nysalt/bath.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/flow.hpp"
 #include "nysalt/noise.hpp"
 

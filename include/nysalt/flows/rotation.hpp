@@ -7,7 +7,7 @@
 #include <memory>
 #include <type_traits>
 
-#include "nysalt/detail/modal_coordinates.hpp"
+#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/flow.hpp"
 #include "nysalt/flows/drift_kick.hpp"
 

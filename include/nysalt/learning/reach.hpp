@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
 #include "nysalt/initial_states.hpp"

@@ -55,23 +55,23 @@ class stability_guard {
 
   /// A guard for one word, whose letters are examined where they are kicks of parts. Cost: beside, of such a
   /// word, that of word_on_parts.
-  stability_guard(const model& system, const phase_points& states, const run_time_word& word,
+  stability_guard(const model& system, const phase_points& states, const nysalt::word& word,
                   std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max());
 
   /// Whether there is no objection() to the word with these coefficients at this step.
-  bool admits(const run_time_word& word, const std::vector<double>& coefficients, double step,
+  bool admits(const nysalt::word& word, const std::vector<double>& coefficients, double step,
               met which = met::ever) const;
 
   /// Objection to a word, one sentence; empty if the word is stable. Cost: some 5 us for 9 evaluations; with
   /// rotations some 20 us a mode, and 1 us a pair of modes and state. Throws std::invalid_argument unless
   /// there is a coefficient for each slot, and of a word with kicks of parts if the guard was made for
   /// another such word.
-  std::string objection(const run_time_word& word, const std::vector<double>& coefficients, double step,
+  std::string objection(const nysalt::word& word, const std::vector<double>& coefficients, double step,
                         met which = met::ever) const;
 
   /// Unstable intervals of z = step omega between 0 and the system's highest frequency: outside its bands, if
   /// the word is admitted. None for words with rotations. Cost: that of stability_windows().
-  std::vector<stability_window> gaps(const run_time_word& word, const std::vector<double>& coefficients,
+  std::vector<stability_window> gaps(const nysalt::word& word, const std::vector<double>& coefficients,
                                      double step) const;
 
   /// A mode and the transient growth of this mode.
@@ -81,7 +81,7 @@ class stability_guard {
   };
   /// The mode with the largest transient growth in a word with rotations, or the first with a growth above
   /// `enough`. Factor 1 where no modes are known. Cost: some 20 us a mode.
-  magnified_mode most_magnified(const run_time_word& word, const std::vector<double>& coefficients,
+  magnified_mode most_magnified(const nysalt::word& word, const std::vector<double>& coefficients,
                                 double step, double enough = std::numeric_limits<double>::infinity()) const;
 
   /// Two modes that soft forces couple, and the transient growth of the pair.
@@ -93,7 +93,7 @@ class stability_guard {
   /// The pair of modes that a word with rotations lets grow most, under the mean of the soft forces'
   /// derivatives along the states, or in the mean over them. Growth 0 where no pair grows, or none is known.
   /// Cost: some 1 us a pair of modes and state.
-  resonant_pair most_resonant(const run_time_word& word, const std::vector<double>& coefficients,
+  resonant_pair most_resonant(const nysalt::word& word, const std::vector<double>& coefficients,
                               double step) const;
 
   /// The bands, with 2 % more on either side.
@@ -136,13 +136,13 @@ class stability_guard {
 
   void watch_rotations(const model& system, const phase_points& states);
 
-  std::string unstable(const run_time_word& word, const std::vector<double>& coefficients, double step,
+  std::string unstable(const nysalt::word& word, const std::vector<double>& coefficients, double step,
                        met which) const;
 
-  std::string magnified(const run_time_word& word, const std::vector<double>& coefficients,
+  std::string magnified(const nysalt::word& word, const std::vector<double>& coefficients,
                         double step) const;
 
-  std::string resonant(const run_time_word& word, const std::vector<double>& coefficients, double step) const;
+  std::string resonant(const nysalt::word& word, const std::vector<double>& coefficients, double step) const;
 
   std::string grown_on_parts(const std::vector<double>& coefficients, double step) const;
 

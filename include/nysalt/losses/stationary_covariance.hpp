@@ -39,7 +39,7 @@ class stationary_covariance {
   /// Loss of a word with letters O. Throws std::invalid_argument if it has none, or a letter that the system
   /// does not serve; if the system is in no bath or declares no modes; if the bath has no friction or no
   /// temperature; if no frequency is above zero; or if the step is not positive and finite.
-  stationary_covariance(const model& system, const run_time_word& word, double step);
+  stationary_covariance(const model& system, const nysalt::word& word, double step);
 
   /// Three for each distinct frequency, from the lowest up, times the root of its multiplicity.
   /// Infinite where the word has no stationary distribution: its spectral radius is not below 1, or a letter
@@ -56,7 +56,7 @@ class stationary_covariance {
   /// A letter O, or all letters between two letters O.
   struct piece {
     std::size_t first;  // of its slots
-    std::optional<run_time_word> turn;
+    std::optional<nysalt::word> turn;
   };
 
   void require_law() const;
@@ -65,7 +65,7 @@ class stationary_covariance {
   template <Scalar T>
   Eigen::Matrix<T, 2, 2> excess(double omega, const std::vector<T>& coefficients) const;
 
-  run_time_word word_;
+  nysalt::word word_;
   double step_;
   bath bath_;
   std::map<double, int> multiplicity_of_;  // of each frequency

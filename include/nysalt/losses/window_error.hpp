@@ -18,8 +18,8 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/kernels.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/kernels.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/lanes.hpp"
 

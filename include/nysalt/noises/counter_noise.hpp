@@ -13,7 +13,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/noise.hpp"
 #include "nysalt/phase_point.hpp"

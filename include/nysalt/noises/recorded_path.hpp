@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/noise.hpp"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "nysalt/bath.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/method.hpp"
 

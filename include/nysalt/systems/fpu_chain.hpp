@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/detail/independent_iterations.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/independent_iterations.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/local_system.hpp"
 
 namespace nysalt {

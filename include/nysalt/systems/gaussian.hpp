@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/fingerprint.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/fingerprint.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nysalt/bath.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 
 namespace nysalt {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <typeinfo>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/system.hpp"
 

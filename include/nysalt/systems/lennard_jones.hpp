@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/fingerprint.hpp"
-#include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/fingerprint.hpp"
+#include "nysalt/core/modal_coordinates.hpp"
+#include "nysalt/core/sentence.hpp"
 
 namespace nysalt {
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/requirements.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/requirements.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/lanes.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {

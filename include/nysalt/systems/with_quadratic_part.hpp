@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/modal_coordinates.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/force.hpp"
 
 namespace nysalt {

@@ -14,7 +14,7 @@
 #include "nysalt/analysis/cost_against_error.hpp"
 #include "nysalt/communicator.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/shard.hpp"
 

@@ -26,7 +26,7 @@ std::int64_t evaluations_of_run(const model& system, const tabulated& method, do
     throw std::invalid_argument(fmt::format("evaluations_of_run: steps must not be negative, got {}", steps));
   make_stepper(system, method, step, counter_noise(0));  // refuses what cannot be stepped
   if (!is_black_box(system)) {
-    run_time_word word = method.letters();
+    nysalt::word word = method.letters();
     if (!system.bath().acts()) word = conservative_part(word);
     if (word.is_processed() && steps == 0) return 0;
     return evaluations_of(

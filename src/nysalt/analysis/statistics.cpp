@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "jackknife.hpp"
-#include "nysalt/detail/tree_sum.hpp"
+#include "nysalt/core/tree_sum.hpp"
 
 namespace nysalt {
 

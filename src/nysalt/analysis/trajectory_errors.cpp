@@ -14,8 +14,8 @@
 
 #include "nysalt/analysis/cost_against_error.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/divergence.hpp"
-#include "nysalt/detail/ensemble_loop.hpp"
+#include "nysalt/core/divergence.hpp"
+#include "nysalt/core/ensemble_loop.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/langevin.hpp"
 #include "trajectory_runs.hpp"

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "nysalt/derivatives/spectrum.hpp"
-#include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/rounding.hpp"
-#include "nysalt/detail/site_kernels.hpp"
+#include "nysalt/core/modal_coordinates.hpp"
+#include "nysalt/core/rounding.hpp"
+#include "nysalt/core/site_kernels.hpp"
 
 namespace nysalt {
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "nysalt/derivatives/properties.hpp"
-#include "nysalt/detail/served_letters.hpp"
+#include "nysalt/core/served_letters.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "nysalt/derivatives/oscillator.hpp"
-#include "nysalt/detail/served_letters.hpp"
+#include "nysalt/core/served_letters.hpp"
 #include "nysalt/scalars/dual.hpp"
 #include "nysalt/scalars/polynomial.hpp"
 #include "nysalt/scalars/series.hpp"
@@ -88,7 +88,7 @@ struct oscillator {
 /// trace/2 of a word on the oscillator as a function of x = z^2.
 class trace_of_word {
  public:
-  trace_of_word(const run_time_word& word, const std::vector<double>& c) : word_(word), c_(c) {
+  trace_of_word(const nysalt::word& word, const std::vector<double>& c) : word_(word), c_(c) {
     const auto sum_of = [&](const std::vector<double>& coefficients, double sign) {
       const auto times = [&](const dense_polynomial& a) { return sign * a.times_x(); };
       return oscillator_matrix<dense_polynomial>(word, coefficients, 0.0, {{0.0}}, {{1.0}}, times)
@@ -142,7 +142,7 @@ class trace_of_word {
   double tolerance(double x) const { return std::min(rounding() * magnitude_.tail(0, x), 1e-10); }
 
  private:
-  const run_time_word& word_;
+  const nysalt::word& word_;
   const std::vector<double>& c_;
   dense_polynomial polynomial_;
   dense_polynomial magnitude_;
@@ -253,7 +253,7 @@ std::vector<piece_end> pieces_of(const trace_of_word& trace, std::size_t degree,
 
 }  // namespace
 
-stability_chart chart_stability(const run_time_word& word, const std::vector<double>& coefficients) {
+stability_chart chart_stability(const nysalt::word& word, const std::vector<double>& coefficients) {
   if (word.reads_modes) {
     throw std::invalid_argument(
         fmt::format("stability: the word must have no letters R, S or H, got {}, which is exact on the "
@@ -317,7 +317,7 @@ stability_chart chart_stability(const run_time_word& word, const std::vector<dou
   return chart;
 }
 
-std::vector<stability_window> stability_windows(const run_time_word& word,
+std::vector<stability_window> stability_windows(const nysalt::word& word,
                                                 const std::vector<double>& coefficients) {
   return chart_stability(word, coefficients).windows;
 }

@@ -16,7 +16,7 @@
 
 namespace nysalt {
 
-bernstein_polynomial half_trace(const run_time_word& word, const std::vector<double>& coefficients,
+bernstein_polynomial half_trace(const nysalt::word& word, const std::vector<double>& coefficients,
                                 double theta, double low, double high) {
   const auto times_k = [](const bernstein_polynomial& x) { return x.times_x(); };
   const bernstein_polynomial one(low, high, 1.0);
@@ -31,7 +31,7 @@ struct turn_of_step {
   double half_trace;
   double defect;
 
-  turn_of_step(const run_time_word& word, const std::vector<double>& coefficients, double z) {
+  turn_of_step(const nysalt::word& word, const std::vector<double>& coefficients, double z) {
     const auto m = matrix_on_oscillator(word, coefficients, z * z);
     half_trace = m.half_trace();
     defect = m.qp * z + m.pq / z;
@@ -40,7 +40,7 @@ struct turn_of_step {
   double rotation() const { return (1.0 - half_trace) * (1.0 + half_trace); }
 };
 
-turn_of_step turn_of_plain(const run_time_word& word, const std::vector<double>& coefficients, double z) {
+turn_of_step turn_of_plain(const nysalt::word& word, const std::vector<double>& coefficients, double z) {
   if (word.rotates() || word.is_processed() || word.stochastic_letters > 0) {
     throw std::invalid_argument(fmt::format(
         "energy_error_on_oscillator: the word must have no rotation, no letter O and no processor, got {}",
@@ -56,7 +56,7 @@ namespace detail {
 
 /// The matrix of a word is affine in each coefficient, so that a difference over a step of 1 is the
 /// derivative.
-energy_defect energy_defect_on_oscillator(const run_time_word& word, const std::vector<double>& coefficients,
+energy_defect energy_defect_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
                                           double z) {
   const turn_of_step turn = turn_of_plain(word, coefficients, z);
   energy_defect result{std::numeric_limits<double>::infinity(),
@@ -78,7 +78,7 @@ energy_defect energy_defect_on_oscillator(const run_time_word& word, const std::
 
 }  // namespace detail
 
-double energy_error_on_oscillator(const run_time_word& word, const std::vector<double>& coefficients,
+double energy_error_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
                                   double z) {
   const turn_of_step turn = turn_of_plain(word, coefficients, z);
   const double rotation = turn.rotation();
@@ -86,7 +86,7 @@ double energy_error_on_oscillator(const run_time_word& word, const std::vector<d
   return 0.5 * turn.defect * turn.defect / rotation;
 }
 
-std::optional<resonance> near_resonance(const run_time_word& word, const std::vector<double>& coefficients,
+std::optional<resonance> near_resonance(const nysalt::word& word, const std::vector<double>& coefficients,
                                         const std::vector<frequency_band>& bands, double step) {
   if (word.rotates()) return std::nullopt;
   constexpr int samples = 16;
@@ -115,7 +115,7 @@ std::string in_words(const resonance& near) {
       100.0 * resonance_distance, long_run);
 }
 
-double growth_of_pair(const run_time_word& word, const std::vector<double>& coefficients,
+double growth_of_pair(const nysalt::word& word, const std::vector<double>& coefficients,
                       const Eigen::Array2d& theta, const Eigen::Matrix2d& k) {
   const auto times_k = [&](const Eigen::Array2d& x) -> Eigen::Array2d { return (k * x.matrix()).array(); };
   Eigen::Matrix4d step;
@@ -157,7 +157,7 @@ double spectral_norm(const Matrix& m) {
 
 }  // namespace
 
-double transient_growth(const run_time_word& word, const std::vector<double>& coefficients, double theta,
+double transient_growth(const nysalt::word& word, const std::vector<double>& coefficients, double theta,
                         double k, std::int64_t steps) {
   const auto m = matrix_on_oscillator(word, coefficients, k, theta);
   // M - trace/2 = (a, b; c, -a) in (omega q, p); its determinant is sin^2 t.

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt {

@@ -91,13 +91,13 @@ int order_on(const order_probe& system, std::vector<double> coefficients, const 
 }
 
 /// x after a step of length 1.
-void advance(const order_probe& system, const run_time_word& word, const std::vector<double>& coefficients,
+void advance(const order_probe& system, const nysalt::word& word, const std::vector<double>& coefficients,
              phase_point<taylor, 3>& x) {
   stepper<order_probe>(system, word, coefficients, 1.0).step(x);
 }
 
 /// To which powers of h the processor of a word is even, so that P(-h) P(h)^-1 is the identity.
-taylor_orders order_of_processor(const run_time_word& word, const std::vector<double>& coefficients) {
+taylor_orders order_of_processor(const nysalt::word& word, const std::vector<double>& coefficients) {
   const auto there_and_back = [&](const order_probe& system, const std::vector<double>& c) {
     auto x = system.start();
     advance(system, detail::pre_processor(word), detail::pre_processor_coefficients(word, c), x);
@@ -119,13 +119,13 @@ taylor_orders taylor_order_of(const std::vector<double>& coefficients, const com
           order_on(any, coefficients, one_step, any.flow())};
 }
 
-taylor_orders taylor_order(const run_time_word& word, const std::vector<double>& coefficients) {
+taylor_orders taylor_order(const nysalt::word& word, const std::vector<double>& coefficients) {
   std::string letters = word.letters();
   for (char& letter : letters) {
     detail::with_letter(letter, known_letters{},
                         [&](auto flow) { letter = decltype(flow)::same_order_as::letter; });
   }
-  const run_time_word split(letters);
+  const nysalt::word split(letters);
   const auto of_step =
       taylor_order_of(coefficients, [&](const order_probe& system, const std::vector<double>& c) {
         auto x = system.start();

@@ -11,8 +11,8 @@
 
 #include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
-#include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/served_letters.hpp"
+#include "nysalt/core/sentence.hpp"
+#include "nysalt/core/served_letters.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
@@ -27,7 +27,7 @@ struct linear_letter {
   Eigen::VectorXd kick;  // by which it changes p
 };
 
-linear_letter linearise(const model& system, const run_time_word& single, std::size_t slot, double by,
+linear_letter linearise(const model& system, const nysalt::word& single, std::size_t slot, double by,
                         double step, const phase_point<double, Eigen::Dynamic>& state) {
   std::vector<slopes> coefficients(single.slots, slopes(0.0));
   coefficients[slot] = slopes(by);
@@ -107,7 +107,7 @@ struct word_on_parts::motion {
   }
 };
 
-word_on_parts::word_on_parts(const model& system, const phase_points& states, const run_time_word& word)
+word_on_parts::word_on_parts(const model& system, const phase_points& states, const nysalt::word& word)
     : word_(word.letters()), slots_(word.slots) {
   if (states.size() == 0) {
     why_not_ = "there are no states";
@@ -124,9 +124,9 @@ word_on_parts::word_on_parts(const model& system, const phase_points& states, co
   }
 }
 
-std::vector<run_time_word> word_on_parts::kinds_of(const model& system, const run_time_word& word) {
+std::vector<nysalt::word> word_on_parts::kinds_of(const model& system, const nysalt::word& word) {
   std::string names;
-  std::vector<run_time_word> kinds;
+  std::vector<nysalt::word> kinds;
   for (std::size_t i = 0; i < word.length; ++i) {
     const char name = word.letters()[i];
     if (name == ornstein_uhlenbeck::letter) continue;
@@ -140,7 +140,7 @@ std::vector<run_time_word> word_on_parts::kinds_of(const model& system, const ru
   return kinds;
 }
 
-void word_on_parts::add_letter(const model& system, const run_time_word& single, kind& of, const state& at,
+void word_on_parts::add_letter(const model& system, const nysalt::word& single, kind& of, const state& at,
                                const Eigen::MatrixXd& root, motion& to) {
   const Eigen::Index n = at.q.size();
   for (std::size_t slot = 0; slot < single.slots; ++slot) {
@@ -167,7 +167,7 @@ void word_on_parts::add_letter(const model& system, const run_time_word& single,
 }
 
 void word_on_parts::examine(const model& system, const phase_points& states,
-                            const std::vector<run_time_word>& kinds) {
+                            const std::vector<nysalt::word>& kinds) {
   constexpr std::size_t enough = 8;  // for a mean, and to say how far they lie apart
   const std::size_t some = std::min(states.size(), enough);
   force_jacobian jacobian(system, states);

@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/detail/lockstep.hpp"
-#include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/ensemble_loop.hpp"
+#include "nysalt/core/lockstep.hpp"
+#include "nysalt/core/modal_coordinates.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/methods/classical.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "nysalt/detail/fingerprint.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/fingerprint.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt {

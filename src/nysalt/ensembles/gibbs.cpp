@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "burn_in.hpp"
-#include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/modal_coordinates.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/method.hpp"

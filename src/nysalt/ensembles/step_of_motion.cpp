@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "nysalt/derivatives/spectrum.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/initial_states.hpp"
 
 namespace nysalt {

@@ -157,7 +157,7 @@ std::string exported_text(const export_template& host, const tabulated& method,
   exported_method exported{method, identifier_of(name), options.about};
   if (options.displaced) exported = with_displaced_kicks(exported);
   require_what_host_takes(exported, host);
-  const run_time_word& word = exported.method.letters();
+  const nysalt::word& word = exported.method.letters();
   auto& about = exported.about;
   about.insert(about.begin(),
                fmt::format("{}: letters {}, order {}{}.", exported.method.name(), word.letters(),

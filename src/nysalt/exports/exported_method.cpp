@@ -86,21 +86,21 @@ self_test end_of(const auto& stepper) {
 }  // namespace
 
 exported_word kernel_of(const exported_method& method) {
-  const run_time_word& word = method.method.letters();
+  const nysalt::word& word = method.method.letters();
   const std::string letters = word.letters().substr(0, word.length);
   require_known(method, letters);
   return with_coefficients(letters, method.method.coefficients());
 }
 
 exported_word start_of(const exported_method& method) {
-  const run_time_word& word = method.method.letters();
+  const nysalt::word& word = method.method.letters();
   if (!word.is_processed()) return {};
   return with_coefficients(pre_processor(word).letters(),
                            pre_processor_coefficients(word, method.method.coefficients()));
 }
 
 exported_word finish_of(const exported_method& method) {
-  const run_time_word& word = method.method.letters();
+  const nysalt::word& word = method.method.letters();
   if (!word.is_processed()) return {};
   return with_coefficients(post_processor(word).letters(),
                            post_processor_coefficients(word, method.method.coefficients()));
@@ -136,7 +136,7 @@ std::vector<double> coefficients_of(const exported_word& word) {
 bool has_bath(const exported_method& method) { return method.method.letters().stochastic_letters > 0; }
 
 exported_method with_displaced_kicks(const exported_method& method) {
-  const run_time_word& word = method.method.letters();
+  const nysalt::word& word = method.method.letters();
   std::string letters = word.letters();
   std::vector<double> c = method.method.coefficients();
   std::size_t slot = 0;
@@ -157,7 +157,7 @@ exported_method with_displaced_kicks(const exported_method& method) {
   exported_method result = method;
   method_properties promised = method.method;
   promised.order = std::min(promised.order, 4);  // D agrees with G up to h^5 in a step
-  result.method = tabulated(method.method.name(), run_time_word(letters), c, promised);
+  result.method = tabulated(method.method.name(), nysalt::word(letters), c, promised);
   result.about.push_back(
       "The gradient kicks G(b, c) are displaced kicks D(b, 2 c/b) here, which agree with them up "
       "to h^5: the map keeps volume and is reversible, but is not symplectic.");
@@ -165,7 +165,7 @@ exported_method with_displaced_kicks(const exported_method& method) {
 }
 
 self_test self_test_of(const exported_method& method) {
-  const run_time_word& word = method.method.letters();
+  const nysalt::word& word = method.method.letters();
   if (!has_bath(method)) {
     const pinned_oscillators system;
     return end_of(

@@ -18,7 +18,7 @@
 #include "nysalt/communicator.hpp"
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 

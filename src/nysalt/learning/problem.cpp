@@ -14,8 +14,8 @@
 #include "data_of_problem.hpp"
 #include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
-#include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/served_letters.hpp"
+#include "nysalt/core/modal_coordinates.hpp"
+#include "nysalt/core/served_letters.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
 
 namespace nysalt {
@@ -86,7 +86,7 @@ stability_guard guard_along(const learning_problem& problem) {
 
 }  // namespace
 
-void require_served_with_slopes(const run_time_word& letters, const model& system, bool in_lanes) {
+void require_served_with_slopes(const word& letters, const model& system, bool in_lanes) {
   require_served<model, double>(letters, system);
   if (in_lanes) {
     require_served<model, detail::lanes_with_slopes>(letters, system);

@@ -106,6 +106,6 @@ fit solve(const learning_problem& problem);
 
 /// Whether letters are served, in lanes or one by one, with their derivatives by theta. Throws
 /// std::invalid_argument where they are not.
-void require_served_with_slopes(const run_time_word& letters, const model& system, bool in_lanes);
+void require_served_with_slopes(const word& letters, const model& system, bool in_lanes);
 
 }  // namespace nysalt

@@ -15,7 +15,7 @@
 #include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/word.hpp"
-#include "nysalt/detail/served_letters.hpp"
+#include "nysalt/core/served_letters.hpp"
 
 namespace nysalt {
 
@@ -246,7 +246,7 @@ void stability_guard::watch_modes(const std::vector<double>& frequencies, double
       fmt::format("; {} modes under soft forces of frequencies up to {:.4g}", modes_.size(), stiffest_soft_);
 }
 
-std::string stability_guard::unstable(const run_time_word& word, const std::vector<double>& coefficients,
+std::string stability_guard::unstable(const nysalt::word& word, const std::vector<double>& coefficients,
                                       double step, met which) const {
   // trace/2 = cosh(rate): over the steps the growth is less than e where the excess is below this.
   const double excess = 0.5 / (static_cast<double>(steps_) * static_cast<double>(steps_));
@@ -263,7 +263,7 @@ std::string stability_guard::unstable(const run_time_word& word, const std::vect
   return {};
 }
 
-std::string stability_guard::magnified(const run_time_word& word, const std::vector<double>& coefficients,
+std::string stability_guard::magnified(const nysalt::word& word, const std::vector<double>& coefficients,
                                        double step) const {
   const auto worst = most_magnified(word, coefficients, step, too_much);
   if (worst.factor <= too_much) return {};
@@ -273,7 +273,7 @@ std::string stability_guard::magnified(const run_time_word& word, const std::vec
       std::isfinite(worst.factor) ? fmt::format("{:.3g}-fold", worst.factor) : "without bound");
 }
 
-std::string stability_guard::resonant(const run_time_word& word, const std::vector<double>& coefficients,
+std::string stability_guard::resonant(const nysalt::word& word, const std::vector<double>& coefficients,
                                       double step) const {
   const auto worst = most_resonant(word, coefficients, step);
   if (!(worst.growth > std::log(too_much))) return {};
@@ -287,7 +287,7 @@ std::string stability_guard::resonant(const run_time_word& word, const std::vect
 
 // What a guard has against a word at a step.
 
-stability_guard::stability_guard(const model& system, const phase_points& states, const run_time_word& word,
+stability_guard::stability_guard(const model& system, const phase_points& states, const nysalt::word& word,
                                  std::int64_t steps, std::size_t typical)
     : stability_guard(system, states, word.rotates(), steps, typical) {
   if (!word.has_own_letters()) return;
@@ -331,12 +331,12 @@ void stability_guard::watch_rotations(const model& system, const phase_points& s
   mean_soft_ /= static_cast<double>(soft_.size());
 }
 
-bool stability_guard::admits(const run_time_word& word, const std::vector<double>& coefficients, double step,
+bool stability_guard::admits(const nysalt::word& word, const std::vector<double>& coefficients, double step,
                              met which) const {
   return objection(word, coefficients, step, which).empty();
 }
 
-std::string stability_guard::objection(const run_time_word& word, const std::vector<double>& coefficients,
+std::string stability_guard::objection(const nysalt::word& word, const std::vector<double>& coefficients,
                                        double step, met which) const {
   word.require_one_for_each_slot(coefficients);
   if (word.has_own_letters()) {
@@ -395,7 +395,7 @@ std::string stability_guard::grown_on_parts(const std::vector<double>& coefficie
   return {};
 }
 
-std::vector<stability_window> stability_guard::gaps(const run_time_word& word,
+std::vector<stability_window> stability_guard::gaps(const nysalt::word& word,
                                                     const std::vector<double>& coefficients,
                                                     double step) const {
   if (word.rotates() || word.has_own_letters()) return {};
@@ -403,7 +403,7 @@ std::vector<stability_window> stability_guard::gaps(const run_time_word& word,
                     step * highest_frequency(bands_));
 }
 
-stability_guard::magnified_mode stability_guard::most_magnified(const run_time_word& word,
+stability_guard::magnified_mode stability_guard::most_magnified(const nysalt::word& word,
                                                                 const std::vector<double>& coefficients,
                                                                 double step, double enough) const {
   constexpr int samples = 64;  // a narrower gap is passed before it does harm, as soft forces change
@@ -419,7 +419,7 @@ stability_guard::magnified_mode stability_guard::most_magnified(const run_time_w
   return worst;
 }
 
-stability_guard::resonant_pair stability_guard::most_resonant(const run_time_word& word,
+stability_guard::resonant_pair stability_guard::most_resonant(const nysalt::word& word,
                                                               const std::vector<double>& coefficients,
                                                               double step) const {
   resonant_pair worst{0.0, 0.0, 0.0};

@@ -42,7 +42,7 @@ double relative_median(const contender& chosen, const contender& rival, const sh
 }
 
 /// Where a word has its letters O; nothing if it has none, or not as placement says.
-std::optional<placement> placement_in(const run_time_word& word) {
+std::optional<placement> placement_in(const nysalt::word& word) {
   const std::string& letters = word.letters();
   constexpr char o = ornstein_uhlenbeck::letter;
   if (word.stochastic_letters == 2 && letters.front() == o && letters.back() == o)
@@ -52,7 +52,7 @@ std::optional<placement> placement_in(const run_time_word& word) {
 }
 
 /// The method with letters O where the family has its own; nothing where it cannot have them.
-std::optional<tabulated> placed(const tabulated& method, const run_time_word& family) {
+std::optional<tabulated> placed(const tabulated& method, const nysalt::word& family) {
   if (family.stochastic_letters == 0) return method;
   const auto place = placement_in(family);
   if (!place || method.letters().is_processed()) return std::nullopt;
@@ -60,7 +60,7 @@ std::optional<tabulated> placed(const tabulated& method, const run_time_word& fa
   return thermostat(method, *place);
 }
 
-bool is_served(const run_time_word& word, const learning_problem& problem) {
+bool is_served(const nysalt::word& word, const learning_problem& problem) {
   try {
     require_served_with_slopes(word, problem.system, problem.in_lanes());
   } catch (const std::invalid_argument&) {
@@ -94,7 +94,7 @@ const shared_loss& held_out_by_times::at_every(int times) {
 std::optional<contender> rival_of(const learning_problem& problem, held_out_by_times& held_out,
                                   const tabulated& method, const Eigen::VectorXd& theta) {
   if (method.requires_quadratic_kinetic && !has_quadratic_kinetic(problem.system)) return std::nullopt;
-  const run_time_word& family = problem.family.letters;
+  const nysalt::word& family = problem.family.letters;
   const int ours = family.evaluations_per_step;
   const int theirs = method.letters().evaluations_per_step;
   if (ours < 1 || theirs < 1) return std::nullopt;
@@ -123,12 +123,12 @@ std::optional<contender> rival_of(const learning_problem& problem, held_out_by_t
 }
 
 std::vector<contender> classical_rivals(const learning_problem& problem, const Eigen::VectorXd& theta) {
-  const run_time_word& family = problem.family.letters;
+  const nysalt::word& family = problem.family.letters;
   std::vector<contender> result;
   if (family.has_own_letters()) return result;  // what these cost is for their author to declare
   held_out_by_times held_out(problem);
   for (const auto& method : classical_methods()) {
-    const run_time_word& word = method.letters();
+    const nysalt::word& word = method.letters();
     // Rotations are not counted, and are not free: words with them are compared with each other.
     if (word.reads_modes != family.reads_modes) continue;
     if (!word.is_symplectic && family.is_symplectic) continue;

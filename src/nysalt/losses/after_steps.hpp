@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/ensemble_loop.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/window_error.hpp"
@@ -121,7 +121,7 @@ class after_steps : public loss_on_data {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(terms);
     std::vector<Eigen::VectorXd> result(trajectories(), zero);
     const auto coefficients = in_directions(theta, with_slopes);
-    const run_time_word& word = family_.letters;
+    const nysalt::word& word = family_.letters;
     const std::int64_t steps = options_.steps.back();
     const std::int64_t evaluations_of_window =
         detail::evaluations_of(system_,
@@ -263,7 +263,7 @@ class after_steps : public loss_on_data {
 
   wanted_noise noise_wanted(const flow_map_data& data) const {
     const bath& in = system_.bath();
-    const run_time_word& word = family_.letters;
+    const nysalt::word& word = family_.letters;
     if (in.sigma() == 0.0 || word.stochastic_letters == 0) return {};
     const auto needed = intervals_of_noise(word, family_.coefficients(family_.starts.front().theta));
     if (data.noise_parts == 0 || data.noise_parts % needed.parts != 0) {

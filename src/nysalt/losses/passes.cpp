@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "after_steps.hpp"
-#include "nysalt/detail/modal_coordinates.hpp"
+#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/window_error.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "lyapunov.hpp"
-#include "nysalt/detail/served_letters.hpp"
+#include "nysalt/core/served_letters.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
@@ -36,7 +36,7 @@ struct single_mode {
 
 /// The map of (x, y) by letters without O, as the stepper computes the map.
 template <Scalar T>
-detail::plane<T> map_of(const run_time_word& turn, const T* c, double omega, double step) {
+detail::plane<T> map_of(const nysalt::word& turn, const T* c, double omega, double step) {
   const single_mode mode{omega};
   const stepper<single_mode, T> one(mode, turn, {c, c + turn.slots}, step);
   phase_point<T, 1> from_x{vector<T, 1>(T(1.0 / omega)), vector<T, 1>(T(0.0))};
@@ -48,7 +48,7 @@ detail::plane<T> map_of(const run_time_word& turn, const T* c, double omega, dou
 
 }  // namespace
 
-stationary_covariance::stationary_covariance(const model& system, const run_time_word& word, double step)
+stationary_covariance::stationary_covariance(const model& system, const nysalt::word& word, double step)
     : word_(word), step_(step), bath_(system.bath()) {
   if (!has_modes(system) || !bath_.acts()) {
     throw std::invalid_argument(fmt::format(
@@ -148,7 +148,7 @@ void stationary_covariance::split_at_bath() {
   for (std::size_t i = 0; i < letters.size();) {
     pieces_.push_back({word_.first_slot(i), std::nullopt});
     const std::size_t length = std::min(letters.find(bath_letter, i), letters.size()) - i;
-    if (length > 0) pieces_.back().turn = run_time_word(letters.substr(i, length));
+    if (length > 0) pieces_.back().turn = nysalt::word(letters.substr(i, length));
     i += std::max<std::size_t>(length, 1);
   }
 }

@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "nysalt/derivatives/oscillator.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/scalars/polynomial.hpp"
 
 namespace nysalt::detail {

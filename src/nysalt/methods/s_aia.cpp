@@ -9,7 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 
 namespace nysalt {
 

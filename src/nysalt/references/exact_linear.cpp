@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "nysalt/detail/modal_coordinates.hpp"
+#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/force.hpp"
 
 namespace nysalt {

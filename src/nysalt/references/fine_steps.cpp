@@ -47,7 +47,7 @@ std::int64_t steps_in_part(double t, double step, std::int64_t parts) {
 /// The force evaluations of `count` trajectories in an interval.
 class evaluations_of_interval {
  public:
-  evaluations_of_interval(const run_time_word& word, std::int64_t steps, int count)
+  evaluations_of_interval(const nysalt::word& word, std::int64_t steps, int count)
       : all_(word.evaluations_to_open + steps * word.evaluations_per_step),
         derivatives_(steps * word.force_derivatives),
         count_(count) {}

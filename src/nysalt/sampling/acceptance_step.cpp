@@ -9,7 +9,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/shard.hpp"
 #include "sampler.hpp"

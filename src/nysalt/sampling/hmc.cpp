@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "sampler.hpp"
 
 namespace nysalt {

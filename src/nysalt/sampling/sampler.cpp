@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/hmc.hpp"
 
 namespace nysalt::detail {

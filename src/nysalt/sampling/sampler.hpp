@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/ensemble_loop.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/hmc.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/method.hpp"
@@ -365,7 +365,7 @@ class sampler {
   }
 
   double evaluations(double trajectories, double steps) const {
-    const run_time_word& word = method_.letters();
+    const nysalt::word& word = method_.letters();
     const auto per_step = evaluations_of(system_, word.evaluations_per_step, word.force_derivatives);
     return trajectories * (word.evaluations_to_open + word.evaluations_to_observe) +
            steps * static_cast<double>(per_step);

@@ -10,9 +10,9 @@
 
 #include "lennard_jones_pair.hpp"
 #include "neighbour_list.hpp"
-#include "nysalt/detail/ensemble_loop.hpp"
-#include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/tree_sum.hpp"
+#include "nysalt/core/ensemble_loop.hpp"
+#include "nysalt/core/sentence.hpp"
+#include "nysalt/core/tree_sum.hpp"
 
 namespace nysalt {
 

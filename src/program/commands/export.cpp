@@ -17,7 +17,7 @@ int export_method(const export_command& command, const common_settings& common) 
     const export_source exported = exported_from(source, command.how);
     const std::string text = export_text(command.host, command.template_file, exported);
     if (!command.output.empty()) require_result(command.output);  // once all files that are read are known
-    const run_time_word& word = exported.method.letters();
+    const nysalt::word& word = exported.method.letters();
     if (source.learned && !source.learned->usable) {
       warn(fmt::format("the fit {} is not to be used: {}", source.typed, source.learned->reason));
     }

@@ -75,7 +75,7 @@ json pairs(const auto& ranges) {
 std::string percent(double margin) { return fmt::format("{:.3g} %", 100.0 * margin); }
 
 answer about(const subject& target, const stability_chart& chart) {
-  const run_time_word& word = target.method.letters();
+  const nysalt::word& word = target.method.letters();
   const int evaluations = word.evaluations_per_step;
   answer result;
   result.document = {{"method", target.name},

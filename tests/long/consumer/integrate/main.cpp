@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "nysalt/detail/ensemble_loop.hpp"
+#include "nysalt/core/ensemble_loop.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/textbook.hpp"

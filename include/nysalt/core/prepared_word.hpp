@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/merged_half_steps.hpp"
-#include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/system_letters.hpp"
-#include "nysalt/detail/take_steps.hpp"
+#include "nysalt/core/merged_half_steps.hpp"
+#include "nysalt/core/modal_coordinates.hpp"
+#include "nysalt/core/sentence.hpp"
+#include "nysalt/core/system_letters.hpp"
+#include "nysalt/core/take_steps.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {

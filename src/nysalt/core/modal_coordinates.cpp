@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "nysalt/detail/modal_coordinates.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/modal_coordinates.hpp"
+#include "nysalt/core/sentence.hpp"
 
 namespace nysalt {
 

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/kernels.hpp"
-#include "nysalt/detail/take_steps.hpp"
-#include "nysalt/detail/tiled_steps.hpp"
+#include "nysalt/core/kernels.hpp"
+#include "nysalt/core/take_steps.hpp"
+#include "nysalt/core/tiled_steps.hpp"
 #include "nysalt/flows/drift_kick.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/rotation.hpp"

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "nysalt/detail/site_kernels.hpp"
-#include "nysalt/detail/step_program.hpp"
+#include "nysalt/core/site_kernels.hpp"
+#include "nysalt/core/step_program.hpp"
 
 namespace nysalt::detail {
 

@@ -6,7 +6,7 @@
 #include <concepts>
 #include <cstdint>
 
-#include "nysalt/detail/step_program.hpp"
+#include "nysalt/core/step_program.hpp"
 #include "nysalt/force.hpp"
 
 namespace nysalt::detail {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 
-#include "nysalt/detail/tiled_steps.hpp"
+#include "nysalt/core/tiled_steps.hpp"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -12,7 +12,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "with_threads.hpp"
 
 namespace nysalt::detail {

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 
 namespace nysalt::detail {
 

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/detail/divergence.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/divergence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "nysalt/detail/sentence.hpp"
-#include "nysalt/detail/system_letters.hpp"
+#include "nysalt/core/sentence.hpp"
+#include "nysalt/core/system_letters.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt::detail {

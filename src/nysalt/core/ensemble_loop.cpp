@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 
-#include "nysalt/detail/ensemble_loop.hpp"
+#include "nysalt/core/ensemble_loop.hpp"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
@@ -13,7 +13,7 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "nysalt/detail/rounding.hpp"
+#include "nysalt/core/rounding.hpp"
 #include "with_threads.hpp"
 
 namespace nysalt {

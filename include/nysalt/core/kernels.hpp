@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "nysalt/bath.hpp"
-#include "nysalt/detail/site_kernels.hpp"
-#include "nysalt/detail/step_program.hpp"
-#include "nysalt/detail/system_letters.hpp"
+#include "nysalt/core/site_kernels.hpp"
+#include "nysalt/core/step_program.hpp"
+#include "nysalt/core/system_letters.hpp"
 #include "nysalt/flow.hpp"
 #include "nysalt/lanes.hpp"
 

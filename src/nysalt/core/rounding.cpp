@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "nysalt/detail/rounding.hpp"
+#include "nysalt/core/rounding.hpp"
 
 #include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 
 namespace nysalt::detail {
 

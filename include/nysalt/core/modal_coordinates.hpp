@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/system.hpp"
 
 // Coordinates in which the quadratic part of a Hamiltonian is a sum of harmonic oscillators.

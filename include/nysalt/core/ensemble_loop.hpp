@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "nysalt/communicator.hpp"
-#include "nysalt/detail/sentence.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/shard.hpp"
 #include "nysalt/system.hpp"
 

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/detail/step_program.hpp"
+#include "nysalt/core/step_program.hpp"
 #include "nysalt/lanes.hpp"
 
 namespace nysalt::detail {
