@@ -15,6 +15,7 @@
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "json.hpp"
+#include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/ensembles/gibbs.hpp"

@@ -101,10 +101,8 @@ learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& pr
   };
   make(data, plan.seed);
   make(held_out, plan.held_out_seed);
-  auto [theta, fit] = nysalt::learn(family, made_.system, data, held_out, options);
-  const tabulated method(family.name, family.letters, family.coefficients(theta),
-                         {family.order, family.symmetric, family.requires_quadratic_kinetic});
-  return {std::move(fit), method, data.energies};
+  auto [theta, summary, method] = nysalt::learn(family, made_.system, data, held_out, options);
+  return {std::move(summary), method.anywhere(), data.energies};
 }
 
 int prepared_problem::noise_parts(const run_time_family& family) const {

@@ -305,7 +305,8 @@ namespace {
 
 /// Tries the letters of the system in a word at a state of each quarter of the data.
 void require_sound_letters_on(const model& system, const word& letters, const flow_map_data& data) {
-  if (!letters.has_own_letters()) return;
+  constexpr Eigen::Index most = 2000;  // coordinates: the Jacobian of a letter has 4 times their square
+  if (!letters.has_own_letters() || size(system) > most) return;
   std::vector<phase_point<double, Eigen::Dynamic>> points;
   const std::size_t pairs = data.start.size();
   for (std::size_t quarter = 0; quarter < 4 && pairs > 0; ++quarter) {
