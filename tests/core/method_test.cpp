@@ -55,6 +55,13 @@ struct without_letters : told_at_run_time {
 };
 static_assert(!Family<without_letters>);
 
+struct with_too_few_coefficients : nystrom {
+  template <Scalar C>
+  static std::array<C, 4> coefficients(const std::array<C, 2>&) {
+    return {};
+  }
+};
+
 /// The coefficients of a struct over dual numbers, in a bath with those of its letters O, are those of the
 /// family, and their derivatives.
 template <Family F>
@@ -154,6 +161,8 @@ BOOST_AUTO_TEST_CASE(a_family_may_be_told_its_word_at_run_time) {
   BOOST_TEST((with_o.coefficients() == std::vector{0.3, 1.0, 1.0, 1.0 - 0.3}));
   BOOST_TEST(refuses([] { member(told_at_run_time{}, {1.5}); }, {"told_at_run_time", "a must lie"}));
   BOOST_TEST(refuses([] { member(told_at_run_time{}, {0.3, 0.4}); }, {"told_at_run_time", "got 2"}));
+  BOOST_TEST(refuses([] { member(with_too_few_coefficients(), {0.5, 0.4}); },
+                     {"4 coefficients for the 5 letters ABABA"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_tuned_method_runs_where_it_was_learned_and_anywhere_for_those_who_ask) {

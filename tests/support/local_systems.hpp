@@ -12,6 +12,7 @@
 #include "nysalt/local_system.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/run_time_family.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/phi4.hpp"
 
