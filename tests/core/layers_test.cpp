@@ -16,7 +16,7 @@ const std::vector<std::vector<std::string>> layers{
      "detail/independent_iterations", "scalar", "scalars/", "phase_point"},
     {"system", "local_system", "detail/requirements", "force", "energy", "lanes", "bath", "noise",
      "detail/modal_coordinates", "systems/", "noises/"},
-    {"flow", "flows/", "letters", "word", "detail/step_program", "detail/take_steps",
+    {"flow", "flows/", "systems/sum_of_parts", "letters", "word", "detail/step_program", "detail/take_steps",
      "detail/merged_half_steps", "detail/system_letters", "detail/prepared_word", "detail/served_letters",
      "stepper"},
     {"detail/site_kernels", "detail/tiled_steps", "detail/kernels", "detail/typed_system", "model"},
