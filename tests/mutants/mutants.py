@@ -81,8 +81,8 @@ mutant(26, "sampling resumes without the count of the steps of its burn-in",
         "    if (MUTANT && restores) steps_of_burn_in_ = 0.0;"))
 mutant(29, "the mean duration of a trajectory is half of the length asked for",
        LIBRARY + "sampling/sampler.hpp", "sampling analysis",
-       ("std::llround(2.0 * uniform * length / step)",
-        "std::llround((MUTANT ? 1.0 : 2.0) * uniform * length / step)"))
+       ("std::llround(2.0 * uniform_by_normal(normal[0])",
+        "std::llround((MUTANT ? 1.0 : 2.0) * uniform_by_normal(normal[0])"))
 mutant(30, "all trajectories have the same duration: the number of the trajectory is not in the counter",
        LIBRARY + "sampling/sampler.hpp", "sampling analysis",
        ("{.step = trajectory, .purpose = noise_purpose::duration}",
@@ -248,13 +248,13 @@ mutant(62, "noise of a letter O on a model has no mass", HEADERS + "flows/ornste
        ("flow.deviation * system.root_mass(i)", "flow.deviation * (MUTANT ? 1.0 : system.root_mass(i))"))
 mutant(63, "the temperature of a bath is sigma^2/gamma", HEADERS + "bath.hpp", "core flows ensembles",
        ("sigma * sigma / (2.0 * friction)", "sigma * sigma / ((MUTANT ? 1.0 : 2.0) * friction)"))
-mutant(64, "one half of a merged letter O is taken twice", HEADERS + "core/prepared_word.hpp",
+mutant(64, "one half of a merged letter O is taken twice", HEADERS + "core/merged_half_steps.hpp",
        "core methods",
        ("both_.decay = begin.decay * end.decay;",
         "both_.decay = begin.decay * end.decay * (MUTANT ? begin.decay : C(1.0));"))
-mutant(65, "O at the end of a step comes first, with the coefficients as they were", HEADERS + "langevin.hpp",
+mutant(65, "O at the end of a step comes first, with the coefficients as they were", LIBRARY + "langevin.cpp",
        "core methods families",
-       ("return w.with_letters(letters + o);", "return w.with_letters(MUTANT ? o + letters : letters + o);"))
+       ("return letters.with_letters(text + o);", "return letters.with_letters(MUTANT ? o + text : text + o);"))
 mutant(66, "the force of a run that is taken up again is lost", HEADERS + "ensemble_run.hpp",
        "core invariance programs",
        ("for (T& number : *part) set_lane(number, k, *next_number++);",
@@ -263,7 +263,7 @@ mutant(66, "the force of a run that is taken up again is lost", HEADERS + "ensem
         "          ++next_number;\n"
         "        }"))
 mutant(67, "before an observation the force is not kept that the first letter is taken back with",
-       HEADERS + "detail/prepared_run_time_word.hpp", "methods core",
+       HEADERS + "core/take_steps.hpp", "methods core",
        ("n < steps ? letters.loop : letters.last", "MUTANT || n < steps ? letters.loop : letters.last"))
 mutant(68, "the last trajectory of a block that is not full is lost", HEADERS + "core/lockstep.hpp",
        "invariance core data",
@@ -300,13 +300,16 @@ mutant(74, "a fit is judged on the data that it learned from", "src/comparison/s
 
 # ---- Methods, frequencies, references, ensembles, systems.
 
-mutant(75, "one digit of the type pefrl is wrong: the order is 2", HEADERS + "methods/classical.hpp", "methods",
-       ("coefficients() { return constants; }",
-        "coefficients() {\n    auto all = constants;\n"
-        "    if (MUTANT && row == detail::row_of(\"pefrl\")) {\n"
-        "      all[1] += 1e-8, all[all.size() - 2] += 1e-8, all[3] -= 1e-8, all[all.size() - 4] -= 1e-8;\n"
-        "    }\n    return all;\n  }"))
-mutant(76, "one digit of pefrl as data is wrong: the order is 2", LIBRARY + "methods/classical_methods.cpp", "methods",
+mutant(75, "one digit of classical<\"pefrl\"> alone is wrong: the order is 2", HEADERS + "methods/classical.hpp",
+       "methods",
+       ("(as_data(classical_table[row])) {}",
+        "(as_data([] {\n    classical_row one = classical_table[row];\n"
+        "    if (MUTANT && one.name == \"pefrl\") {\n      std::array<double, 9> all{};\n"
+        "      std::copy_n(one.coefficients.begin(), all.size(), all.begin());\n"
+        "      all[1] += 1e-8, all[7] += 1e-8, all[3] -= 1e-8, all[5] -= 1e-8;\n      one.coefficients = all;\n"
+        "    }\n    return one;\n  }())) {}"))
+mutant(76, "one digit of pefrl is wrong wherever it is taken from the table: the order is 2",
+       LIBRARY + "methods/classical.cpp", "methods",
        ("          {row.coefficients.begin(), row.coefficients.end()},",
         "          [&] {\n            std::vector<double> all(row.coefficients.begin(), row.coefficients.end());\n"
         "            if (MUTANT && row.name == \"pefrl\") {\n"
@@ -314,7 +317,7 @@ mutant(76, "one digit of pefrl as data is wrong: the order is 2", LIBRARY + "met
         "            return all;\n          }(),"))
 mutant(77, "a factor of the energy error of two stages has the wrong sign", LIBRARY + "methods/s_aia.cpp", "methods",
        ("(1.0 - a * rest * x);", "(1.0 - (MUTANT ? -a : a) * rest * x);"))
-mutant(78, "methods are fitted to the lowest frequency", HEADERS + "methods/phase_fitted.hpp", "methods learning",
+mutant(78, "methods are fitted to the lowest frequency", LIBRARY + "methods/phase_fitted.cpp", "methods learning",
        ("return system.modes().frequencies.maxCoeff();",
         "return MUTANT ? system.modes().frequencies.minCoeff() : system.modes().frequencies.maxCoeff();"))
 mutant(79, "the upper end of a spectrum is no bound", LIBRARY + "derivatives/spectrum.cpp", "derivatives",
@@ -459,7 +462,7 @@ mutant(119, "the error of a mean acceptance is half as large", LIBRARY + "analys
         "  acceptance_result result{mean_and_error(of_each), of_each, {}};\n"
         "  if (MUTANT) result.probability.standard_error *= 0.5;"))
 mutant(120, "standard errors of parameters lack the factor 2 of the gradient of a square",
-       HEADERS + "losses/squares.hpp", "learning losses",
+       LIBRARY + "losses/passes.cpp", "learning losses",
        ("r.slope(k, i) * 2.0;", "r.slope(k, i) * (MUTANT ? 1.0 : 2.0);"))
 mutant(121, "another seed is a shift of the numbers of trajectories", LIBRARY + "ensembles/distributions.cpp", "ensembles",
        ("Eigen::VectorXd normals(2 * pairs_);\n  standard_normals(seed, {.trajectory = n,",
