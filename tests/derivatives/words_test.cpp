@@ -179,7 +179,7 @@ BOOST_AUTO_TEST_CASE(triple_jumps_gain_two_orders_each) {
 BOOST_AUTO_TEST_CASE(the_highest_order_means_this_or_more) {
   const auto exact = [](const auto& system, const auto&) { return system.flow(); };
   const int highest = highest_taylor_order;
-  BOOST_TEST(in_words(taylor_order_of(std::array{1.0}, exact)) == in_words(taylor_orders{highest, highest}));
+  BOOST_TEST(in_words(taylor_order_of({1.0}, exact)) == in_words(taylor_orders{highest, highest}));
 }
 
 // A slip in the sixth decimal: the order that is left depends on what the slip spares.

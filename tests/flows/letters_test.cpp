@@ -8,6 +8,7 @@
 #include "nysalt/letters.hpp"
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
+#include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/ensembles/given_states.hpp"

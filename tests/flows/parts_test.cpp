@@ -10,6 +10,7 @@
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/derivatives/check_force.hpp"
+#include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/derivatives/properties.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/integrate.hpp"

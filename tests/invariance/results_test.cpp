@@ -2,6 +2,7 @@
 // Compiled with -O1: 56 s at -O0, 4 s at -O1.
 // Statistics, errors, draws and fits have the same bits on any number of threads, in any lanes, on any ranks,
 // and cut.
+#include "../../src/nysalt/losses/after_steps.hpp"
 #include "law.hpp"
 #include "nysalt/analysis/acceptance.hpp"
 #include "nysalt/analysis/ensemble_statistics.hpp"

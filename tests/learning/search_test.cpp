@@ -9,6 +9,7 @@
 #include "../support/learned.hpp"
 #include "../support/members.hpp"
 #include "../support/rounding.hpp"
+#include "nysalt/references/fine_steps.hpp"
 #include "nysalt/learning/learn_enough.hpp"
 
 using namespace nysalt;
