@@ -73,7 +73,7 @@ class model {
     return result;
   }
   /// A model whose steps `threads` threads share if it is a LocalSystem; of another system they do not. The
-  /// bits are those of one thread. Throws std::invalid_argument unless threads >= 1.
+  /// bits are the same as on one thread. Throws std::invalid_argument unless threads >= 1.
   model on_threads(int threads) const {
     if (threads < 1)
       throw std::invalid_argument(sentence("model: threads must be at least 1, got {}", threads));

@@ -18,8 +18,8 @@ namespace nysalt {
 /// The letter of the bath in words.
 inline constexpr char bath_letter = 'O';
 
-/// Position of noise in a run: the letter O that is number `flow` among those of the word, in the step
-/// from `step` to `step` + 1 of a trajectory. Lane l of a pack belongs to trajectory + l.
+/// Position of noise in a run: the letter O that is number `flow` among the letters O of the word, in the
+/// step from `step` to `step` + 1 of a trajectory. Lane l of a pack belongs to trajectory + l.
 struct noise_place {
   std::uint64_t trajectory = 0;  ///< trajectory number, of lane 0
   std::int64_t step = 0;         ///< step number, from 0

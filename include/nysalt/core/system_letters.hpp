@@ -68,7 +68,8 @@ applied_letter<T> applied(const C* c, double h) {
   };
 }
 
-/// The letter of that name among those which S declares, and those of the library that kernels do not know.
+/// The letter of that name among the letters that S declares, and the library's letters that kernels do not
+/// know.
 template <class S, class T, class C>
 applied_letter<T> letter_of_system(char name, const C* c, double h) {
   applied_letter<T> result;
