@@ -61,7 +61,7 @@ std::vector<C> thermostatted_coefficients(const word& letters, placement where, 
 }
 
 /// Intervals of a step that the letters O of a word cover. Throws std::invalid_argument unless they share it
-/// as noise_intervals.hpp says.
+/// as noise_intervals says.
 noise_intervals intervals_of_noise(const word& letters, const std::vector<double>& coefficients);
 
 }  // namespace nysalt

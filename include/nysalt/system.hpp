@@ -363,7 +363,7 @@ std::string describe(const S& system) {
 }
 
 /// Kind of a system: the description without the size, by a member kind(). A method that was learned
-/// for one size may be tried at another, see learning/at_other_size.hpp. Systems without that member have a
+/// for one size may be tried at another, see learning/reach.hpp. Systems without that member have a
 /// kind of their own, the description.
 template <System S>
 std::string kind_of(const S& system) {
