@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A family as data: what a search must know of it, so that learning is compiled once a system.
+// A family as a value: what a search must know of it, so that learning is compiled once.
 #pragma once
 
 #include <Eigen/Core>

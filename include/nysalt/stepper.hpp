@@ -109,8 +109,8 @@ class stepper {
       throw std::invalid_argument(
           sentence("stepper: steps must be >= 0 and every >= 1, got {} and {}", steps, every));
     }
-    // Without an observation no room for one is needed. Only of an erased system: a second call of the loop
-    // of a typed system keeps g++ from inlining the force.
+    // Without an observation no room for one is needed. Only of a model: a second call of the loop,
+    // where the system is known by its type, keeps g++ from inlining the force.
     if constexpr (ErasedSystem<S>) {
       if ((run.step / every + 1) * every > run.step + steps) return advance(run, steps);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A family as data.
+// Families made of other families, and of words.
 #include "nysalt/run_time_family.hpp"
 
 #include <algorithm>

@@ -110,7 +110,7 @@ class prepared_word {
                                  auto& cursor) const {
     take(system, run_, x, steps, cursor, {});
   }
-  /// The same of an erased system, watched: observe() is called with the synchronous state in y after `first`
+  /// The same of a model, watched: observe() is called with the synchronous state in y after `first`
   /// steps, and every `every` steps from there on.
   template <class T, ErasedSystem S>
   void advance(const S& system, flow_state<T, S::dimension>& x, flow_state<T, S::dimension>& y,

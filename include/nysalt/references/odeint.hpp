@@ -99,7 +99,7 @@ class odeint_reference {
 ///
 /// Odeint hands the state out after each step and may change it, so every step is a plain one: nothing is
 /// merged, and a word that begins and ends with a kick costs one evaluation more than in our own loop.
-/// A tuned method checks at each step that it may take the step.
+/// A learned method checks at each step that it may take the step.
 class odeint_stepper {
  public:
   using value_type = double;                                     ///< value type, as Odeint requires
