@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O1: 14 s at -O0, 0.4 s at -O1.
 // What one step of every method keeps, on every system: symplecticity, reversibility, consistency; and its
-// declared order, measured on nonlinear problems. Classical methods: their rows, their steps by
-// formulas written out, several of them in one, and tables that cannot be. Runs of every method, with noise and without: merged letters change nothing but rounding; observing, cutting and lanes change no
-// bit; a system steps as its model; and all costs what is declared.
+// declared order, measured on nonlinear problems. Classical methods: their rows, their steps by formulas
+// written out, several of them in one, and tables that cannot be. Runs of every method, with noise and
+// without: merged letters change nothing but rounding; observing, cutting and lanes change no bit; a system
+// steps as its model; and all costs what is declared.
 #include <set>
 
 #include "../laws/models.hpp"
