@@ -260,7 +260,7 @@ struct pair_sums {
   friend pair_sums operator+(const pair_sums& a, const pair_sums& b) {
     return {a.pairs + b.pairs, a.products + b.products, a.heads + b.heads, a.tails + b.tails};
   }
-  /// Sums over the pairs of a that b has not.
+  /// Sums over the pairs of a that are not pairs of b.
   friend pair_sums operator-(const pair_sums& a, const pair_sums& b) {
     return {a.pairs - b.pairs, a.products - b.products, a.heads - b.heads, a.tails - b.tails};
   }

@@ -45,9 +45,9 @@ class stability_guard {
   static constexpr double widened = 0.02;
 
   /// Bounds growth over this number of steps: less than a factor e is admitted. Of words with rotations, if
-  /// there will be some, only where there are states. Cost: one frequencies_of_states(), and two more
-  /// where a quadratic part is. Throws what frequencies_of_states() does, and std::invalid_argument if no
-  /// bands are declared and there are no states.
+  /// there will be some, only where there are states. Cost: one frequencies_of_states(), or two
+  /// where the system has a quadratic part. Throws what frequencies_of_states() does, and
+  /// std::invalid_argument if no bands are declared and there are no states.
   ///
   /// The first `typical` states show what is met often; those after them were chosen as extreme.
   stability_guard(const model& system, const phase_points& states, bool rotations = true,
