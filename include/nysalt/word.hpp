@@ -52,8 +52,8 @@ class word {
 
   /// Letters as in docs/notation.md, acting from left to right: "BAB" is velocity Verlet, and "ABA|BABA" the
   /// kernel ABA with the processor P = BABA. A run of a processed word begins with P(h)^-1, its steps are
-  /// steps of the kernel, and what is observed is a copy on which P(-h) has acted. Letters of a system, such
-  /// as facts_of_letter() or own_letters_of() describe, are added by their facts.
+  /// steps of the kernel, and what is observed is a copy on which P(-h) has acted. Letters of a system
+  /// are added by their facts, from facts_of_letter() or model::facts().own_letters.
   /// Throws std::invalid_argument if there is no letter but O, or one that is not known, if some letters
   /// split H in one way and some in the other, if a processor is not made of letters A and B in turn, or
   /// belongs to a kernel with letters O or R, or if there are more than most_letters.
