@@ -16,7 +16,7 @@ const std::vector<std::vector<std::string>> layers{
      "core/independent_iterations", "scalar", "scalars/", "phase_point"},
     {"system", "local_system", "core/requirements", "force", "energy", "lanes", "bath", "noise",
      "core/modal_coordinates", "systems/", "noises/"},
-    {"flow", "flows/", "letters", "word", "core/step_program", "core/take_steps",
+    {"flow", "flows/", "systems/sum_of_parts", "letters", "word", "core/step_program", "core/take_steps",
      "core/merged_half_steps", "core/system_letters", "core/prepared_word", "core/served_letters",
      "stepper"},
     {"core/site_kernels", "core/tiled_steps", "core/kernels", "core/typed_system", "model"},

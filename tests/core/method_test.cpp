@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// A learned method knows where it is valid; a family has the names, coefficients and derivatives of the struct
-// that describes it, in a bath too.
+// A learned method knows where it is valid; a family has the names, coefficients and derivatives of the
+// struct that describes it, in a bath too.
 #include <map>
 
 #include "../support/draws.hpp"
@@ -20,7 +20,8 @@ const fpu_chain<3> learned_for(50.0);
 /// The member of nystrom at one theta, valid at a step of 0.02 for a system.
 tabulated learned_on(const std::string& system, std::optional<energy_range> energies = {}) {
   const tabulated plain = member(nystrom(), {0.5, 0.41});
-  return {plain.name(), plain.letters(), plain.coefficients(), plain, method_validity{0.02, system, "", energies}};
+  return {plain.name(), plain.letters(), plain.coefficients(), plain,
+          method_validity{0.02, system, "", energies}};
 }
 const tabulated tuned = learned_on(describe(learned_for));
 
@@ -54,6 +55,13 @@ struct without_letters : told_at_run_time {
   void letters() const = delete;
 };
 static_assert(!Family<without_letters>);
+
+struct with_too_few_coefficients : nystrom {
+  template <Scalar C>
+  static std::array<C, 4> coefficients(const std::array<C, 2>&) {
+    return {};
+  }
+};
 
 /// The coefficients of a struct over dual numbers, in a bath with those of its letters O, are those of the
 /// family, and their derivatives.
@@ -154,6 +162,11 @@ BOOST_AUTO_TEST_CASE(a_family_may_be_told_its_word_at_run_time) {
   BOOST_TEST((with_o.coefficients() == std::vector{0.3, 1.0, 1.0, 1.0 - 0.3}));
   BOOST_TEST(refuses([] { member(told_at_run_time{}, {1.5}); }, {"told_at_run_time", "a must lie"}));
   BOOST_TEST(refuses([] { member(told_at_run_time{}, {0.3, 0.4}); }, {"told_at_run_time", "got 2"}));
+  BOOST_TEST(refuses(
+      [] {
+        member(with_too_few_coefficients(), {0.5, 0.4});
+      },
+      {"4 coefficients for the 5 letters ABABA"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_tuned_method_runs_where_it_was_learned_and_anywhere_for_those_who_ask) {

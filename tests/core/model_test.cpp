@@ -26,8 +26,8 @@ const black_box box;
 const in_bath warm(fixed_chain, bath::of_temperature(0.3, 0.02));
 const in_bath warm_free(dynamic_chain, bath::of_sigma(0.4, 0.3));
 
-const std::vector<tabulated> quiet_words{
-    verlet(), srkn11b(), takahashi_imada(), omelyan_fg4(), impulse(), start_of<r_fg4>()};
+const std::vector<tabulated> quiet_words{verlet(),      srkn11b(), takahashi_imada(),
+                                         omelyan_fg4(), impulse(), start_of<r_fg4>()};
 const std::vector<tabulated> noisy_words{
     baoab(), obabo(), aboba(),
     tabulated("at one end", nysalt::word("OBA"), {1.0, 1.0, 1.0}, {1, false, false})};
@@ -71,8 +71,7 @@ phase_point<R, N> gathered(const start_states& starts) {
 template <Scalar T, NoiseSource Noise, class S>
 std::vector<double> numbers_of_run(const S& system, const tabulated& method, double step,
                                    const start_states& starts, const Noise& noise) {
-  const stepper<S, double, Noise> fixed(system, method.letters(), method.coefficients(), step,
-                                                       noise);
+  const stepper<S, double, Noise> fixed(system, method.letters(), method.coefficients(), step, noise);
   const auto x = gathered<T, S::dimension>(starts);
   constexpr std::uint64_t trajectory = 5;
   std::vector<double> all;

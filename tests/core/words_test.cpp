@@ -109,9 +109,7 @@ BOOST_AUTO_TEST_CASE(a_palindrome_follows_from_its_first_coefficients) {
 }
 
 BOOST_AUTO_TEST_CASE(letters_and_words_that_cannot_be_are_refused) {
-  const auto refused = [](const char* letters, said words) {
-    return refuses([&] { word{letters}; }, words);
-  };
+  const auto refused = [](const char* letters, said words) { return refuses([&] { word{letters}; }, words); };
   for (const char* mixed : {"BAS", "SRB", "BAH", "GRS", "SRHRG", "RBR", "ASA", "RAS"}) {
     BOOST_TEST(refused(mixed, {mixed, "A, B, G", "R, S, H"}));
   }
@@ -130,8 +128,8 @@ BOOST_AUTO_TEST_CASE(letters_o_are_added_where_they_are_placed) {
   has_letters_o("BA", end, "BAO", {1., 1., 1.}, {1., 1.});
   has_letters_o("BA", symmetric, "OBAO", {.5, 1., 1., .5}, {1., 1.});
   has_letters_o("A", middle, "AOA", {.5, 1., .5}, {1.});
-  BOOST_TEST(refuses([] { thermostatted(word("BA"), middle); },
-                     {"BA", "a central letter", "end", "symmetric"}));
+  BOOST_TEST(
+      refuses([] { thermostatted(word("BA"), middle); }, {"BA", "a central letter", "end", "symmetric"}));
   for (const placement where : placements) {
     BOOST_TEST(refuses([&] { thermostatted(word("BAOAB"), where); }, {"BAOAB", "no letters O"}));
   }
@@ -188,8 +186,7 @@ BOOST_AUTO_TEST_CASE(letters_o_share_a_step_in_their_order_each_by_its_coefficie
 
 BOOST_AUTO_TEST_CASE(a_system_that_does_not_serve_a_letter_refuses_the_word) {
   const auto refused = [](const char* letters, const model& system, said words = {}) {
-    const bool over_double =
-        refuses([&] { require_served<model, double>(word(letters), system); }, words);
+    const bool over_double = refuses([&] { require_served<model, double>(word(letters), system); }, words);
     const bool over_slopes =
         refuses([&] { require_served<model, detail::slopes>(word(letters), system); }, words);
     return over_double || over_slopes;

@@ -65,9 +65,7 @@ const double again = std::sqrt(10.0);
 const double last = std::sqrt(50.0 / 3.0);
 const windows with_a_gap{{0.0, end}, {again, last}};
 
-auto windows_at(double b1, double beta1) {
-  return stability_windows(member(nystrom(), {b1, beta1}));
-}
+auto windows_at(double b1, double beta1) { return stability_windows(member(nystrom(), {b1, beta1})); }
 stability_chart chart_of(const std::string& letters, const auto& c) {
   return chart_stability(word(letters), {c.begin(), c.end()});
 }

@@ -239,8 +239,8 @@ BOOST_AUTO_TEST_CASE(the_product_of_linearised_letters_has_the_eigenvalues_of_a_
   BOOST_TEST(one.guard.parts()->is_known());
   BOOST_TEST(one.guard.parts()->has_mean());
   for (const double h : {0.1, 0.31, 0.47}) {
-    const Eigen::MatrixXd step = jacobian(step_map(one.system, respa, h),
-                                          state{Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.3, 0.4)});
+    const Eigen::MatrixXd step =
+        jacobian(step_map(one.system, respa, h), state{Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.3, 0.4)});
     const auto exact = spectrum_of(step);
     const auto found = spectrum_of(one.step(h));
     // Rounding of 2 * 16 letters, by the condition of the eigenvalues, some 10.
@@ -390,7 +390,8 @@ BOOST_AUTO_TEST_CASE(states_that_lie_far_apart_have_no_mean_of_however_many_coor
 BOOST_AUTO_TEST_CASE(what_is_not_analysed_is_said_and_admitted) {
   const examined pair(pair_coupled_by(0.5));
   constexpr word with_turns = word_of<lettered::turn, kick_of_part<0>, lettered::turn>();
-  const stability_guard guard(with_letters<two_parts, lettered::turn>(pair.system), of_two, with_turns, steps);
+  const stability_guard guard(with_letters<two_parts, lettered::turn>(pair.system), of_two, with_turns,
+                              steps);
   BOOST_TEST(guard.parts() == nullptr);
   BOOST_TEST(guard.description().find("was not analysed, as the letter t is neither") != std::string::npos,
              guard.description());

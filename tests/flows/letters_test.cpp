@@ -5,11 +5,11 @@
 // p += b h f(q + c h^2 M^-1 f(q)). O does to a momentum what the bath says, each mass in its measure. Letters
 // of one's own, which the system declares, go where letters of the library go: over packs and derivatives, by
 // the type of the system and its model, and into learning; to the same bits.
+#include "nysalt/letters.hpp"
 #include "../laws/models.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
-#include "nysalt/letters.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/learn.hpp"
@@ -114,7 +114,8 @@ void check_cost(const auto& system, std::int64_t plain, std::int64_t ten_steps) 
   BOOST_TEST_CONTEXT(F::name << " on " << describe(system)) {
     BOOST_TEST((evaluations_of(system, letters, {c.begin(), c.end()}) == std::array{plain, ten_steps}));
     using S = std::decay_t<decltype(system)>;
-    const int more = (derivative_calls<S> - 1) * letters.force_derivatives;  // than what the word says of others
+    const int more =
+        (derivative_calls<S> - 1) * letters.force_derivatives;  // than what the word says of others
     BOOST_TEST(letters.evaluations_of_plain_step + more == plain);
     BOOST_TEST(letters.evaluations_to_open + 10 * (letters.evaluations_per_step + more) == ten_steps);
   }
@@ -161,7 +162,8 @@ const phase_point<double, 2> start{{0.1, -0.2}, {0.3, 0.1}};
 
 /// The states that a watched run of 7 steps shows, every second of them and the last.
 template <class S>
-std::vector<double> seen(const S& system, const word& letters, const phase_point<double, S::dimension>& from) {
+std::vector<double> seen(const S& system, const word& letters,
+                         const phase_point<double, S::dimension>& from) {
   const auto steps = make_stepper(system, method_of(letters), 0.2);
   std::vector<double> all;
   const auto note = [&](const auto& x) {
@@ -458,8 +460,9 @@ BOOST_AUTO_TEST_CASE(a_system_steps_only_letters_that_it_declares) {
   };
   BOOST_TEST(!refused(galaxy, own_drifts_first, {}));
   BOOST_TEST(!refused(model(galaxy), own_drifts_first, {}));
-  const said not_declared{"cannot step henon_heiles() by the word ababa: the system must declare the letter a",
-                          "using letters", "with_letters"};
+  const said not_declared{
+      "cannot step henon_heiles() by the word ababa: the system must declare the letter a", "using letters",
+      "with_letters"};
   BOOST_TEST(refused(henon_heiles(), own_drifts_first, not_declared));
   BOOST_TEST(refused(model(henon_heiles()), own_drifts_first, not_declared));
   // A letter of the same name that states something else.

@@ -197,7 +197,8 @@ BOOST_AUTO_TEST_CASE(letters_that_a_system_has_not_are_refused) {
 
 BOOST_AUTO_TEST_CASE(evaluations_are_counted_part_by_part) {
   constexpr const word& letters = nested_word<0, 1, 5>;
-  static_assert(letters.merges && evaluations_of_part(letters, 0) == 5 && evaluations_of_part(letters, 1) == 1);
+  static_assert(letters.merges && evaluations_of_part(letters, 0) == 5 &&
+                evaluations_of_part(letters, 1) == 1);
   static_assert(evaluations_of_part(letters, 2) == 0);
   static_assert(letters.evaluations_per_step == 6);
   static_assert(declared_cost(letters, std::array{1.0, 100.0}) == 105.0);

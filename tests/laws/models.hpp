@@ -49,10 +49,9 @@ struct fitted {
   using classical = M;
   static tabulated at(double z) { return phase_fitted(F(), M(), z); }
 };
-using fitted_methods =
-    std::tuple<fitted<fg_chin, chin4a>, fitted<fg4, omelyan_fg4>, fitted<aba<4>, pefrl>,
-               fitted<bab<4>, vefrl>, fitted<aba<5>, mclachlan5>, fitted<bab<5>, omelyan5v>,
-               fitted<bab<6>, srkn6b>>;
+using fitted_methods = std::tuple<fitted<fg_chin, chin4a>, fitted<fg4, omelyan_fg4>, fitted<aba<4>, pefrl>,
+                                  fitted<bab<4>, vefrl>, fitted<aba<5>, mclachlan5>,
+                                  fitted<bab<5>, omelyan5v>, fitted<bab<6>, srkn6b>>;
 
 template <Family F>
 parameters_of<F> random_theta(draws& random) {

@@ -33,7 +33,8 @@ const tabulated rotations("rotations", word("RSR"), {0.5, 1.0, 0.5}, {2, true, t
 
 const fpu_chain<3> small(50.0);
 const fpu_chain<> large(16, 50.0);
-const tabulated verlet_twice = member(nystrom(), {0.5, 0.5});  // two steps of Verlet: stable up to z = 4 a step
+const tabulated verlet_twice =
+    member(nystrom(), {0.5, 0.5});  // two steps of Verlet: stable up to z = 4 a step
 tabulated learned_on(const std::string& system, const std::string& kind, double step) {
   return {"nystrom", verlet_twice.letters(), verlet_twice.coefficients(), verlet_twice,
           method_validity{step, system, kind}};
@@ -407,8 +408,7 @@ BOOST_AUTO_TEST_CASE(a_trial_takes_fewer_trajectories_of_a_larger_system) {
   const auto judged = [](Eigen::Index pairs) {
     const fpu_chain<> chain(pairs, 50.0);
     const fpu_law<Eigen::Dynamic> law(chain);
-    return judge(chain, starts_to_judge(chain, law), verlet_twice, 0.02,
-                 {.steps = 600, .work = 4'000'000});
+    return judge(chain, starts_to_judge(chain, law), verlet_twice, 0.02, {.steps = 600, .work = 4'000'000});
   };
   // Two evaluations a step of 16 and of 4000 coordinates: 208 trajectories of 600 steps, and one of 500.
   BOOST_TEST(judged(8).trajectories == 208);

@@ -60,8 +60,8 @@ void check_bits(const after_steps_options& options, std::size_t windows) {
     BOOST_TEST(!same(loss.at(beside), expected));
     // A pass for each two parameters, and one without derivatives.
     const std::int64_t passes = 2 * ((F::parameters + 1) / 2) + 1;
-    const std::int64_t of_run = F::letters.evaluations_to_open +
-                                options.steps.back() * std::int64_t{F::letters.evaluations_per_step};
+    const std::int64_t of_run =
+        F::letters.evaluations_to_open + options.steps.back() * std::int64_t{F::letters.evaluations_per_step};
     BOOST_TEST(loss.evaluations() == passes * of_run * static_cast<std::int64_t>(windows));
   }
 }
@@ -76,7 +76,8 @@ const parameters_of<nystrom> far{0.55, 0.42};
 const in_bath<henon_heiles> warm(henon_heiles(), bath::of_sigma(0.7, 0.1));
 
 flow_map_data made(const run_time_family& family, int parts) {
-  return made_by_steps(warm, starts, member(family, {maker.begin(), maker.end()}), {.step = h, .trajectories = 20, .parts = parts});
+  return made_by_steps(warm, starts, member(family, {maker.begin(), maker.end()}),
+                       {.step = h, .trajectories = 20, .parts = parts});
 }
 
 /// The same data in fewer parts.

@@ -148,7 +148,7 @@ BOOST_AUTO_TEST_CASE(gradient_kicks_and_rotations_are_letters_as_others) {
 }
 
 BOOST_AUTO_TEST_CASE(a_frequency_counts_as_often_as_there_are_modes_and_zero_not_at_all) {
-  const tabulated method = tabulated(two_stages<placement::symmetric>());
+  const tabulated method = two_stages(placement::symmetric);
   const bath heat_bath = bath::of_temperature(1.0, 0.125);
   const auto alone = residuals_of(in_bath(harmonic_oscillator(50.0), heat_bath), method, 0.03);
   const auto chain = residuals_of(in_bath(fpu_chain<3>(50.0), heat_bath), method, 0.03);

@@ -314,7 +314,8 @@ BOOST_AUTO_TEST_CASE(impossible_z_are_refused_with_a_sentence) {
   refused([&] { s_aia2_for(system, 0.0); }, {"positive and finite"});
   refused([] { s_aia2_for(black_box(), 0.1); }, {"positive and finite", "got 0"});
   // Families and methods that do not belong together.
-  refused([] { phase_fitted(nystrom(), mclachlan2(), 1.0); }, {"phase_fitted_mclachlan2", "must be symmetric"});
+  refused([] { phase_fitted(nystrom(), mclachlan2(), 1.0); },
+          {"phase_fitted_mclachlan2", "must be symmetric"});
   refused([] { phase_fitted(fg4(), chin4a(), 1.0); }, {"of the word BAGAB", "got fg4"});
   refused([] { phase_fitted(aba<2>(), mclachlan2(), 1.0); }, {"two parameters or more"});
   const tabulated low("low", bab<4>::letters, vefrl().coefficients(), {2, true, false});

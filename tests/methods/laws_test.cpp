@@ -12,8 +12,8 @@
 #include "../support/refusal.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/families/composition.hpp"
-#include "nysalt/methods/classical.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/classical.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -308,8 +308,9 @@ BOOST_AUTO_TEST_CASE(a_thermostatted_family_is_the_family_with_the_bath_between)
       const auto& theirs = plain.ranges[k];
       BOOST_TEST((ours.low == theirs.low && ours.high == theirs.high && ours.open == theirs.open));
     }
-    BOOST_TEST(family.order == (where == symmetric ? 2 : 1));  // the middle of what is not symmetric is no middle
-    BOOST_TEST(!family.symmetric);                             // nor is every nystrom
+    BOOST_TEST(family.order ==
+               (where == symmetric ? 2 : 1));  // the middle of what is not symmetric is no middle
+    BOOST_TEST(!family.symmetric);             // nor is every nystrom
     BOOST_TEST(refuses([&] { member(family, {1.5, 0.4}); }, {"nystrom", "b1"}));
   }
   const run_time_family two{aba<2>()};

@@ -79,7 +79,7 @@ static_assert(!CanBeInBath<in_bath<pendulum>> && !CanBeInBath<bath_by_value>);  
 struct says_not_how_it_draws {};
 static_assert(!NoiseSource<says_not_how_it_draws> && !NoiseSource<double>);
 
-// Letters and words.
+// Letters.
 struct not_prepared {
   static constexpr char letter = 'N';
 };
@@ -87,28 +87,17 @@ struct not_applied : kick {
   static void apply(auto&&...) = delete;
 };
 static_assert(!Flow<not_prepared> && !Flow<not_applied> && !Flow<int> && !StochasticFlow<kick>);
-static_assert(!Word<kick> && !Word<verlet>);
 
-// Families and methods.
+// Families, which are no methods.
 struct without_start : nystrom {
   static std::array<double, 2> start() = delete;
-};
-struct with_too_few_coefficients : nystrom {
-  template <Scalar C>
-  static std::array<C, 4> coefficients(const std::array<C, 2>&) {
-    return {};
-  }
 };
 struct not_differentiable : nystrom {
   static std::array<double, 5> coefficients(const std::array<double, 2>&) { return {}; }
 };
-struct without_order : palindromic<kick, drift, 3> {
-  static std::string name() { return {}; }
-  static std::array<double, 3> coefficients() { return {}; }
-};
 static_assert(!Family<not_differentiable> && !Family<without_start>);
-static_assert(!Family<with_too_few_coefficients> && !Family<verlet>);
-static_assert(!Method<nystrom> && !Method<without_order> && !Method<kick>);
+static_assert(!Family<verlet> && !Family<kick>);
+static_assert(!std::is_convertible_v<nystrom, tabulated> && !std::is_convertible_v<kick, tabulated>);
 
 // Ensembles and references.
 struct unsaid {  // an ensemble without a description

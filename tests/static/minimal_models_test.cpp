@@ -196,7 +196,9 @@ static_assert(nysalt::Family<equal_kicks>);
 
 // [method]
 const nysalt::tabulated symplectic_euler("symplectic_euler", nysalt::word("BA"), {1.0, 1.0},
-                                         {.order = 1, .symmetric = false, .requires_quadratic_kinetic = false});
+                                         {.order = 1,
+                                          .symmetric = false,
+                                          .requires_quadratic_kinetic = false});
 // [/method]
 
 // [reference]

@@ -15,8 +15,8 @@
 #include "dense.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/methods/classical.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/run_time_family.hpp"
@@ -200,9 +200,7 @@ inline square<2> error_after(const gaussian_step<4>& step, const square<2>& star
 }
 
 /// Two stages in a bath, at a member that is near the optimum and not quite Verlet.
-inline tabulated two_stages(placement where) {
-  return thermostat(member(nystrom(), {0.5, 0.41}), where);
-}
+inline tabulated two_stages(placement where) { return thermostat(member(nystrom(), {0.5, 0.41}), where); }
 
 /// Verlet in a symmetric placement is obabo, and with O in the middle baoab.
 inline std::vector<tabulated> langevin_methods() {

@@ -10,8 +10,9 @@
 
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/local_system.hpp"
-#include "nysalt/methods/classical.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/classical.hpp"
+#include "nysalt/run_time_family.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/phi4.hpp"
 
@@ -91,8 +92,8 @@ inline tabulated euler(const std::string& letters) {
 
 /// Drifts and kicks in turn, which begin with either, merge or not, and keep their last force or not.
 inline std::vector<tabulated> words_in_turn() {
-  return {verlet(), verlet_aba(), euler("AB"), euler("BA"), srkn6b(), srkn11b(),
-          member(nystrom(), {0.5, 0.4})};
+  return {
+      verlet(), verlet_aba(), euler("AB"), euler("BA"), srkn6b(), srkn11b(), member(nystrom(), {0.5, 0.4})};
 }
 
 /// visit(system) for each kind, with about that many sites.

@@ -125,7 +125,8 @@ inline double roundings(std::string_view letters, Eigen::Index n) {
 }
 inline double roundings(const tabulated& method, Eigen::Index n) {
   const word& letters = method.letters();
-  return roundings(letters.view(), n) + roundings(letters.processor(), n);  // a processor acts before and after
+  return roundings(letters.view(), n) +
+         roundings(letters.processor(), n);  // a processor acts before and after
 }
 
 }  // namespace nysalt::test

@@ -18,7 +18,7 @@
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/shard.hpp"
 
-namespace nysalt::detail {
+namespace nysalt {
 
 namespace {
 
@@ -50,7 +50,11 @@ void require_even_kinetic(const model& system, const Eigen::VectorXd& p, std::in
 
 acceptance_result acceptance(const model& system, const tabulated& method, const initial_states& ensemble,
                              const trajectory_options& options, double temperature) {
-  require_metropolis_applies("acceptance", system, method, temperature);
+  detail::require_metropolis_applies("acceptance", system, method, temperature);
+  if (!has_energy(system)) {
+    throw std::invalid_argument(sentence(
+        "acceptance: H must be known, got {} without a potential; give the system one", describe(system)));
+  }
   collectively(*options.ranks, [&] { require_room(options, 1, 1); });
   if (!has_quadratic_kinetic(system)) {
     constexpr std::int64_t enough = 16;
@@ -58,7 +62,7 @@ acceptance_result acceptance(const model& system, const tabulated& method, const
       require_even_kinetic(system, sound_start(system, ensemble, options.seed, m).p, m);
     }
   }
-  auto [of_each, diverged] = rises_of_energy(system, method, options.step, ensemble,
+  auto [of_each, diverged] = detail::rises_of_energy(system, method, options.step, ensemble,
                                              {.trajectories = options.trajectories,
                                               .steps = options.steps,
                                               .every = options.steps,
@@ -79,10 +83,6 @@ acceptance_result acceptance(const model& system, const tabulated& method, const
   result.evaluations_per_time = static_cast<double>(evaluations) / time;
   return result;
 }
-
-}  // namespace nysalt::detail
-
-namespace nysalt {
 
 double acceptance_at(double energy_error) {
   return energy_error > 0.0 ? std::erfc(0.5 * std::sqrt(energy_error)) : 1.0;

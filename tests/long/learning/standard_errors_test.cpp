@@ -45,10 +45,10 @@ Eigen::VectorXd errors_of(const flow_map_data& data, const flow_map_data& held_o
 }
 
 /// Fits to data of different seeds.
-struct repeated {
+struct repeated_fits {
   std::array<std::vector<double>, 2> value, reported_square, naive_square;
 
-  repeated(std::int64_t trajectories, std::uint64_t first_seed) {
+  repeated_fits(std::int64_t trajectories, std::uint64_t first_seed) {
     for (std::size_t n = 0; n < repetitions; ++n) {
       const auto data = data_of(trajectories, first_seed + n);
       const auto held_out = data_of(trajectories, 100'000 + first_seed + n);
@@ -74,7 +74,7 @@ struct repeated {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_scatter_over_seeds_is_the_reported_error) {
-  const repeated fits(100, 1000);
+  const repeated_fits fits(100, 1000);
   // The sum of squares over its expectation is chi-squared with 39 degrees of freedom. The reported variance
   // is an estimate from 100 trajectories, 15 % off at most in the mean over 40 seeds.
   const boost::math::chi_squared law(repetitions - 1);
