@@ -304,8 +304,8 @@ constexpr std::array<C, Length> palindrome(const std::array<C, (Length - 3) / 2>
   return all;
 }
 
-/// Evaluations of the force of a part of V in a step of an open run, which a declared price multiplies. Letters
-/// that do not say, such as drifts, evaluate none.
+/// Evaluations of the force of a part of V in a step of an open run, which a declared price multiplies.
+/// Letters that do not say, such as drifts, evaluate none.
 constexpr int evaluations_of_part(const word& letters, std::size_t part) {
   int all = 0;
   for (std::size_t i = letters.first_in_loop(); i < letters.length; ++i) {

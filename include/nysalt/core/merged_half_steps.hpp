@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The noise of a run while it is stepped; half steps of letters O where one ends a step and another begins the
-// next are one.
+// The noise of a run while it is stepped; half steps of letters O where one ends a step and another begins
+// the next are one.
 #pragma once
 
 #include <cmath>

@@ -28,7 +28,7 @@ struct surroundings_of_word {
 
 // clang-format off
 /// Letters with coefficients and step folded in, and what a stepper does with them:
-/// open(system, x, cursor)        from a synchronous state to an open one: force and first letter where needed
+/// open(system, x, cursor)        a synchronous state becomes open: force and first letter where needed
 /// advance(system, x, n, cursor)  n steps of an open run; last letter of a step and first of the next are one
 /// close(system, x, cursor)       an open state becomes synchronous
 /// step(system, x, cursor)        one plain step, letter by letter, from only q and p

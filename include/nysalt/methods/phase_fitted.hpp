@@ -72,8 +72,8 @@ tabulated phase_fitted(const run_time_family& family, const tabulated& classical
 inline constexpr std::string_view phase_fitted_source = "van_de_vyver_2007";
 
 /// The highest frequency of the system's modes, or of its bands if it declares no modes; 0 where it has
-/// neither. (Bands have room for what soft forces add, which phases should not have.) phase_fitted() at |step|
-/// times it suits the system.
+/// neither. (Bands have room for what soft forces add, which phases should not have.) phase_fitted() at
+/// |step| times it suits the system.
 double frequency_to_fit(const model& system);
 
 }  // namespace nysalt
