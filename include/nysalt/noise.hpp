@@ -30,7 +30,7 @@ struct noise_place {
 /// A source of standard normal numbers for the letters O of a run:
 /// normals(place, xi)      for xi of the states that are stepped: xi_i become the standard normal numbers of
 ///                         that place, a pure function of it
-/// is_memoryless           true: numbers depend on no earlier ones; then the halves of a letter O in which one
+/// is_memoryless           true: numbers depend on no earlier ones; the halves of a letter O in which one
 ///                         step ends and the next begins become one, and
 /// halving(place, zeta)    are further ones, independent of the first, from which the halves are computed
 ///                         when they are observed. false: they belong to a path, which has its own halves
