@@ -41,7 +41,7 @@ struct noise_of_each {
   }
 };
 
-/// Which trajectories have run away, as detail/divergence.hpp says.
+/// Which trajectories have run away, as core/divergence.hpp says.
 class watched_energies {
  public:
   watched_energies(const own_functions& functions, const bath& heat_bath,

@@ -37,7 +37,7 @@ groups = {
 def public_headers(root):
     """{path below include/nysalt: text}"""
     folder = root / "include/nysalt"
-    paths = (path for path in sorted(folder.rglob("*.hpp")) if "detail" not in path.parts)
+    paths = (path for path in sorted(folder.rglob("*.hpp")) if "core" not in path.relative_to(folder).parts)
     return {str(path.relative_to(folder)): path.read_text() for path in paths}
 
 

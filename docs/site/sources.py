@@ -21,7 +21,7 @@ def page_of(root, path):
     if path.is_dir() and (path / "README.md").exists():
         return str(inside / "README")
     if path.is_dir() or path.suffix in languages:
-        if inside.parts[:2] == ("include", "nysalt") and "detail" not in inside.parts:
+        if inside.parts[:2] == ("include", "nysalt") and "core" not in inside.parts:
             header = "/".join(inside.parts[2:])
             return page_of_group(group_of(f"{header}/")) if path.is_dir() else f"api/{header}"
         return f"sources/{inside}"

@@ -79,12 +79,12 @@ namespace detail {
 
 /// A new, empty and locked file for writing, whose name is noted for signal handlers in the same moment; what
 /// a process that was stopped left there is removed. Returns the descriptor. Throws std::runtime_error, about
-/// `target`, if another process writes the file, if the name is that of a link, a folder or a device, or if
+/// `target`, if another process writes the file, if the name belongs to a link, a folder or a device, or if
 /// the file cannot be made.
 int make_part(const std::filesystem::path& part, const std::filesystem::path& target,
               std::optional<unfinished_name>& name);
 
-/// Whether the name is still that of the open file.
+/// Whether the name still belongs to the open file.
 bool has_name(int file, const std::filesystem::path& name);
 
 /// Outcome of asking for a lock.

@@ -64,7 +64,8 @@ class bath {
   }
   /// Standard deviation, for unit mass, of the noise int_0^t sigma e^{-gamma (t - s)} dW_s:
   /// sigma sqrt((1 - e^{-2 gamma t})/(2 gamma)), which goes to sigma sqrt(t) with gamma to 0. Over dual
-  /// numbers its derivative at t = 0 is that of the limit: 0 along what leaves t at 0, and else infinite.
+  /// numbers its derivative at t = 0 is the derivative of the limit: 0 along what leaves t at 0, and else
+  /// infinite.
   template <Scalar T>
   T deviation(const T& time) const {
     using std::expm1;
@@ -79,7 +80,7 @@ class bath {
  private:
   bath(double friction, double sigma, std::optional<double> temperature)
       : friction_(friction), sigma_(sigma), temperature_(temperature) {}
-  /// sqrt(x), whose derivatives at 0 are 0 where those of x are, not 0/0.
+  /// sqrt(x), whose derivatives at 0 are 0 where the derivatives of x are 0, not 0/0.
   template <Scalar T>
   static T root(const T& x) {
     using std::sqrt;

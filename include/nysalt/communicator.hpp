@@ -81,7 +81,7 @@ std::vector<T> all_gather(const communicator& ranks, const T& value) {
   return all;
 }
 
-/// All-gather of lists: the items of rank 0, then those of rank 1, and so on.
+/// All-gather of lists: the items of rank 0, then the items of rank 1, and so on.
 template <class T>
   requires std::is_trivially_copyable_v<T>
 std::vector<T> all_gather(const communicator& ranks, const std::vector<T>& ours) {
@@ -132,14 +132,15 @@ void collectively(const communicator& ranks, const std::function<void()>& work);
 /// The same of what only rank 0 does, such as writing a file. Meanwhile the others leave it the processor.
 void on_first(const communicator& ranks, const std::function<void()>& work);
 
-// One rank's progress, reported as that of all.
+// One rank's progress, reported as the progress of all ranks.
 
 /// A function that is called with the number of trajectories done, after some of them; calls do not overlap.
 /// Empty: nobody asks.
 using progress_callback = std::function<void(std::int64_t done)>;
 
-/// A counter for the `count` trajectories of this rank, such that `progress` counts to `total`, those of all
-/// ranks. Shares are nearly equal: rank 0 scales its own count, and the others report nothing.
+/// A counter for the `count` trajectories of this rank, such that `progress` counts to `total`, the number of
+/// trajectories of all ranks. Shares are nearly equal: rank 0 scales its own count, and the others report
+/// nothing.
 progress_callback progress_of_share(const communicator& ranks, std::int64_t count, std::int64_t total,
                                     const progress_callback& progress);
 

@@ -53,8 +53,8 @@ class comparison {
 /// Errors and costs of methods on a system from its initial distribution; in a warm bath from the Gibbs
 /// distribution, where one is found. Where the frequency is 0 it is found along
 /// 64 starts. The force is checked against the potential first. Throws std::invalid_argument, naming the
-/// option, for bad input, before any work is done. Cost: that of the trajectories, of a reference some ten
-/// times finer, and of a fit for each learned method and step.
+/// option, for bad input, before any work is done. Cost: the trajectories, a reference some ten
+/// times finer, and a fit for each learned method and step.
 comparison compare(const initial_value_problem& problem, const comparison_options& options,
                    const execution_options& execution = {});
 

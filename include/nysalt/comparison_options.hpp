@@ -16,7 +16,7 @@ namespace nysalt {
 struct execution_options {
   std::uint64_t seed = 1;  ///< below 2^51: learning, judging and testing draw apart from each other by it
   int threads = 1;         ///< results are the same bits for any number
-  bool force = false;      ///< whether a scheme may be used at another step or system than that of learning
+  bool force = false;      ///< whether a scheme may be used at another step or system than in learning
   /// Callback with the name of the current part and its completed share, from any thread, one call at a time.
   /// An exception that it throws cancels the work. Empty: progress is written to standard error, on a
   /// terminal as one line, and elsewhere once a minute.
@@ -56,19 +56,19 @@ struct comparison_options {
   std::vector<double> steps{};  ///< sizes: of a whole step, or (equal_cost) of a force evaluation
   bool equal_cost =
       false;  ///< whether steps are per force evaluation, so that rows of one step have equal cost
-  /// The price of the force of each part of a sum, in any unit: evaluations are then those of the whole
+  /// The price of the force of each part of a sum, in any unit: evaluations are then evaluations of the whole
   /// force, and a kick with a part counts as the share of the part. Empty: each kick counts as one.
   std::vector<double> prices{};
   std::optional<double> horizon{};  ///< horizon of each trajectory. None: 0.5, or ten of the largest steps
   std::int64_t trajectories = 400;  ///< trajectories to compare on; none of them is learned from
   std::vector<std::string> metrics{"path"};  ///< path, relative, state, exchange, energy, acceptance,
-                                             ///< distribution, acf; path:OBSERVABLE names that of one
+                                             ///< distribution, acf; path:OBSERVABLE is the path error of one
   std::string observable{};      ///< observable of path, relative, distribution and acf. Empty: the usual
   learning_options learning{};   ///< options of learned methods
   held_methods held{};           ///< methods that are not in files
   std::string placement{};       ///< placement of the letters O in a bath: end, symmetric or middle
-  std::vector<double> levels{};  ///< errors at which costs are compared; empty: those of the data
-  std::vector<double> range{};   ///< low and high end of the histogram; empty: that of the starts
+  std::vector<double> levels{};  ///< errors at which costs are compared; empty: taken from the data
+  std::vector<double> range{};   ///< low and high end of the histogram; empty: the range of the starts
   std::int64_t bins = 100;       ///< bins of the histogram
   double longest_lag = 1.0;      ///< longest lag of the autocovariance, a time
   double hmc_temperature = 1.0;  ///< kT of the acceptance, an energy

@@ -68,7 +68,7 @@ struct energy_range {
   }
 
   /// The distance of an energy from the range; 0 inside, and within a millionth of the largest: where all
-  /// trajectories have one energy, that of another differs by rounding and by the reference's error.
+  /// trajectories have one energy, the energy of another differs by rounding and by the reference's error.
   double distance(double energy) const {
     if (!(low <= high)) return std::numeric_limits<double>::infinity();  // nothing was seen
     const double slack = 1e-6 * std::max(std::abs(low), std::abs(high));

@@ -22,8 +22,8 @@ concept Ensemble = requires(const E& ensemble, std::uint64_t seed, std::uint64_t
   { ensemble.description() } -> std::convertible_to<std::string>;
 };
 
-/// An ensemble whose states are expensive may make those of `count` trajectories at a time, one in each lane
-/// of T, with the same bits: block<T>(seed, first, count).
+/// An ensemble whose states are expensive may make the states of `count` trajectories at a time, one in each
+/// lane of T, with the same bits: block<T>(seed, first, count).
 template <class E, class S, class T>
 concept MakesBlocks =
     Ensemble<E, S> && requires(const E& ensemble, std::uint64_t seed, std::int64_t first, int count) {

@@ -37,7 +37,7 @@ std::string export_to(std::string_view host, const tabulated& method, const expo
 /// Source text of the method for a host of one's own, by the template in `text`
 /// (docs/how-to/export_template.md); `file` names the template in messages. Throws std::invalid_argument,
 /// with file and line, for what is not the language of templates, and for a method that the template cannot
-/// take. Cost: that of export_to().
+/// take. Cost: as export_to().
 std::string export_by_template(std::string_view text, std::string_view file, const tabulated& method,
                                const export_options& options = {});
 

@@ -53,8 +53,8 @@ using theta_dual = dual<double, F::parameters>;
 /// All but the last are static; letters and coefficients() may depend on the constructor arguments of the
 /// family. And, if wanted, further points from which a search begins: classical_members(), and
 /// further_starts(), thetas without a name; most_stable_member(), the member with the longest stability
-/// interval, for steps at which the others are unstable; and source, the key in docs/bibliography.bib of where
-/// it comes from.
+/// interval, for steps at which the others are unstable; and source, the key in docs/bibliography.bib of
+/// where it comes from.
 template <class F>
 concept Family = std::copyable<F> &&
                  requires(const F& family, const parameters_of<F>& theta,

@@ -119,9 +119,9 @@ concept AppliedFlow = requires(flow_state<double, 1>& x, flow_room<double, 1>& r
 ///   reads              the force that must be known, in f, when it is applied
 ///   force_derivatives  how many f'(q) v it evaluates itself
 ///   moves_q            f is stale afterwards
-///   additive           the flows over c h and d h compose to that over (c + d) h without an evaluation, so
-///                      that equal neighbours merge
-/// and, if it is that of a part of the Hamiltonian,
+///   additive           the flows over c h and d h compose to the flow over (c + d) h without an
+///                      evaluation, so that equal neighbours merge
+/// and, if it is the flow of a part of the Hamiltonian,
 ///   serves<S, T>                     whether it exists for a system over a scalar
 ///   prepare(c, h), prepare(b, c, h) of two slots, prepare(const C* c, h) of any number of them,
 ///   prepare<N>(c, h, part) of a QuadraticFlow

@@ -19,7 +19,7 @@
 
 namespace nysalt {
 
-/// Position of the pairs of one rank among those of all ranks.
+/// Position of the pairs of one rank among the pairs of all ranks.
 struct shared_pairs {
   shard trajectories;  ///< distribution of the trajectories over ranks
   std::size_t first;   ///< number of the first pair at this rank, among all
@@ -27,7 +27,7 @@ struct shared_pairs {
 };
 
 /// Pairs (start, finish) with finish one step later on the reference trajectory, trajectory by trajectory. If
-/// ranks share them, each has those of its trajectories.
+/// ranks share them, each has the pairs of its trajectories.
 struct flow_map_data {
   phase_points start;                 ///< (q, p) where a step begins
   phase_points finish;                ///< (q, p) a step later
@@ -37,8 +37,8 @@ struct flow_map_data {
 
   /// Number of equal parts of a step for which noise is kept, in a bath; 0: none.
   int noise_parts = 0;
-  /// Standard normal numbers of that noise: those of pair n are noise[n noise_parts + k] for k from 0 to
-  /// noise_parts - 1.
+  /// Standard normal numbers of that noise: the numbers of pair n are noise[n noise_parts + k] for k from 0
+  /// to noise_parts - 1.
   vector_list noise;
 
   /// Further states of the ensemble, beyond those that trajectories begin at, the most energetic of many
@@ -52,7 +52,7 @@ struct flow_map_data {
 
   std::optional<shared_pairs> shared;  ///< null if this rank has all pairs
 
-  // Provenance, that of all ranks.
+  // Provenance of the data of all ranks.
   std::string system;                    ///< description of the system
   std::string ensemble;                  ///< description of the ensemble
   std::string reference;                 ///< description of the reference
@@ -73,7 +73,7 @@ struct flow_map_data {
   }
   /// Number of pairs of all ranks.
   std::size_t all_pairs() const { return shared ? shared->total : pairs(); }
-  /// Number of the first pair at this rank, among those of all ranks.
+  /// Number of the first pair at this rank, among the pairs of all ranks.
   std::size_t first_pair() const { return shared ? shared->first : 0; }
 };
 
@@ -101,8 +101,8 @@ std::vector<std::size_t> spread_pairs(std::size_t all, std::size_t most);
 
 }  // namespace detail
 
-/// Largest number of trajectories: those that fit into the memory of one rank, so that their number does not
-/// depend on that of ranks. Throws std::invalid_argument if one does not, or has no step.
+/// Largest number of trajectories: as many as fit into the memory of one rank, so that it does not
+/// depend on the number of ranks. Throws std::invalid_argument if one does not, or has no step.
 std::int64_t most_trajectories(data_options options, Eigen::Index dimension);
 
 /// Follows the reference from `trajectories` starts over floor(horizon/step) steps each, as many at a time as
@@ -112,15 +112,15 @@ std::int64_t most_trajectories(data_options options, Eigen::Index dimension);
 ///
 /// Throws std::invalid_argument if there is not one step, trajectory or thread, or if a start does not fit,
 /// std::runtime_error if the reference diverges; of several trajectories that fail, the lowest is named.
-/// Memory of a rank: two states a pair of its own, and half a state for each part of noise. Cost: that of the
+/// Memory of a rank: two states a pair of its own, and half a state for each part of noise. Cost: the
 /// reference, and one energy a pair.
 flow_map_data make_flow_map_data(const model& system, const initial_states& ensemble,
                                  const reference& reference, const data_options& options);
 
-/// Makes of data with fewer trajectories, or none, those of the options, which were the same but for their
+/// Makes of data with fewer trajectories, or none, the data of the options, which were the same but for their
 /// number: only what is new is made. The pairs have the bits of those made at once; of finer finishes there
 /// are more. Ranks hand over trajectories that become another's. Throws what make_flow_map_data does. Cost:
-/// that of the trajectories that are new.
+/// the trajectories that are new.
 void extend_data(const model& system, const initial_states& ensemble, const reference& reference,
                  const data_options& options, flow_map_data& data);
 

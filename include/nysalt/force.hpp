@@ -180,8 +180,8 @@ void directional_derivative(const S& system, const vector<double, S::dimension>&
 }
 
 /// f = -grad V(q) over any scalar that the system can serve.
-/// Cost: the system's own force where it has one over T. From the potential that of gradient(), and from a
-/// black box 1 force and T::derivatives directional derivatives, whose displacements are the derivatives of
+/// Cost: the system's own force where it has one over T. From the potential the cost of gradient(), and from
+/// a black box 1 force and T::derivatives directional derivatives, whose displacements are the derivatives of
 /// q; of a dynamic dimension these two allocate at every call, so that a system that must be fast writes its
 /// force as a template.
 template <class T, SystemOver<T> S>

@@ -76,9 +76,9 @@ struct hmc_result {
 /// all chains, so that chains go side by side in lanes; given them, chains are independent.
 ///
 /// The step is tuned by dual averaging [hoffman_gelman_2014, section 3.2] of the acceptance of all chains.
-/// `take` gets every draw after the burn-in, those of a chain in their order, of several chains at a time
-/// from several threads; each rank gets those of its own chains. The same seed gives the same bits for any
-/// number of threads, ranks and lanes.
+/// `take` gets every draw after the burn-in, the draws of a chain in their order, of several chains at a time
+/// from several threads; each rank gets the draws of its own chains. The same seed gives the same bits for
+/// any number of threads, ranks and lanes.
 ///
 /// Throws std::invalid_argument if the method is not symmetric, the kinetic energy is not quadratic in p, the
 /// system is in a bath that acts or has no potential, an option is out of range, or the potential or the

@@ -29,7 +29,7 @@ struct outcome {
 /// Divergence is checked every 64 steps and at the end, for any observer. Where it is found, these steps are
 /// taken again to name the first bad step, and no observer sees that step or a later one. Steps between two
 /// checks are also taken twice if samples lie among them: samples are shown when the second check is known to
-/// be good. Cost: that of the steps, up to twice where samples are less than 64 steps apart.
+/// be good. Cost: the steps, up to twice as many where samples are less than 64 steps apart.
 /// Near the edge of a stability window a bounded motion can swing beyond the criterion and back: that counts
 /// if it is beyond at a check.
 /// Throws std::invalid_argument if steps < 0, every < 1 or the start is not finite or does not fit.

@@ -68,10 +68,10 @@ void measure_ensemble(const Stepper& stepper, const E& ensemble, const ensemble_
 
 /// Follows trajectories m = first .. first + trajectories - 1 from ensemble(seed, m), as many at a time as T
 /// has lanes. At steps n = 0, every, 2 every, ... read(x, numbers) writes `width` numbers of the states over
-/// T to a span, and take(m, n, numbers) is given those of one trajectory, in doubles: in the order of time
-/// for each m, from several threads for different m. Nothing of a trajectory's divergence or beyond is taken;
-/// it may be read, so reading must bear any state. Neither lanes nor threads change a bit; sums over
-/// m are then taken by tree_sum. Of several ranks each follows, and takes of, those of its
+/// T to a span, and take(m, n, numbers) is given the numbers of one trajectory, in doubles: in the order of
+/// time for each m, from several threads for different m. Nothing of a trajectory's divergence or beyond is
+/// taken; it may be read, so reading must bear any state. Neither lanes nor threads change a bit; sums over
+/// m are then taken by tree_sum. Of several ranks each follows, and takes of, the trajectories of its
 /// shard(trajectories).
 ///
 /// Returns where each trajectory diverged, if it did, on all ranks; divergence is checked as in

@@ -74,7 +74,7 @@ struct judgement {
   energy_errors energy_error;  ///< of the trajectories that did not diverge
   /// Slope by Theil and Sen [sen_1968] of the median energy error over 16 windows, for the whole trial.
   double drift = 0.0;
-  double growth = 0.0;  ///< energy_error.nearly_all of the second half of the trial over that of the first
+  double growth = 0.0;  ///< energy_error.nearly_all of the second half of the trial, over the first half's
   diverged_trajectory farthest{};  ///< trajectory with the largest energy error, and where
 
   double highest_frequency = 0.0;  ///< highest frequency met along the motion; 0: not known

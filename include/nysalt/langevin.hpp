@@ -40,7 +40,7 @@ constexpr int thermostatted_order(placement p, int order, bool symmetric) {
 /// changes no action, and a kernel that was learned with a processor may have any.
 word thermostatted(const word& letters, placement where);
 
-/// The coefficients of a word with those of its letters O, in the order of thermostatted().
+/// The coefficients of a word with the coefficients of its letters O, in the order of thermostatted().
 template <class C>
 std::vector<C> thermostatted_coefficients(const word& letters, placement where, const std::vector<C>& c) {
   const std::size_t central = letters.length / 2;
@@ -61,7 +61,7 @@ std::vector<C> thermostatted_coefficients(const word& letters, placement where, 
 }
 
 /// Intervals of a step that the letters O of a word cover. Throws std::invalid_argument unless they share it
-/// as noise_intervals.hpp says.
+/// as noise_intervals says.
 noise_intervals intervals_of_noise(const word& letters, const std::vector<double>& coefficients);
 
 }  // namespace nysalt

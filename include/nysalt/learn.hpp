@@ -23,7 +23,7 @@ namespace nysalt {
 /// and fewer.
 enum class effort { quick, normal, thorough };
 
-/// Options of learn(). Empty ones are those of the family.
+/// Options of learn(). Empty ones are taken from the family.
 struct fit_options {
   std::optional<nysalt::coordinates>
       coordinates{};                  ///< coordinates in which the error counts; empty: as suits the loss
@@ -57,7 +57,7 @@ struct fit {
   tabulated method;       ///< the member at theta; it carries its step and system, and refuses others
 };
 
-/// theta that minimises a loss over `data`: that of the options, by default the state's error at several
+/// theta that minimises a loss over `data`: the loss of the options, by default the state's error at several
 /// times of whole trajectories, in a bath the one-step loss [li_lu_tao_ye_2023, section 3.1]. The search
 /// begins at the family's own start, its classical members, its phase-fitted member, random starts and what
 /// the options add, and goes in stages, see loss_kind. Of several minima it is the one that the loss's

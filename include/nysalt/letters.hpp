@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The letters that words are made of: those of the library in one table, and those of a system.
+// The letters that words are made of: the letters of the library in one table, and the letters of a system.
 #pragma once
 
 #include <algorithm>
@@ -123,7 +123,7 @@ constexpr bool is_known_letter(char letter) {
 }
 }  // namespace detail
 
-// Letters that a system has beside those of the library.
+// Letters that a system has beside the library's.
 
 namespace detail {
 
@@ -163,7 +163,8 @@ consteval bool have_different_names(const std::tuple<L...>*) {
 
 }  // namespace detail
 
-/// A system with letters of the user's own beside those that it declares: all other members are those of S.
+/// A system with letters of the user's own beside those that it declares: all other members are inherited
+/// from S.
 template <System S, Flow... L>
 struct with_letters : S {
   using letters =

@@ -14,7 +14,8 @@ namespace nysalt {
 template <class T>
 class site_columns {
  public:
-  /// The values of sites first_site, first_site + 1, ...; those of component c begin at values[c * stride].
+  /// The values of sites first_site, first_site + 1, ...; the values of component c begin at values[c *
+  /// stride].
   site_columns(T* values, Eigen::Index first_site, Eigen::Index stride)
       : values_(values), first_site_(first_site), stride_(stride) {}
   /// A view of the same values as constants.

@@ -47,9 +47,9 @@ class tabulated : public method_properties {
   /// Step and system of learning; empty of a method that was not learned.
   const std::optional<method_validity>& validity() const { return validity_; }
 
-  /// Whether the training data include energies like that of a state; true where they are not known. Outside
-  /// the method runs all the same, and may err more: of many starts learning/energies_outside.hpp computes
-  /// whether that is chance.
+  /// Whether the training data include energies like the energy of a state; true where the energies of the
+  /// data are not known. Outside the method runs all the same, and may err more: of many starts
+  /// learning/reach.hpp computes whether that is chance.
   template <HasEnergy<double> S>
   bool has_seen(const S& system, const phase_point<double, S::dimension>& state) const {
     return !validity_ || !validity_->energies ||

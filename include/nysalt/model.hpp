@@ -22,8 +22,8 @@ void library_is_compiled_for();
 }  // namespace detail
 
 /// A type-erased system, with its bath if any: the argument of the compiled library. Any system converts to a
-/// model. Copies share the system. The dimension is known at run time. A model is a System and steps
-/// by words as data, with the bits of the typed system.
+/// model. Copies share the system. The dimension is known at run time. A model is a System, and is
+/// stepped with the bits of the system that it was made of.
 ///
 /// The system's functions are compiled where a model is made of it, for one trajectory and for as many as
 /// suit the processor, each with and without derivatives by two parameters. A system with `lanes = 1` is
@@ -73,7 +73,7 @@ class model {
     return result;
   }
   /// A model whose steps `threads` threads share if it is a LocalSystem; of another system they do not. The
-  /// bits are those of one thread. Throws std::invalid_argument unless threads >= 1.
+  /// bits are the same as on one thread. Throws std::invalid_argument unless threads >= 1.
   model on_threads(int threads) const {
     if (threads < 1)
       throw std::invalid_argument(sentence("model: threads must be at least 1, got {}", threads));

@@ -167,7 +167,7 @@ detail::observable_of_system<F> observable(std::string name, F value) {
 }
 
 /// The highest angular frequency that motion from the starts may meet, as highest(system). If it is not
-/// given, it is that of the system's frequency_bands(), or what the starts show.
+/// given, it is the highest of the system's frequency_bands(), or what the starts show.
 template <class F>
 detail::frequency_of_system<F> frequency(F highest) {
   return {std::move(highest)};
@@ -256,7 +256,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
 #define NYSALT_PLUGIN_SOURCE "unknown"
 #endif
 /// Declares SYSTEM to the program, once in a file: NYSALT_SYSTEM(type, "title", parameter(...)...,
-/// starts(...), observable(...)..., letters<...>()). The system's name is that of its type.
+/// starts(...), observable(...)..., letters<...>()). The system is named as its type.
 #define NYSALT_SYSTEM(SYSTEM, ...)                                                       \
   extern "C" __attribute__((visibility("default"))) const char* nysalt_plugin_stamp() {  \
     static const std::string stamp = nysalt::detail::plugin_stamp();                     \

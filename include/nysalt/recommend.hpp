@@ -45,7 +45,7 @@ class recommendation {
 };
 
 /// The best of learned families and classical methods at options.budget, budget_seconds or error. Starts and
-/// checks are those of compare(). Throws std::invalid_argument, naming the option, for bad input. Cost:
+/// checks are the same as in compare(). Throws std::invalid_argument, naming the option, for bad input. Cost:
 /// a fit for each family that suits, and a comparison of all that take part.
 recommendation recommend(const initial_value_problem& problem, const recommendation_options& options,
                          const execution_options& execution = {});

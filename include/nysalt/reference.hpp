@@ -101,7 +101,8 @@ class reference_kind {
 /// A flow of one's own that is as good as exact, or as a path in a bath can be followed; it converts to a
 /// reference:
 /// advance(system, x, t)          x becomes the state a time t later; returns the force evaluations. Over
-///                                packs, x holds a trajectory in each lane, and those of one are returned
+///                                packs, x holds a trajectory in each lane, and evaluations of one are
+///                                returned
 /// advance(system, x, t, at, xi)  in its stead, for a system in a bath: x goes on along the path from a
 /// place,
 ///                                and xi, a span, become the noise of as many equal parts of t; over packs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A family as data: what a search must know of it, so that learning is compiled once a system.
+// A family as a value: what a search must know of it, so that learning is compiled once.
 #pragma once
 
 #include <Eigen/Core>
@@ -102,8 +102,8 @@ class run_time_family {
   friend run_time_family thermostatted(const run_time_family& plain, placement where);
 
   /// A family with a processor P of pairs of letters B A, FAMILY+pPAIRS, whose coefficients are parameters
-  /// p1, p2, ... within [-1, 1] but for the last two: those of A and those of B add up to zero each, so that
-  /// P is the identity but for terms of h^2 and P(-h) K^n P(h)^-1 has order 2 at least, for every P.
+  /// p1, p2, ... within [-1, 1] but for the last two: the coefficients of A and of B add up to zero each, so
+  /// that P is the identity but for terms of h^2 and P(-h) K^n P(h)^-1 has order 2 at least, for every P.
   /// Throws std::invalid_argument unless the family is symmetric and of the letters A, B and G, and there are
   /// from 2 to most_processor_pairs pairs. Cost of P(h)^-1, once a run, and of P(-h), each time that a run is
   /// observed: a force evaluation for each pair.
@@ -146,8 +146,8 @@ class run_time_family {
 /// A family of fewer parameters all of whose members are members of a larger one.
 struct contained_family {
   run_time_family family;
-  Eigen::MatrixXd slopes;  ///< derivatives of the parameters of the larger family by those of this one
-  Eigen::VectorXd origin;  ///< the parameters of the larger family where those of this one are 0
+  Eigen::MatrixXd slopes;  ///< derivatives of the larger family's parameters by the parameters of this one
+  Eigen::VectorXd origin;  ///< the larger family's parameters where the parameters of this one are 0
 
   /// The parameters of the member of the larger family.
   Eigen::VectorXd embed(const Eigen::VectorXd& theta) const { return origin + slopes * theta; }
@@ -155,11 +155,11 @@ struct contained_family {
 
 /// The methods of a word that reads the same from both ends, whose coefficients do, too, and add up to 1 for
 /// each part of H: symmetric, of order 2. `times` says of which part each slot is the time, a character each:
-/// those of letters of one's own, and A, B, R or S. Parameters are named by the part and a number; the last
-/// of each part, nearest to the middle of the word, follow from the sums. The start is made of equal steps of
-/// order 2; of drifts and kicks with a fast and a slow part it is r-RESPA.
-/// Throws std::invalid_argument if the word does not read the same from both ends, has a processor, or two
-/// equal neighbours, or unless there is one character for each slot.
+/// characters of letters of one's own, and A, B, R or S. Parameters are named by the part and a number; the
+/// last of each part, nearest to the middle of the word, follow from the sums. The start is made of equal
+/// steps of order 2; of drifts and kicks with a fast and a slow part it is r-RESPA. Throws
+/// std::invalid_argument if the word does not read the same from both ends, has a processor, or two equal
+/// neighbours, or unless there is one character for each slot.
 run_time_family symmetric_word(std::string name, const word& letters, const std::string& times);
 
 /// Pairs of letters of a processor: more gain little, and cost evaluations each time that a run is observed.

@@ -29,7 +29,8 @@ std::span<double> numbers_in(Matrix& term) {
 /// refers to it must not outlive the communicator.
 class shard {
  public:
-  /// The share that this rank has of `total` trajectories. sum() needs leaves as long as those of tree_sum.
+  /// The share that this rank has of `total` trajectories. sum() needs leaves as long as the leaves of
+  /// tree_sum.
   explicit shard(std::int64_t total, const communicator& ranks = one_rank,
                  std::int64_t leaf = trajectories_of_leaf);
 
@@ -49,10 +50,10 @@ class shard {
     return result;
   }
 
-  /// tree_sum of the terms of all trajectories, at all ranks: `terms` are those of this one, and `zero` is as
-  /// large as each. The bits do not depend on the number of ranks. Of 2^k ranks each sends one message and
-  /// receives k at most; where shares are no whole subtrees, some seven more. Each is as long as one term,
-  /// and rank 0 broadcasts the result.
+  /// tree_sum of the terms of all trajectories, at all ranks: `terms` are the terms of this one, and `zero`
+  /// is as large as each. The bits do not depend on the number of ranks. Of 2^k ranks each sends one message
+  /// and receives k at most; where shares are no whole subtrees, some seven more. Each is as long as one
+  /// term, and rank 0 broadcasts the result.
   ///
   /// Throws std::invalid_argument if the terms are not as many as the trajectories of this rank.
   template <class T>
@@ -69,10 +70,10 @@ class shard {
     return sum(terms, 0.0);
   }  ///< sum of numbers over all trajectories
 
-  /// All-gather of items: each rank has filled in those of its own trajectories, and all ranks get all. There
-  /// are `items` for each group of `group` consecutive trajectories, of which no two ranks share one. Memory
-  /// and messages grow with the trajectories: for what is small, and once. Throws std::invalid_argument if
-  /// there are not as many items.
+  /// All-gather of items: each rank has filled in the items of its own trajectories, and all ranks get all.
+  /// There are `items` for each group of `group` consecutive trajectories, of which no two ranks share one.
+  /// Memory and messages grow with the trajectories: for what is small, and once. Throws
+  /// std::invalid_argument if there are not as many items.
   template <class Item>
     requires std::is_trivially_copyable_v<Item>
   void gather(std::vector<Item>& all, std::int64_t items = 1, std::int64_t group = 1) const {
@@ -90,8 +91,8 @@ class shard {
   static void require_length(std::int64_t length, std::int64_t wanted);
   int rank_of(std::int64_t block) const { return static_cast<int>(block * ranks_->size() / blocks_); }
 
-  /// The nodes of the blocks of this rank become those of the next level, and so on; a node is where its left
-  /// half is, so that the root comes to rank 0.
+  /// The nodes of the blocks of this rank become the nodes of the next level, and so on; a node is where its
+  /// left half is, so that the root comes to rank 0.
   template <class T>
   T up_the_tree(std::vector<T> nodes, const T& zero) const {
     std::int64_t first = first_of_part(blocks_, ranks_->rank(), ranks_->size());

@@ -21,8 +21,9 @@
 namespace nysalt {
 
 /// A trajectory under way. `state` is ahead of the synchronous state by the word's first letter where that
-/// letter merges with the last, or behind by half a letter O; of a processed word it is that of the kernel
-/// from step 1 on, and the start itself at step 0. The open run is all that is needed to go on, to the bit.
+/// letter merges with the last, or behind by half a letter O; of a processed word it is the state of the
+/// kernel from step 1 on, and the start itself at step 0. The open run is all that is needed to go on, to the
+/// bit.
 template <Scalar T, int N>
 struct open_run {
   flow_state<T, N> state;        ///< ahead or behind, as said above
@@ -108,8 +109,8 @@ class stepper {
       throw std::invalid_argument(
           sentence("stepper: steps must be >= 0 and every >= 1, got {} and {}", steps, every));
     }
-    // Without an observation no room for one is needed. Only of an erased system: a second call of the loop
-    // of a typed system keeps g++ from inlining the force.
+    // Without an observation no room for one is needed. Only of a model: a second call of the loop,
+    // where the system is known by its type, keeps g++ from inlining the force.
     if constexpr (ErasedSystem<S>) {
       if ((run.step / every + 1) * every > run.step + steps) return advance(run, steps);
     }
@@ -165,7 +166,7 @@ class stepper {
 
   /// One plain step, letter by letter, from only q and p (f is scratch): what learning and the
   /// analyses differentiate; of a processed word P(-h) K P(h)^-1, which is not what n steps of a run repeat.
-  /// Its noise is that of step n of the trajectory. Cost: the word's evaluations_of_plain_step.
+  /// Its noise is the trajectory's noise of step n. Cost: the word's evaluations_of_plain_step.
   template <SteppedBy<C> T>
   void step(flow_state<T, dimension>& x, std::uint64_t trajectory = 0, std::int64_t n = 0) const {
     auto cursor = cursor_at<T>(trajectory, n);
@@ -187,7 +188,7 @@ class stepper {
   }
 
   /// A run from x (whose f is scratch) that calls observe(k) after each number after[k] of steps, which rise,
-  /// with the synchronous state in y: what losses over several steps differentiate. Its noise is that of
+  /// with the synchronous state in y: what losses over several steps differentiate. Its noise is the noise of
   /// steps 0, 1, ... of the trajectory. Cost: the word's evaluations_to_open, as many times its
   /// evaluations_per_step as there are steps, and its evaluations_to_observe each time.
   template <SteppedBy<C> T, class Observe>

@@ -55,7 +55,7 @@ inline std::string name_of_type(const std::type_info& type) {
 // select(condition, a, b) where trajectories may differ; with lanes = 1 it is left in peace by packs.
 //   normal_modes modes() const;  std::vector<frequency_band> frequency_bands() const;
 //   template <class T> void soft_force(const vector<T, N>& q, vector<T, N>& f) const;
-//                                          that of V less q K q/2, which modes() diagonalises
+//                                          the force of V less q K q/2, which modes() diagonalises
 //   double force_cost() const;             what a force costs, if not one a coordinate
 //   std::string description() const;  std::string kind() const;          the description without the size
 
@@ -130,7 +130,7 @@ struct written_in<R (X::*)(A...) const> : std::type_identity<X> {};
 template <class R, class X, class... A>
 struct written_in<R (X::*)(A...) const noexcept> : std::type_identity<X> {};
 
-/// That of the force, or of the potential that it comes from; void where that is not known.
+/// The class that declares the force, or the potential that it comes from; void where that is not known.
 template <class S, class T>
 consteval auto origin_of_force() {
   using V = vector<T, S::dimension>;
@@ -363,7 +363,7 @@ std::string describe(const S& system) {
 }
 
 /// Kind of a system: the description without the size, by a member kind(). A method that was learned
-/// for one size may be tried at another, see learning/at_other_size.hpp. Systems without that member have a
+/// for one size may be tried at another, see learning/reach.hpp. Systems without that member have a
 /// kind of their own, the description.
 template <System S>
 std::string kind_of(const S& system) {

@@ -123,7 +123,7 @@ struct initial_value_problem {
   nysalt::model system;    ///< system in its bath
   initial_states starts;   ///< the initial distribution
   double frequency = 0.0;  ///< the highest of the motion, rare starts included; 0: not known
-  std::vector<named_observable> observables{};  ///< observables beyond those of every system
+  std::vector<named_observable> observables{};  ///< observables beyond the usual ones of every system
   std::string default_observable = "energy";    ///< observable where none is named
   double fine_angle =
       5e-3;  ///< step of a reference times the frequency: there a reference of order 6 errs by rounding
@@ -157,7 +157,7 @@ struct system_declaration {
   std::string source{};     ///< key in docs/bibliography.bib
   std::string identity{};   ///< fingerprint of the source that declares the system; files refuse another.
                             ///< Empty: a bundled one
-  bool is_checked = false;  ///< whether the force is known to be that of the potential
+  bool is_checked = false;  ///< whether the force is known to belong to the potential
 };
 
 }  // namespace nysalt

@@ -47,13 +47,13 @@ class word {
  public:
   static constexpr std::size_t most_letters = 512;  ///< largest number of letters, with the processor
   static constexpr std::size_t most_own = 8;        ///< largest number of letters that are not the library's
-  /// Separates the letters of a kernel from those of its processor.
+  /// Separates the letters of a kernel from the letters of its processor.
   static constexpr char processor_mark = '|';
 
   /// Letters as in docs/notation.md, acting from left to right: "BAB" is velocity Verlet, and "ABA|BABA" the
   /// kernel ABA with the processor P = BABA. A run of a processed word begins with P(h)^-1, its steps are
-  /// those of the kernel, and what is observed is a copy on which P(-h) has acted. Letters of a system, such
-  /// as facts_of_letter() or own_letters_of() describe, are added by their facts.
+  /// steps of the kernel, and what is observed is a copy on which P(-h) has acted. Letters of a system
+  /// are added by their facts, from facts_of_letter() or model::facts().own_letters.
   /// Throws std::invalid_argument if there is no letter but O, or one that is not known, if some letters
   /// split H in one way and some in the other, if a processor is not made of letters A and B in turn, or
   /// belongs to a kernel with letters O or R, or if there are more than most_letters.
@@ -64,7 +64,7 @@ class word {
     if (is_processed()) take_processor();
   }
 
-  /// A word with other letters; letters of a system are those of this word.
+  /// A word with other letters; letters of a system are taken from this word.
   constexpr word with_letters(std::string_view other) const { return word(other, own()); }
 
   constexpr std::string_view view() const { return {text.data(), text_size}; }  ///< letters as given
@@ -91,7 +91,8 @@ class word {
   }
   /// Number of coefficients of letter i.
   constexpr std::size_t slots_of(std::size_t i) const { return facts(i).slots; }
-  /// Index of the first coefficient of letter i; those of all letters are in one list, letter after letter.
+  /// Index of the first coefficient of letter i; the coefficients of all letters are in one list, letter
+  /// after letter.
   constexpr std::size_t first_slot(std::size_t i) const {
     std::size_t result = 0;
     for (std::size_t k = 0; k < i; ++k) result += slots_of(k);
@@ -108,7 +109,7 @@ class word {
     }
     return nullptr;
   }
-  /// Whether the letters are those of a quadratic part and the rest, R, S or H.
+  /// Whether the letters split off the quadratic part: R, S or H.
   constexpr bool rotates() const { return is_rotating; }
   /// First letter of a step of an open run: 1 if letter 0 merges with the last.
   constexpr std::size_t first_in_loop() const { return merges ? 1 : 0; }
@@ -144,8 +145,8 @@ class word {
   std::size_t text_size = 0;                         ///< number of characters of the text
   std::array<letter_facts, most_own> own_facts{};    ///< of own()
   std::size_t own_count = 0;                         ///< number of letters of a system
-  std::size_t length = 0;        ///< number of letters, those of a processor left out
-  std::size_t slots = 0;         ///< number of coefficients: those of the kernel, then those of the processor
+  std::size_t length = 0;                            ///< number of letters, without the processor's
+  std::size_t slots = 0;         ///< number of coefficients: first the kernel's, then the processor's
   std::size_t kernel_slots = 0;  ///< number of coefficients without the processor
   field reads = field::none;     ///< the force that the letters read
   int force_derivatives = 0;     ///< f'(q) v in a step, one evaluation each
@@ -157,8 +158,8 @@ class word {
   bool merges_half_steps = false;     ///< first and last letter are of the bath
   int stochastic_letters = 0;         ///< number of letters O
   int evaluations_per_step = 0;       ///< force evaluations of a step of an open run
-  int evaluations_to_open = 0;        ///< force evaluations to open a run, those of P(h)^-1 among them
-  /// Force evaluations of each observation of a run: those of P(-h), or of a first letter that is taken
+  int evaluations_to_open = 0;        ///< force evaluations to open a run, with the evaluations of P(h)^-1
+  /// Force evaluations of each observation of a run: evaluations of P(-h), or of a first letter that is taken
   /// back and evaluates forces itself.
   int evaluations_to_observe = 0;
   int evaluations_of_plain_step = 0;  ///< force evaluations of a step from only q and p
@@ -255,7 +256,7 @@ class word {
   }
 };
 
-/// The word of these flows, from left to right: those of the library, and those of a system.
+/// The word of these flows, from left to right: flows of the library, and flows of a system.
 template <Flow... L>
   requires(sizeof...(L) > 0)
 constexpr word word_of() {
@@ -303,8 +304,8 @@ constexpr std::array<C, Length> palindrome(const std::array<C, (Length - 3) / 2>
   return all;
 }
 
-/// Evaluations of the force of a part of V in a step of an open run, which a declared price multiplies. Letters
-/// that do not say, such as drifts, evaluate none.
+/// Evaluations of the force of a part of V in a step of an open run, which a declared price multiplies.
+/// Letters that do not say, such as drifts, evaluate none.
 constexpr int evaluations_of_part(const word& letters, std::size_t part) {
   int all = 0;
   for (std::size_t i = letters.first_in_loop(); i < letters.length; ++i) {
@@ -350,7 +351,7 @@ namespace detail {
 
 /// The word before the first step of a processed word, P(h)^-1: the letters of P from the last to the first.
 word pre_processor(const word& letters);
-/// The coefficients of P(h)^-1 from those of the whole word.
+/// The coefficients of P(h)^-1 from the coefficients of the whole word.
 template <class C>
 std::vector<C> pre_processor_coefficients(const word& letters, const std::vector<C>& all) {
   std::vector<C> result;
@@ -359,7 +360,7 @@ std::vector<C> pre_processor_coefficients(const word& letters, const std::vector
 }
 /// The word on a copy that is observed, P(-h).
 word post_processor(const word& letters);
-/// The coefficients of P(-h) from those of the whole word.
+/// The coefficients of P(-h) from the coefficients of the whole word.
 template <class C>
 std::vector<C> post_processor_coefficients(const word& letters, const std::vector<C>& all) {
   std::vector<C> result;

@@ -130,7 +130,7 @@ std::string times_in(const document_reader& read) {
   return times;
 }
 
-/// Those of its system that a scheme states.
+/// The letters of its system that a scheme states.
 std::vector<letter_facts> own_letters_in(const json& document, const document_reader& read) {
   std::vector<letter_facts> result;
   if (!document.contains("own_letters")) return result;

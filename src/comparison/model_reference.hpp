@@ -56,10 +56,10 @@ class model_reference {
         has_exact_flow_(has_exact_flow),
         exact_(std::move(exact)) {}
 
-  /// That of the reference at a step whose noise is wanted in parts; nothing where the flow is known exactly.
-  /// The error of order 6 is rounding then. BAOAB errs along a noisy path to first order in the step: where
-  /// nothing is stiff, a hundredth of what is learned (detail::objection) takes finer steps than frequencies
-  /// suggest.
+  /// The step of the reference at a step whose noise is wanted in parts; nothing where the flow is known
+  /// exactly. The error of order 6 is rounding then. BAOAB errs along a noisy path to first order in the
+  /// step: where nothing is stiff, a hundredth of what is learned (detail::objection) takes finer steps than
+  /// frequencies suggest.
   std::optional<double> fine_step(double step, std::optional<double> asked, int parts) const {
     if (is_exact() && !asked) return std::nullopt;
     const double few = step / usual_steps;

@@ -117,7 +117,7 @@ class prepared_problem {
   const std::string& warning_of_starts() const { return warning_of_starts_; }
   /// Trajectories begin there from now on.
   void take_starts(const initial_states& starts) { starts_ = starts; }
-  /// That of trajectory n, by the seed of a role.
+  /// The start of trajectory n, by the seed of a role.
   void start_state(std::uint64_t seed, std::uint64_t n, std::span<double> q, std::span<double> p) const;
 
   /// Trajectories that are stepped at a time.

@@ -36,8 +36,8 @@ void require_observables(const initial_value_problem& made, const std::string& n
 
 /// Refuses energies and forces that are not finite, and a force other than -grad V, at four starts.
 void require_force(const initial_value_problem& made, const std::string& name) {
-  // A force from a potential costs a potential for each coordinate. That of a local system is the user's own,
-  // and costs as much as a step.
+  // A force from a potential costs a potential for each coordinate. The force of a local system is the user's
+  // own, and costs as much as a step.
   const Eigen::Index most = made.system.sites() != nullptr ? 1'000'000 : 2000;
   std::vector<Eigen::VectorXd> points;
   std::vector<Eigen::VectorXd> momenta;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A family as data.
+// Families made of other families, and of words.
 #include "nysalt/run_time_family.hpp"
 
 #include <algorithm>
@@ -110,8 +110,8 @@ run_time_family thermostatted(const run_time_family& plain, placement where) {
 
 namespace {
 
-/// Those of the processor from its parameters: of A and of B all but the last are parameters, in the order of
-/// the word, and the last of each is what makes their sum zero.
+/// The coefficients of the processor from its parameters: of A and of B all but the last are parameters, in
+/// the order of the word, and the last of each is what makes their sum zero.
 void append_processor(std::vector<double>& coefficients, const Eigen::VectorXd& theta, Eigen::Index first,
                       Eigen::Index pairs) {
   double sum_of_a = 0.0;

@@ -13,8 +13,8 @@ namespace nysalt::program {
 bool is_whole(const std::filesystem::path& file);
 
 /// Symbols that the loader binds once in a process, to the first library that has them (STB_GNU_UNIQUE): what
-/// g++ makes of inline variables and of static members of templates. Those of the C++ library, Eigen, Boost
-/// and fmt are left out.
+/// g++ makes of inline variables and of static members of templates. Symbols of the C++ library, Eigen,
+/// Boost and fmt are left out.
 std::set<std::string> unique_symbols_of(const std::filesystem::path& file);
 
 }  // namespace nysalt::program

@@ -13,8 +13,8 @@ struct recipe {
   std::vector<std::string> libraries;
 };
 
-/// That of the build folder or of the installed tree that this code was loaded from, and of no other folder:
-/// who may write a folder above would decide what runs. Throws refusal if there is none.
+/// The recipe of the build folder or of the installed tree that this code was loaded from, and of no other
+/// folder: who may write a folder above would decide what runs. Throws refusal if there is none.
 recipe recipe_of_library();
 
 }  // namespace nysalt::program

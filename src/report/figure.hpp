@@ -26,8 +26,8 @@ struct level {
   double y;           ///< where the line is
 };
 
-/// A part of the x axis, shaded over the whole height. Those of one label have one colour, and one entry in
-/// the key.
+/// A part of the x axis, shaded over the whole height. Intervals of one label have one colour, and one entry
+/// in the key.
 struct shaded_interval {
   std::string label;  ///< name in the key
   double low;         ///< where it begins, on the x axis

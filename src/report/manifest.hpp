@@ -31,7 +31,7 @@ void require_manifest(const std::filesystem::path& file);
 json versions();
 
 /// Entries of files of one folder in its manifest: command, seed, versions, compiler, flags, time, and the
-/// members of `more`. Those of other files stay, also of other processes that write at the same time, for
+/// members of `more`. Entries of other files stay, also of other processes that write at the same time, for
 /// which it waits up to `patience`. Without a command, as of callers of the library, there is no manifest.
 void record_results(const std::vector<std::filesystem::path>& files, const common_settings& common,
                     const json& more = {}, std::chrono::milliseconds patience = std::chrono::minutes(1));

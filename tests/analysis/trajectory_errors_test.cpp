@@ -284,7 +284,7 @@ BOOST_AUTO_TEST_CASE(streaming_along_noise_gives_what_the_formula_says) {
   BOOST_TEST(found.methods[2].error.mean != error_by_hand(by_halves, options, 2), near);
 }
 
-// An array, a span of it, and methods as data.
+// A container of methods, a span of it, and a list of the same methods.
 BOOST_AUTO_TEST_CASE(beside_others_and_by_its_type_a_method_has_the_error_that_it_has_alone) {
   const auto options = on_the_chain.options(25, 20);
   const auto& measure = on_the_chain.measures[3];

@@ -438,7 +438,7 @@ BOOST_AUTO_TEST_CASE(the_loops_of_odeint_see_our_states) {
   };
   check(by_verlet);
   check(tabulated(takahashi_imada()));
-  check(srkn6b());  // a method by its type
+  check(srkn6b());  // a row of the table of classical methods
   BOOST_TEST(odeint_stepper(verlet()).order() == 2);
   BOOST_TEST(odeint_stepper(srkn11b()).order() == 6);
 }

@@ -262,8 +262,8 @@ BOOST_AUTO_TEST_CASE(the_word_of_nystrom_is_the_tableau_of_its_paper) {
   check(black_box(), 1.0);
 }
 
-// Words as data: any palindrome of letters, symmetric, with coefficients that add up to one for each part of
-// H, and equal steps to begin with.
+// Families of words: any palindrome of letters, symmetric, with coefficients that add up to one for each part
+// of H, and equal steps to begin with.
 
 BOOST_AUTO_TEST_CASE(members_of_any_word_are_palindromes_that_add_up_to_one) {
   std::mt19937 random(1);

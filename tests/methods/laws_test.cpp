@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 // Compiled with -O1: 14 s at -O0, 0.4 s at -O1.
 // What one step of every method keeps, on every system: symplecticity, reversibility, consistency; and its
-// declared order, measured on nonlinear problems. Classical methods: their rows as types and as data, their
-// steps by formulas written out, several of them in one, and tables that cannot be. Runs of every method,
-// with noise and without: merged letters change nothing but rounding; observing, cutting and lanes change no
-// bit; a method by its type is the method as data; and all costs what is declared.
+// declared order, measured on nonlinear problems. Classical methods: their rows, their steps by formulas
+// written out, several of them in one, and tables that cannot be. Runs of every method, with noise and
+// without: merged letters change nothing but rounding; observing, cutting and lanes change no bit; a system
+// steps as its model; and all costs what is declared.
 #include <set>
 
 #include "../laws/models.hpp"
@@ -450,7 +450,7 @@ BOOST_AUTO_TEST_CASE(evaluations_are_those_declared) {
   check(split_masses(), quiet_methods(), no_noise());
   check(in_bath(fpu_chain<3>(10.0), bath::of_sigma(0.1, 0.1)), noisy_methods(), counter_noise(1));
   check(in_bath(fpu_chain<3>(10.0), bath::of_sigma(0.0, 0.0)), noisy_methods(), no_noise());
-  // By its type, numbers by hand; the kicks of the chain are its own, and count.
+  // Numbers by hand; the kicks of the chain are its own, and count.
   static_assert(HasKick<counted<fpu_chain<3>>, double>);
   const counted watched(fpu_chain<3>(10.0));
   auto y = random.state(watched, 0.5);

@@ -2,10 +2,11 @@
 // Systems that offer too little, or not in the required form, losses of one's own, systems declared for the
 // program, and sentences. The comments are explained in check.py.
 #include "common.hpp"
-#include "nysalt/derivatives/properties.hpp"
 #include "nysalt/core/lockstep.hpp"
 #include "nysalt/core/sentence.hpp"
+#include "nysalt/derivatives/properties.hpp"
 #include "nysalt/ensembles/given_states.hpp"
+#include "nysalt/families/composition.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/losses/window_error.hpp"
@@ -15,6 +16,7 @@
 #include "nysalt/reference.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/run_time_family.hpp"
+#include "nysalt/systems/lennard_jones.hpp"
 #include "nysalt/systems/sum_of_parts.hpp"
 #include "nysalt/systems/textbook.hpp"
 
@@ -119,9 +121,15 @@ inline void use(const wall& system) {
 // expect: nysalt: bath is not of the form `const nysalt::bath& bath() const`; see systems/in_bath.hpp
 // expect: nysalt: velocity(p, v) must be differentiable, and takes double only; make it a template
 // expect: nysalt: force is not of the form `template <class T> void force(q, f) const`, which writes its
-// value
-//   into f
+//   value into f
 // expect: nysalt: description is not of the form `std::string description() const`
+// expect: nysalt: kind is not of the form `std::string kind() const`
+// expect: nysalt: modes is not of the form `nysalt::normal_modes modes() const`
+// expect: nysalt: has_modes is not of the form `bool has_modes() const`
+// expect: nysalt: soft_force is not of the form `template <class T> void soft_force(q, f) const`
+// expect: nysalt: force_derivative is not of the form `void force_derivative(q, v, g) const`
+// expect: nysalt: velocity is not of the form `template <class T> void velocity(p, v) const`
+// expect: nysalt: kinetic_energy(p) must be differentiable, and takes double only; make it a template
 namespace members_of_another_form {
 struct valued : well {
   // [force_by_value]
@@ -133,6 +141,24 @@ struct valued : well {
 };
 struct named : well {
   std::string description = "a well";
+};
+struct of_a_kind : well {
+  std::string kind = "a well";
+};
+struct with_modes : well {
+  std::vector<double> modes() const { return {1.0}; }
+};
+struct counting_modes : well {
+  int has_modes() const { return 1; }
+};
+struct soft : well {
+  double soft_force(double q) const { return -q; }
+};
+struct derived : well {
+  double force_derivative(double) const { return -2.0; }
+};
+struct fast : well {
+  double velocity(double p) const { return p; }
 };
 struct mass : well {
   // [inverse_mass_not_const]
@@ -175,13 +201,17 @@ struct half_differentiable : well {
   void velocity(const nysalt::vector<double, 1>& p, nysalt::vector<double, 1>& v) const { v[0] = p[0] * 2.0; }
   // [/velocity_over_double_alone]
 };
+struct energetic : well {
+  double kinetic_energy(const nysalt::vector<double, 1>& p) const { return p[0] * p[0]; }
+};
 template <class... Systems>
 void step_all() {
   const auto step = [](const auto& system) { nysalt::make_stepper(system, nysalt::verlet(), 0.1); };
   (step(either<well, Systems>()), ...);
 }
 inline void use(const nysalt::phase_point<double, 1>& x) {
-  step_all<mass, kinetic, kicked, banded, priced, in_a_bath, valued, named>();
+  step_all<mass, kinetic, kicked, banded, priced, in_a_bath, valued, named, of_a_kind>();
+  step_all<with_modes, counting_modes, soft, derived, fast, energetic>();
   nysalt::symplecticity_defect(either<well, half_differentiable>(), nysalt::verlet(), 0.1, x);
 }
 }  // namespace members_of_another_form
@@ -194,6 +224,12 @@ inline void use(const nysalt::phase_point<double, 1>& x) {
 //   `inverse_mass`, `kinetic_energy` or else p^2/2: write these, or rename it
 // expect: nysalt: a member of a name near to force or gradient is not used; write `template <class T> void
 //   force(q, f) const`, f = -grad V, or rename it
+// expect: nysalt: a member of a name near to velocity is not used; write `template <class T> void velocity(p,
+//   v) const`, or rename it
+// expect: nysalt: a member of a name near to potential is not used; write `template <class T> T potential(q)
+//   const`, or rename it
+// expect: nysalt: a member of a name near to force_derivative, soft_force, kick, modes, frequency_bands,
+//   force_cost, description, kind or bath is not used; see docs/concepts/system.md, or rename it
 namespace members_of_another_name {
 struct heavy : well {
   // [mass]
@@ -221,7 +257,23 @@ struct sloped : well {
   double gradient(double q) const { return 2.0 * q; }
   // [/gradient]
 };
-inline void use() { members_of_another_form::step_all<heavy, moving, whole, sloped>(); }
+struct flowing : well {
+  double velocities(double p) const { return p; }
+};
+struct by_force {
+  static constexpr int dimension = 1;
+  template <class T>
+  void force(const nysalt::vector<T, 1>& q, nysalt::vector<T, 1>& f) const {
+    f[0] = q[0] * -2.0;
+  }
+  double potential_energy(double q) const { return q * q; }
+};
+struct described : well {
+  std::string describe() const { return "a well"; }
+};
+inline void use() {
+  members_of_another_form::step_all<heavy, moving, whole, sloped, flowing, by_force, described>();
+}
 }  // namespace members_of_another_name
 
 // The parts of a sum, and what derives from one, are asked too.
@@ -334,6 +386,54 @@ inline void use(const nysalt::normal_around<1>& around) {
                                            nysalt::starts([&](const nysalt::pendulum&) { return around; }));
 }
 }  // namespace declared_letter_that_is_one_way
+
+// expect: nysalt: frequency(...) may be given once
+// expect: nysalt: a declared system needs a default constructor: give each member a value
+// expect: nysalt: a declared system must not be final: it is counted by deriving
+namespace declarations {
+struct deep : well {
+  explicit deep(double) {}
+};
+struct last final : well {};
+nysalt::normal_around<1> starts_of_well(const well&);
+template <class S>
+void declare(auto... further) {
+  nysalt::declare_system<S>("well", "q^2", nysalt::starts(starts_of_well), further...);
+}
+inline void use() {
+  const auto highest = nysalt::frequency([](const well&) { return 1.0; });
+#ifdef NYSALT_CONTROL
+  declare<well>(highest);
+#else
+  declare<well>(highest, highest);
+#endif
+  declare<either<well, deep>>();
+  declare<either<well, last>>();
+}
+}  // namespace declarations
+
+// expect: nysalt: name the parameters of so large a family
+// expect: nysalt: lanes of a system must lie in 1..16
+// expect: nysalt: lennard_jones in 2D or 3D
+namespace numbers_that_are_too_large {
+struct wide : well {
+  static constexpr int lanes = 17;
+};
+constexpr int parameters = std::is_same_v<either<int, void>, int> ? 12 : 13;
+constexpr int space = std::is_same_v<either<int, void>, int> ? 3 : 4;
+constexpr auto names = nysalt::composition<parameters>::parameter_names;
+constexpr int lanes = nysalt::lanes_of<either<well, wide>>;
+inline auto use(const nysalt::lennard_jones<space, 2>& atoms) { return atoms.description(); }
+}  // namespace numbers_that_are_too_large
+
+// expect: nysalt: a system is copyable and has `static constexpr int dimension`, positive, or Eigen::Dynamic
+//   with a `size()`
+namespace asked_beforehand {
+struct of_no_size {
+  static constexpr int dimension = 0;
+};
+inline void use() { nysalt::require_suited<either<well, of_no_size>>(); }
+}  // namespace asked_beforehand
 
 // expect: there must be as many pieces as holes
 // expect: a hole is {}, without a format

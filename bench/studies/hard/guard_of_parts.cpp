@@ -100,7 +100,7 @@ outcome what_came_of(const model& system, const tabulated& method, double step, 
 /// The guard that learn() would have, which plans for 20,000 steps unless it is asked for another number.
 stability_guard guard_of_learn(const model& system, const flow_map_data& data, const flow_map_data& held_out,
                                const word& letters) {
-  constexpr std::int64_t most_steps = 10'000;  // as make_problem() has
+  constexpr std::int64_t most_steps = 10'000;  // as the guard of learn() has
   auto [states, typical] = some_states(system, data);
   states.append(some_states(system, held_out).states);
   return {system, states, letters, std::min(fit_options{}.planned_steps, most_steps), typical};

@@ -32,12 +32,13 @@ struct acceptance_result {
 /// with H at the two ends only. A trajectory that diverged is a rejected one. The rule keeps the density
 /// exp(-H/kT) if the map is reversible and keeps volume, so that only symmetric methods are taken, and only
 /// kinetic energies that are even: else p -> -p does not turn the motion around. The
-/// number is that of a sampler at work if the starts have that density. Neither lanes, threads nor
+/// number is the acceptance of a sampler at work if the starts have that density. Neither lanes, threads nor
 /// ranks change a bit, and all ranks get the result.
 ///
 /// Memory: 32 bytes a trajectory on each rank. Throws std::invalid_argument if the method is not symmetric,
-/// K(-p) is not K(p) at some start of the first 16, H cannot be evaluated, the system is in a bath that acts (H is not its own
-/// then), kT is not positive and finite, there is not one step or trajectory, or a start does not fit.
+/// K(-p) is not K(p) at some start of the first 16, H cannot be evaluated, the system is in a bath that acts
+/// (H is not its own then), kT is not positive and finite, there is not one step or trajectory, or a start
+/// does not fit.
 acceptance_result acceptance(const model& system, const tabulated& method, const initial_states& ensemble,
                              const trajectory_options& options, double temperature = 1.0);
 
@@ -70,7 +71,7 @@ struct proposal_acceptance {
 /// Throws std::invalid_argument if the method is not symmetric, the system is in a bath that acts, has no
 /// potential or a kinetic energy that is not quadratic, an option is out of range, or a trajectory has more
 /// than 100,000 steps. Memory: 8 bytes for each step of each state. Cost: for each step of 2 length/step
-/// steps of each state that of the word, and one potential.
+/// steps of each state one step of the word, and one potential.
 proposal_acceptance acceptance_of_proposals(const model& system, const tabulated& method, double step,
                                             const initial_states& states, const proposal_options& options);
 
@@ -109,7 +110,7 @@ double energy_error_at(double acceptance);
 /// canonical distribution: half the sum of energy_error_on_oscillator() at h omega, as sin^2 is 1/2 on
 /// average. It is exact as trajectories become long. Infinite where the method is not stable on one of them.
 /// Throws std::invalid_argument if the method is not symmetric, and what energy_error_on_oscillator() throws.
-/// Cost: that of energy_error_on_oscillator() for each frequency.
+/// Cost: one energy_error_on_oscillator() for each frequency.
 double gaussian_energy_error(const tabulated& method, std::span<const double> frequencies, double step);
 
 /// The step up to which proposals are accepted with this probability: from `from` it grows by 2 % at a time
@@ -117,7 +118,7 @@ double gaussian_energy_error(const tabulated& method, std::span<const double> fr
 /// none is given, `from` is a hundredth of a radian of the fastest oscillator. Words that are learned for a
 /// step may be accepted less often at smaller ones: begin at theirs. Throws what gaussian_energy_error()
 /// throws, and std::invalid_argument if no frequency is positive, or no step down to that hundredth is
-/// accepted so often. Cost: some hundred times that of gaussian_energy_error().
+/// accepted so often. Cost: some hundred calls of gaussian_energy_error().
 double gaussian_step(const tabulated& method, std::span<const double> frequencies, double acceptance,
                      double from = 0.0);
 

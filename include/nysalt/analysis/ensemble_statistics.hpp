@@ -33,8 +33,9 @@ T kinetic_temperature(const S& system, const phase_point<T, S::dimension>& x) {
 }
 
 /// Kinetic temperature of the momenta p + (h/2) force(q) between two steps. For words that begin and end with
-/// half a kick (Verlet, BAOAB) its mean is kT on a harmonic oscillator, where that of the momenta at the
-/// steps is low by z^2/4, z = omega h; of words that begin with a drift it knows nothing. Cost: one force.
+/// half a kick (Verlet, BAOAB) its mean is kT on a harmonic oscillator, where the kinetic temperature of the
+/// momenta at the steps is low by z^2/4, z = omega h; of words that begin with a drift it knows nothing.
+/// Cost: one force.
 template <class T, SystemOver<T> S>
 T half_step_kinetic_temperature(const S& system, double step, const phase_point<T, S::dimension>& x) {
   auto f = make_vector<T>(system);
@@ -92,7 +93,7 @@ class statistics_along {
     }
   }
 
-  /// Takes those of step n. A lane in which one is not finite is lost there.
+  /// Takes the numbers of step n. A lane in which one is not finite is lost there.
   void see(std::int64_t n, std::span<const T> numbers, const condition_of<T>& live) {
     T all = numbers[0];
     for (const T& number : numbers.subspan(1)) all += number;
@@ -138,7 +139,7 @@ class statistics_along {
   first_in_lanes<T> lost_at_{};
 };
 
-// The statistics of an ensemble, put together from those of its trajectories.
+// The statistics of an ensemble, put together from the statistics of its trajectories.
 
 /// Statistics of all trajectories. Those that were not requested are empty or NaN.
 struct gathered_statistics {
@@ -161,8 +162,8 @@ struct gathered_statistics {
 std::int64_t trajectories_of_group(std::int64_t trajectories);
 
 /// Keeps the sums of each group of trajectories, and a few numbers of each trajectory. Threads may keep
-/// trajectories of different groups at a time; those of one group are kept in their order. A rank keeps whole
-/// shares of threads.
+/// trajectories of different groups at a time; trajectories of one group are kept in their order. A rank
+/// keeps whole shares of threads.
 class gathering {
  public:
   /// Refers to what is wanted, and to the ranks. `interval` is the time between samples.

@@ -27,11 +27,11 @@ namespace nysalt {
 ///   root_of_all    sqrt(mean over trajectories and times of e)
 enum class averaging { mean, root_of_each, root_of_all };
 
-/// A measure reads a few numbers of a state and compares those of a method with those of a reference: the
-/// exact state at the same time, or that at the start. It is a value that is chosen at run time; models are
-/// in analysis/error_measures/. Its functions take one trajectory, over double, and trajectories side by
-/// side, over packs: lambdas of `auto` do. They may be called from several threads at once, and with lanes
-/// that hold no sound trajectory.
+/// A measure reads a few numbers of a state and compares the numbers of a method with the numbers of a
+/// reference: the exact state at the same time, or the state at the start. It is a value that is chosen at
+/// run time; the measures of the library are below. Its functions take one trajectory, over double, and
+/// trajectories side by side, over packs: lambdas of `auto` do. They may be called from several threads at
+/// once, and with lanes that hold no sound trajectory.
 struct error_measure {
   std::string name;   ///< name in reports
   std::size_t width;  ///< numbers that are read of a state
@@ -59,7 +59,7 @@ struct error_measure {
   double unit(std::span<const double> sizes) const;
   /// The error over all trajectories and its standard error, from their scores (NaN: does not count) and
   /// sizes, of which there may be more. A root has the standard error of the mean below it times 1/(2 root),
-  /// a ratio that of its parts: the delta method.
+  /// a ratio follows from its parts by the delta method.
   estimate average(std::span<const double> scores, std::span<const double> sizes = {}) const;
   /// The part of each trajectory in that error: numbers of which it is the mean, and whose scatter makes its
   /// standard error (linearised about the mean where it is a root or a ratio). On the same trajectories two
@@ -139,7 +139,7 @@ error_measure relative_measure(error_measure path);
 /// of
 /// ((o - o_ref)/o_ref)^2). It is for observables that keep away from 0: where o_ref is 0, or has both signs,
 /// its mean does not exist, and it is refused; where o_ref comes near to 0, few trajectories decide it
-/// (tail_of). The observable is copied, and called as that of path_measure. Source: [li_lu_tao_ye_2023,
+/// (tail_of). The observable is copied, and called as in path_measure. Source: [li_lu_tao_ye_2023,
 /// equations (5.6-7)].
 template <System S, class Observable>
 error_measure relative_measure(const S& system, Observable observable) {
@@ -158,7 +158,7 @@ template <class S>
 concept HasStiffEnergies = HasStiffEnergiesOver<S, double>;
 
 /// Error of the exchange of energies I_j between the stiff springs, relative to their sum I: the mean over
-/// trajectories and times of sum_j |I_j - I_j^ref|, over that of I^ref. The system is copied. There is no
+/// trajectories and times of sum_j |I_j - I_j^ref|, over the mean of I^ref. The system is copied. There is no
 /// such error where I^ref is 0 on all trajectories at all times.
 template <HasStiffEnergies S>
 error_measure exchange_measure(const S& system) {

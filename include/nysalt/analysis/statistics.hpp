@@ -68,7 +68,7 @@ struct tail {
   bool is_heavy() const { return count < enough(); }
 };
 
-/// The tail of numbers, one a trajectory; NaN marks a trajectory that does not count. Sums are those of
+/// The tail of numbers, one a trajectory; NaN marks a trajectory that does not count. Sums are taken by
 /// tree_sum, so that neither threads nor ranks change a bit.
 tail tail_of(std::span<const double> numbers);
 
@@ -160,14 +160,14 @@ class histogram_along {
 /// Throws std::invalid_argument if the bins differ or one of the two is empty.
 double total_variation(const histogram& a, const histogram& b);
 
-/// The mean distance of one histogram to those of independent ensembles: what compares with sampling_floor
-/// of the same ensembles, if all have as many trajectories and samples.
-/// Throws std::invalid_argument if there is no ensemble, and like total_variation.
+/// The mean distance of one histogram to the histograms of independent ensembles: what compares with
+/// sampling_floor of the same ensembles, if all have as many trajectories and samples. Throws
+/// std::invalid_argument if there is no ensemble, and like total_variation.
 double mean_total_variation(const histogram& given, std::span<const histogram> ensembles);
 
 /// Total variation of ensembles in independent groups of trajectories
 /// (gathered_statistics::histogram_of_groups), with its standard error: by the jackknife over the groups of
-/// the given one, and over those of each of the others, whose variances add up.
+/// the given one, and over the groups of each of the others, whose variances add up.
 ///
 /// It estimates how far the number would scatter if all ensembles were drawn again: about its expectation at
 /// this many trajectories, which lies above the distance of the distributions. That bias is what
@@ -187,10 +187,10 @@ double sampling_floor(std::span<const histogram> ensembles);
 
 // Weights of the samples of a trajectory in a mean over time.
 
-/// Weights of samples at t_i = i h, i = 0 .. n: all from the first on alike, or those of the mean over [0, T]
-/// by the trapezoidal rule, T within the last step: what is sampled is linear between two samples, and its
-/// part up to T counts. Then methods of other steps have means over the very same interval of time. For what
-/// grows like t^k the rule errs by about k (k + 1)/12 of n^-2: by 0.5 % for k = 2 and ten samples.
+/// Weights of samples at t_i = i h, i = 0 .. n: all from the first on alike, or the weights of the mean over
+/// [0, T] by the trapezoidal rule, T within the last step: what is sampled is linear between two samples, and
+/// its part up to T counts. Then methods of other steps have means over the very same interval of time. For
+/// what grows like t^k the rule errs by about k (k + 1)/12 of n^-2: by 0.5 % for k = 2 and ten samples.
 class sample_weights {
  public:
   /// Equal weights of `samples` samples.
@@ -260,7 +260,7 @@ struct pair_sums {
   friend pair_sums operator+(const pair_sums& a, const pair_sums& b) {
     return {a.pairs + b.pairs, a.products + b.products, a.heads + b.heads, a.tails + b.tails};
   }
-  /// Sums over the pairs of a that are not those of b.
+  /// Sums over the pairs of a that are not pairs of b.
   friend pair_sums operator-(const pair_sums& a, const pair_sums& b) {
     return {a.pairs - b.pairs, a.products - b.products, a.heads - b.heads, a.tails - b.tails};
   }
@@ -278,7 +278,7 @@ std::size_t checked_lags(int lags);
 template <class T>
 class autocovariance_along {
  public:
-  /// A centre near the mean keeps the digits: sums of (y + c)^2 lose those of c^2/variance. Throws
+  /// A centre near the mean keeps the digits: sums of (y + c)^2 lose the digits of c^2/variance. Throws
   /// std::invalid_argument if the lags cannot be or the centre is not finite.
   autocovariance_along(int lags, double centre) : centre_(centre), lags_(checked_lags(lags)) {
     if (!std::isfinite(centre)) {
@@ -354,7 +354,7 @@ class autocovariance_along {
 ///   C(k) = mean x_t x_{t+k} - mean x_t mean x_{t+k},
 /// means over all trajectories and times t [li_lu_tao_ye_2023, eq:ACF]; rho(k) = C(k)/C(0).
 ///
-/// Standard errors are those of independent trajectories: the jackknife over groups of them, which leaves out
+/// Standard errors hold for independent trajectories: the jackknife over groups of them, which leaves out
 /// one group after the other; from G groups a standard error is itself known to 1/sqrt(2 (G - 1)) of it.
 class autocovariance {
  public:
@@ -364,7 +364,7 @@ class autocovariance {
   autocovariance(double interval, double centre, std::vector<autocovariance_sums> groups);
 
   std::size_t lags() const { return total_.size() - 1; }  ///< L, the largest lag
-  double interval() const { return interval_; }           ///< time between samples, that of one lag
+  double interval() const { return interval_; }           ///< time between samples, which is one lag
   /// Number of groups that count.
   std::size_t groups() const { return groups_.size(); }
   /// Mean of the observable; NaN if no trajectory counts.

@@ -155,7 +155,7 @@ std::vector<trajectory_errors_result> trajectory_errors(const model& system, con
 /// runs. In a bath all see the reference's noise, each in the parts of a step that its letters O cover. The
 /// reference's own error is taken on the first 16 trajectories, along noisy paths with error_over_difference.
 /// If no measure needs a reference, none runs but for its noise. Neither lanes, threads nor ranks change a
-/// bit, nor does a measure those of another.
+/// bit, nor does one measure change a bit of another.
 ///
 /// For the measures that need a reference, if the options ask for it:
 ///   null_model         the error of what stays as it was at the start, over all trajectories;

@@ -20,8 +20,8 @@ namespace nysalt {
 /// The ranks of an MPI communicator, by default of all processes that mpirun started. MPI must be initialised
 /// before, and finalised after; calls come from the thread that did so (MPI_THREAD_FUNNELED). What MPI finds
 /// wrong ends all processes, as is its custom, and so does a message of another length than is expected.
-/// Messages do not mix with those of others: it is a duplicate. MPI counts in int, so that longer messages go
-/// in pieces of `longest` bytes.
+/// Messages do not mix with messages of others, as the communicator is a duplicate. MPI counts in int, so
+/// that longer messages go in pieces of `longest` bytes.
 class mpi_communicator final : public communicator {
  public:
   /// Collective, as it makes the duplicate; `longest` must be below 2^31.

@@ -18,9 +18,9 @@ namespace nysalt {
 /// Calls body(first, n) once for each block of n <= width consecutive trajectories first .. first + n - 1, of
 /// `count` in all, on at most `threads` threads at a time, in no certain order; only the last block is
 /// shorter. A body writes what it finds into the places of its trajectories; a sum over them is then taken by
-/// tree_sum, and neither width nor the number of threads changes a bit. With one thread the order is that of
-/// the trajectories, and no thread is made. `progress`, if given, is called after each block with the number
-/// of trajectories done; from any thread, never two calls at once.
+/// tree_sum, and neither width nor the number of threads changes a bit. With one thread the order is the
+/// order of the trajectories, and no thread is made. `progress`, if given, is called after each block with
+/// the number of trajectories done; from any thread, never two calls at once.
 ///
 /// If a body throws, its trajectories are run again, one after the other, so that what leaves the
 /// loop is the exception of the first trajectory that has one, for any width and threads; some beyond it are

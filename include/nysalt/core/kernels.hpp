@@ -75,7 +75,7 @@ class kernels {
 class any_system {
  public:
   virtual ~any_system() = default;
-  any_system(const any_system&) = delete;  // kernels are those of one object
+  any_system(const any_system&) = delete;  // kernels belong to one object
   any_system& operator=(const any_system&) = delete;
 
   /// The system's functions over T.

@@ -21,7 +21,7 @@ namespace nysalt {
 /// What is measured of trajectories side by side in the lanes of T:
 /// width()                how many numbers are read of a state
 /// read(x, numbers)       writes them to a span; of lanes that are lost too
-/// see(n, numbers, live)  takes those of step n, in the order of time, with the lanes that are good at n
+/// see(n, numbers, live)  takes the numbers of step n, in the order of time; live: lanes that are good at n
 /// What it found is its own: as a result at the end, or in the places of the trajectories.
 template <class M, class T, int N>
 concept Measure = requires(M& measure, const phase_point<T, N>& x, std::span<T> numbers, std::int64_t n,

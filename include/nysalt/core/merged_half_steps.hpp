@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The noise of a run while it is stepped; half steps of letters O where one ends a step and another begins the
-// next are one.
+// The noise of a run while it is stepped; half steps of letters O where one ends a step and another begins
+// the next are one.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ template <NoiseSource Noise, Scalar T, int N, class Room>
 struct noise_cursor {
   static constexpr bool is_noisy = true;  ///< there are letters O
   const Noise* source;                    ///< where numbers come from
-  std::uint64_t trajectory;               ///< whose noise it is; that of lane 0
+  std::uint64_t trajectory;               ///< whose noise it is; the trajectory of lane 0
   std::int64_t step;                      ///< that is under way
   int letters;                            ///< O of a word
   bool bath_is_warm;                      ///< false: sigma = 0, no number is drawn

@@ -28,7 +28,7 @@ struct surroundings_of_word {
 
 // clang-format off
 /// Letters with coefficients and step folded in, and what a stepper does with them:
-/// open(system, x, cursor)        from a synchronous state to an open one: force and first letter where needed
+/// open(system, x, cursor)        a synchronous state becomes open: force and first letter where needed
 /// advance(system, x, n, cursor)  n steps of an open run; last letter of a step and first of the next are one
 /// close(system, x, cursor)       an open state becomes synchronous
 /// step(system, x, cursor)        one plain step, letter by letter, from only q and p
@@ -110,7 +110,7 @@ class prepared_word {
                                  auto& cursor) const {
     take(system, run_, x, steps, cursor, {});
   }
-  /// The same of an erased system, watched: observe() is called with the synchronous state in y after `first`
+  /// The same of a model, watched: observe() is called with the synchronous state in y after `first`
   /// steps, and every `every` steps from there on.
   template <class T, ErasedSystem S>
   void advance(const S& system, flow_state<T, S::dimension>& x, flow_state<T, S::dimension>& y,

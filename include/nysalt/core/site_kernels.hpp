@@ -52,7 +52,7 @@ class site_kernels {
   virtual double energy(const tile& x, Eigen::Index begin, Eigen::Index end) const = 0;
 };
 
-/// Those of S.
+/// The site kernels of S.
 template <LocalSystem S>
 class typed_site_kernels final : public site_kernels {
  public:

@@ -29,7 +29,7 @@ constexpr action action_of() {
   return action::call;
 }
 
-/// A letter as data, with the step folded into the coefficients.
+/// A letter of a program, with the step folded into the coefficients.
 template <Scalar C>
 struct step_program_letter {
   action what = action::call;
@@ -41,7 +41,7 @@ struct step_program_letter {
   const rotation::prepared<C, Eigen::Dynamic>* turn = nullptr;
 };
 
-/// Letters of one step as data.
+/// The letters of one step, as the loop reads them.
 template <Scalar C>
 struct step_program {
   using letter = step_program_letter<C>;

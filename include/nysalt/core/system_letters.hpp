@@ -12,8 +12,8 @@
 
 namespace nysalt::detail {
 
-/// A letter with its coefficients and the step h folded in; letters of the bath and of modes are prepared with
-/// more.
+/// A letter with its coefficients and the step h folded in; letters of the bath and of modes are prepared
+/// with more.
 template <class L, Scalar C>
 auto prepare_coefficients(const C* c, double h) {
   if constexpr (requires { L::prepare(c, h); }) {
@@ -36,7 +36,8 @@ struct state_of_letter {
   flow_room<T, Eigen::Dynamic>* room = nullptr;
 };
 
-/// A prepared letter of the system behind the pointer, whose type the letter knows. Empty: it does not serve T.
+/// A prepared letter of the system behind the pointer, whose type the letter knows. Empty: it does not serve
+/// T.
 template <class T>
 using applied_letter = std::function<void(const void* system, const state_of_letter<T>& x)>;
 
@@ -68,7 +69,8 @@ applied_letter<T> applied(const C* c, double h) {
   };
 }
 
-/// The letter of that name among those which S declares, and those of the library that kernels do not know.
+/// The letter of that name among the letters that S declares, and the library's letters that kernels do not
+/// know.
 template <class S, class T, class C>
 applied_letter<T> letter_of_system(char name, const C* c, double h) {
   applied_letter<T> result;

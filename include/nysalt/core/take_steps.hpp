@@ -64,8 +64,8 @@ template <class S, class State, class C>
   }
 }
 
-/// One letter. The system is inlined: with several users of its force g++ would not. Without MayCall the letter
-/// is no rotation and not called back: then nothing takes the address of the state.
+/// One letter. The system is inlined: with several users of its force g++ would not. Without MayCall the
+/// letter is no rotation and not called back: then nothing takes the address of the state.
 template <field F, bool MayCall, class S, class State, class C>
 [[gnu::always_inline]] inline void apply_letter(const S& system, const step_program_letter<C>& letter,
                                                 State& x, auto& room, const auto& other) {
@@ -119,8 +119,8 @@ void apply_known(const S& system, const step_program_letter<C>& letter, State& x
   if (letter.what == action::rotation) apply_rotation(system, letter, x, room);
 }
 
-/// Interpreter loop: `steps` steps of any program. A state of a fixed dimension that nobody else reads meanwhile is
-/// a local copy, which stays in registers where it has few coordinates.
+/// Interpreter loop: `steps` steps of any program. A state of a fixed dimension that nobody else reads
+/// meanwhile is a local copy, which stays in registers where it has few coordinates.
 template <field F, class S, class State, class C>
 [[gnu::flatten, gnu::noinline]] void take_any_steps(const S& system, State& x, auto& room,
                                                     const step_program<C>& letters, std::int64_t steps,

@@ -97,7 +97,7 @@ class tiled_steps {
  public:
   /// For at most that number of kicks between two observations. Refers to the functions.
   tiled_steps(const site_kernels& system, int threads, std::int64_t kicks);
-  /// `steps` steps of the program. Cost: that of the steps, and of moving the state to the cache and back
+  /// `steps` steps of the program. Cost: the steps, and moving the state to the cache and back
   /// once for some tens of kicks.
   void advance(double* q, double* p, double* f, const step_program<double>& program, std::int64_t steps);
 

@@ -34,7 +34,7 @@ std::vector<stability_window> gaps_below(const std::vector<stability_window>& wi
 
 /// Stability margin of z = low..high, as a share of the stability interval: 1 - high/end, and where the
 /// window has a beginning above 0 also 1 - beginning/low, whichever is less. A step may grow by the factor
-/// 1/(1 - margin) before it is unstable. Negative if some z is unstable: then the end is that of the last
+/// 1/(1 - margin) before it is unstable. Negative if some z is unstable: then the end is the end of the last
 /// window which holds z before it; minus infinity if there is none.
 double stability_margin(const std::vector<stability_window>& windows, double low, double high);
 

@@ -119,9 +119,9 @@ struct resonance {
 /// as resonance_distance or a few times nearer.
 inline constexpr std::int64_t long_run = 10'000;
 /// The share of k pi that the phase of a step should keep from k pi in long runs. On the FPU chain (omega =
-/// 50) the largest energy error of 20 000 steps was, over that of the first tenth of them, 1.0 to 1.5 for
-/// learned fg4 up to 16 % below 2 pi, 1.6 at 10 %, 2.1 at 7 % and 3 at 10 % above; for learned aba6 1.0 at 28
-/// %, 3 at 13 %.
+/// 50) the largest energy error of 20 000 steps was, over the largest of the first tenth of the steps, 1.0
+/// to 1.5 for learned fg4 up to 16 % below 2 pi, 1.6 at 10 %, 2.1 at 7 % and 3 at 10 % above; for learned
+/// aba6 1.0 at 28 %, 3 at 13 %.
 inline constexpr double resonance_distance = 0.1;
 
 /// The first resonance of a band that does not begin at zero, of a word whose step has nearly the phase h
@@ -179,9 +179,9 @@ struct symplectic_spectrum {
   bool is_on_circle() const { return growth <= rounding; }
 };
 
-/// The spectrum of a symplectic matrix. Infinite growth of one that is not finite; of no rows that of no
-/// eigenvalues, a growth of 0 and a distance of pi. Throws
-/// std::invalid_argument unless it is square with an even number of rows. Cost: its eigenvectors.
+/// The spectrum of a symplectic matrix. Infinite growth of a matrix that is not finite; of a matrix without
+/// rows the spectrum of no eigenvalues, a growth of 0 and a distance of pi. Throws std::invalid_argument
+/// unless it is square with an even number of rows. Cost: its eigenvectors.
 symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step);
 
 /// Largest |M^n| over the powers of two n <= steps, which is that over all n <= steps to a factor 2/sqrt(3)

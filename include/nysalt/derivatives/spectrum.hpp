@@ -17,8 +17,8 @@
 namespace nysalt::detail {
 
 /// The length of each coordinate, from where points are: the distance between the lowest and the highest. Of
-/// a coordinate that does not move that of the one that moves farthest; if none does how far all are from the
-/// origin, and 1 if they are there.
+/// a coordinate that does not move, the length of the coordinate that moves farthest; if none moves, how far
+/// all are from the origin, and 1 if they are there.
 Eigen::VectorXd lengths_of(const std::vector<Eigen::VectorXd>& points);
 
 /// A factor L of K''(p) = L L^T; empty where K''(p) is not positive semidefinite.
@@ -48,7 +48,7 @@ class force_jacobian {
  private:
   model system_;
   field field_;
-  bool differs_;  // by differences whose length is that of a displacement
+  bool differs_;  // by differences as long as a displacement
   lifted_room<double, Eigen::Dynamic> room_;
   Eigen::VectorXd q_;
   Eigen::VectorXd v_;
@@ -140,7 +140,7 @@ inline constexpr Eigen::Index most_for_all_frequencies = 64;
 
 /// All frequencies of each state of a system of at most most_for_all_frequencies degrees of freedom; of a
 /// larger one with a quadratic kinetic energy the highest, known to 1 %; else none. Throws what
-/// frequencies_at() and hessian_spectrum() do. Cost: of each state that of frequencies_at(), or 8 to 40
+/// frequencies_at() and hessian_spectrum() do. Cost: for each state one frequencies_at(), or 8 to 40
 /// directional derivatives.
 frequencies_along frequencies_of_states(const model& system, const phase_points& states);
 

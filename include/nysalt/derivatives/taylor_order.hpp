@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The order of a method, exactly: where the Taylor expansion of one step leaves that of the flow.
+// The order of a method, exactly: where the Taylor expansion of one step leaves the expansion of the flow.
 #pragma once
 
 #include <array>
@@ -107,8 +107,8 @@ taylor_orders taylor_order_of(const std::vector<double>& coefficients, const com
 
 /// The orders of a word with coefficients that are known to ten decimals: one step on a generic system, and
 /// its flow, are expanded in powers of h and compared. Cost: as many steps in series as there are letters,
-/// some 2 ms for 23. The error of n steps of a processed word is that of P(-h) K^n P(h)^-1: it is the least
-/// order of one step and of none.
+/// some 2 ms for 23. The error of n steps of a processed word is the error of P(-h) K^n P(h)^-1: it is the
+/// least order of one step and of none.
 ///
 /// Words with rotations obey the order conditions of those with drifts: all that these use of K is that it is
 /// quadratic in p, and so is K with the quadratic part of V.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// A word whose kicks are those of parts of V, on the linearised motion.
+// A word that kicks with parts of V, on the linearised motion.
 #pragma once
 
 #include <Eigen/Core>

@@ -73,7 +73,7 @@ class struck_cluster {
 
 /// States of the FPU chain [li_lu_tao_ye_2023, equation (5.5)]: x_0 and y_0 as given, and x_1 = 1/omega +
 /// zeta, y_1 = 1 + eta, with zeta and eta normal of standard deviation spread/omega. The paper's spread, x_0
-/// and y_0 are 1: nearly harmonic states. Those of soft_dominated are not.
+/// and y_0 are 1: nearly harmonic states, which the states of soft_dominated are not.
 template <int Pairs>
 class fpu_law : public detail::in_dimension<detail::fpu_starts, fpu_chain<Pairs>::dimension> {
  public:

@@ -201,7 +201,8 @@ class long_trajectory {
 /// 0 of another ensemble [li_lu_tao_ye_2023]. They depend on each other as far as the trajectory remembers:
 /// of friction gamma it holds no more than about gamma T/2 independent ones, and without a burn-in its way
 /// down from the start stays among them; independent states of the invariant distribution are gibbs. On-step
-/// momenta are those of BAOAB, whose variance is low by (omega h)^2/4. Memory: the states that are kept.
+/// momenta have the distribution of BAOAB, whose variance is low by (omega h)^2/4. Memory: the states that
+/// are kept.
 template <int N>
 class one_long_trajectory : public detail::in_dimension<detail::long_trajectory, N> {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// States at which methods are judged: typical ones and those of high energy.
+// States at which methods are judged: typical states and states of high energy.
 #pragma once
 
 #include <cstddef>

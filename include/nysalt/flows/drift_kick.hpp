@@ -113,7 +113,7 @@ struct kick_of {
 
 /// B: the flow of V(q).
 using kick = kick_of<field::whole>;
-/// S: that of V without its quadratic part, whose flow is a rotation.
+/// S: the flow of V without its quadratic part, whose flow is a rotation.
 using soft_kick = kick_of<field::soft>;
 
 }  // namespace nysalt

@@ -22,7 +22,7 @@ namespace nysalt {
 ///   static void apply(const S& system, const C& t, State& x, auto& room);     x.q and x.p over the time t =
 ///   c h
 /// over any scalar, and hides what is not so. check_letter() tests each of these claims. The character must
-/// be that of no known letter: lower case and digits are free. The system declares its letters as
+/// be the name of no known letter: lower case and digits are free. The system declares its letters as
 /// `using letters = std::tuple<...>`, or is wrapped in with_letters.
 template <char Letter>
 struct exact_flow {

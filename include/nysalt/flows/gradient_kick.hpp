@@ -31,7 +31,7 @@ struct displaced_kick {
   static constexpr bool additive = false;
   static constexpr splitting splits = splitting::kinetic_and_potential;
   static constexpr bool symplectic = false;
-  static constexpr bool invertible = false;  // its inverse is that of -b and the same c
+  static constexpr bool invertible = false;  // the inverse has -b and the same c
   using same_order_as = displaced_kick;
   static constexpr const char* needs = "the letter D needs a quadratic kinetic energy";
 
@@ -126,7 +126,8 @@ struct gradient_kick_of {
 
 /// G: with the whole force.
 using gradient_kick = gradient_kick_of<field::whole>;
-/// H: with that of V without its quadratic part, which commutes with V_soft as all that depends on q does.
+/// H: with the force of V without its quadratic part, which commutes with V_soft as all that depends on q
+/// does.
 using soft_gradient_kick = gradient_kick_of<field::soft>;
 
 }  // namespace nysalt

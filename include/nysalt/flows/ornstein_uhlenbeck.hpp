@@ -13,7 +13,7 @@ namespace nysalt {
 
 /// O: the flow of the bath over t = c h, dp = -gamma p dt + sigma M^{1/2} dW, exactly:
 ///   p <- e^{-gamma t} p + s M^{1/2} xi,  s^2 = sigma^2 (1 - e^{-2 gamma t})/(2 gamma),  xi standard normal
-/// [leimkuhler_matthews_2015]. Its noise is that of the interval of the step which it covers: the
+/// [leimkuhler_matthews_2015]. Its noise is the noise of the interval of the step which it covers: the
 /// letters O of a word share the step in their order.
 struct ornstein_uhlenbeck {
   static constexpr char letter = bath_letter;
@@ -21,7 +21,7 @@ struct ornstein_uhlenbeck {
   static constexpr field reads = field::none;
   static constexpr int force_derivatives = 0;
   static constexpr bool moves_q = false;
-  static constexpr bool additive = false;  // the noise of two is not that of one
+  static constexpr bool additive = false;  // two letters draw other noise than one
   static constexpr bool stochastic = true;
   static constexpr splitting splits = splitting::any;
   static constexpr bool invertible = false;

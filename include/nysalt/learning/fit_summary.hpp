@@ -38,7 +38,7 @@ struct fit_summary {
   std::string system;               ///< description of the system
   std::string reference;            ///< description of the reference that made the data
   std::string ensemble;             ///< description of the ensemble that the data start from
-  std::string coordinates;          ///< qp, modes or energy: those of the metric
+  std::string coordinates;          ///< qp, modes or energy: coordinates of the metric
   std::string derivatives;          ///< origin of the derivatives of the force
   double step = 0.0;                ///< step h of the data
   std::uint64_t seed = 0;           ///< seed of the data

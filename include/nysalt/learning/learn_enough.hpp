@@ -29,7 +29,7 @@ struct enough_course {
     double deciding;            ///< trajectories that the share rests on
   };
   bool is_reached = false;  ///< whether the last fit is good enough
-  std::vector<stop> stops;  ///< the last is that of the fit
+  std::vector<stop> stops;  ///< the last belongs to the fit
 
   /// A sentence with the numbers.
   std::string report() const;
@@ -40,7 +40,7 @@ struct enough_course {
 /// M ends between enough and twice that. It is an estimate itself, off by a fifth from 50 trajectories: begin
 /// with some tens. Where it rests on less than ten of them it does not count. Where it has no estimate, as
 /// where the guard holds the parameters, it stops at once. Throws std::invalid_argument unless 0 < share, and
-/// 2 <= first <= most. Cost: twice that of the last fit.
+/// 2 <= first <= most. Cost: twice the cost of the last fit.
 enough_course until_enough(std::int64_t first, const enough_options& options,
                            const std::function<fit_summary(std::int64_t trajectories)>& learn);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// How far a fit reaches: energies outside of those of its data, another size of the system, other steps.
+// How far a fit reaches: energies outside the energies of its data, another size of the system, other steps.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,9 +27,10 @@ namespace nysalt {
 ///
 /// A few always have. If all are of one distribution, their n + M energies are in any order equally likely,
 /// and the number outside is beta-binomial [n; 2, M - 1], 2 n/(M + 1) in the mean. How far the largest of n
-/// passes that of M depends on the distribution; where that falls exponentially, as Gibbs distributions do,
-/// or faster, it is farther than t - 1 times the width of the range with a probability below n Gamma(1 + t)
-/// M!/ Gamma(M + 1 + t). Chance is left aside if it would do this once in a thousand times.
+/// passes the largest of M depends on the distribution; where that falls exponentially, as Gibbs
+/// distributions do, or faster, it is farther than t - 1 times the width of the range with a probability
+/// below n Gamma(1 + t) M!/ Gamma(M + 1 + t). Chance is left aside if it would do this once in a thousand
+/// times.
 struct energies_outside {
   static constexpr double chance = 1e-3;  ///< a probability below which chance is left aside
 
@@ -74,7 +75,7 @@ inline energies_outside count_outside(const energy_range& seen, std::size_t traj
 
 /// A method that was learned for one size of a kind of system, as a method for this size, if it holds there
 /// by judge(). Throws std::invalid_argument if the systems are not of one kind, see kind_of(), or the method
-/// does not hold. Cost: that of judge(); none where the method was learned for this very system.
+/// does not hold. Cost: one judge(); none where the method was learned for this very system.
 tabulated at_size_of(const model& system, const tabulated& learned, const initial_states& starts,
                      const judging_options& options = {});
 

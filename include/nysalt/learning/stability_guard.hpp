@@ -21,8 +21,8 @@
 namespace nysalt {
 
 /// Frequencies of a stability criterion: all that were met, or those that are declared or met in a tenth of
-/// the states. A rare one lasts for a part of its period, as that of a close pair of atoms; what it does to a
-/// run only a trial run shows.
+/// the states. A rare one lasts for a part of its period, as the frequency of a close pair of atoms; what it
+/// does to a run only a trial run shows.
 enum class met { ever, often };
 
 /// Knows the frequencies of a system: the union of its frequency_bands() and of the frequencies of its
@@ -45,16 +45,16 @@ class stability_guard {
   static constexpr double widened = 0.02;
 
   /// Bounds growth over this number of steps: less than a factor e is admitted. Of words with rotations, if
-  /// there will be some, only where there are states. Cost: that of frequencies_of_states(), and twice that
-  /// where a quadratic part is. Throws what that does, and std::invalid_argument if no bands are declared and
-  /// there are no states.
+  /// there will be some, only where there are states. Cost: one frequencies_of_states(), or two
+  /// where the system has a quadratic part. Throws what frequencies_of_states() does, and
+  /// std::invalid_argument if no bands are declared and there are no states.
   ///
   /// The first `typical` states show what is met often; those after them were chosen as extreme.
   stability_guard(const model& system, const phase_points& states, bool rotations = true,
                   std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max());
 
   /// A guard for one word, whose letters are examined where they are kicks of parts. Cost: beside, of such a
-  /// word, that of word_on_parts.
+  /// word, one word_on_parts.
   stability_guard(const model& system, const phase_points& states, const nysalt::word& word,
                   std::int64_t steps = 10'000, std::size_t typical = std::numeric_limits<std::size_t>::max());
 
@@ -70,7 +70,7 @@ class stability_guard {
                         met which = met::ever) const;
 
   /// Unstable intervals of z = step omega between 0 and the system's highest frequency: outside its bands, if
-  /// the word is admitted. None for words with rotations. Cost: that of stability_windows().
+  /// the word is admitted. None for words with rotations. Cost: one stability_windows().
   std::vector<stability_window> gaps(const nysalt::word& word, const std::vector<double>& coefficients,
                                      double step) const;
 
@@ -105,7 +105,7 @@ class stability_guard {
   }  ///< highest frequency along the states; 0 if not known
   /// Number of the state with that frequency.
   std::size_t state_of_highest() const { return state_of_highest_; }
-  /// Frequencies on which words with rotations are watched: none, or those of the quadratic part.
+  /// Frequencies on which words with rotations are watched: none, or the frequencies of the quadratic part.
   const std::vector<double>& modes() const { return modes_; }
   /// The linearised motion of a word with kicks of parts; null for other words, and for a guard without a
   /// word.

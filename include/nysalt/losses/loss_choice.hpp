@@ -21,7 +21,7 @@ namespace nysalt {
 /// Numbers of steps after which an error counts.
 struct after_steps_options {
   std::vector<int> steps{1};  ///< rising numbers; the last is the length K of a window
-  int apart = 1;              ///< steps from the beginning of one window to that of the next
+  int apart = 1;              ///< steps from the beginning of one window to the beginning of the next
   int every = 1;              ///< trajectory counts whose number this divides
   int threads = 1;            ///< changes no bit
 };
@@ -52,8 +52,7 @@ struct loss_kind {
   bool needs_bath = false;   ///< whether the loss needs a bath with friction and temperature
   judge_of_minima judge = judge_of_minima::held_out_loss;  ///< criterion that chooses among several minima
   bool is_of_energy_norm = false;  ///< errors count in the energy coordinates where these exist, else in qp
-  bool is_of_proposals =
-      false;  ///< trajectories are proposals: no run takes more steps than those of the data
+  bool is_of_proposals = false;    ///< trajectories are proposals: no run takes more steps than the data have
   bool is_for_sampling = false;  ///< whether words that are only volume-preserving may be learned by the loss
   bool is_shortened = false;     ///< over a quarter of the steps, and again, where no method follows the data
   /// Numbers of steps after which errors count, in trajectories of `shortest` steps or more: what a search
@@ -73,7 +72,7 @@ std::span<const std::shared_ptr<const loss_kind>> losses();
 
 // Choice of a loss to learn with.
 
-/// A loss and its number of steps; by default that of trajectories.
+/// A loss and its number of steps; by default the loss `trajectory`.
 struct loss_choice {
   std::shared_ptr<const loss_kind> kind = losses().front();  ///< kind of the loss
   int steps = 1;  ///< K; of no account where the kind counts no steps
@@ -84,7 +83,7 @@ struct loss_choice {
   std::string description() const;
 };
 
-/// The default loss: that of trajectories; in a bath that of one step, as
+/// The default loss: `trajectory`; in a bath the loss of one step, as
 /// friction and noise make an end of phases, and what trajectories gain in phase they lose in the
 /// distribution of energies.
 loss_choice usual_loss(const bath& around);

@@ -47,7 +47,7 @@ class loss_on_data {
   /// residual. Cost: one pass over the data with derivatives.
   virtual std::vector<Eigen::MatrixXd> gradients(const Eigen::VectorXd& theta) const = 0;
   virtual std::size_t residuals() const = 0;  ///< number of residuals of a window, at all of its times
-  /// Whether the weights of the residuals are those of a metric, which are estimates from the data.
+  /// Whether the weights of the residuals come from a metric, which estimates them from the data.
   virtual bool has_estimated_weights() const = 0;
   /// The same loss, over the same data, of another family. The letters O of both words are at the same
   /// places.

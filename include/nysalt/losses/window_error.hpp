@@ -169,11 +169,11 @@ window_error<R> energy_error(const model& system, const flow_map_data& data) {
 /// A window goes from `start`; the method ends it at `finish`, the data at `wanted`. T is any scalar: in it
 /// go derivatives by theta, and windows in lanes, so a function is written as a system's potential is.
 /// It returns a T, a std::array<T, n> or a vector<T, n>; n may be Eigen::Dynamic, and is then the same for
-/// all states, those of zeros too. What is not finite makes the search turn back. Weights are the function's
-/// own, given and not estimated. It is called from several threads at a time.
+/// all states, also for states of zeros. What is not finite makes the search turn back. Weights are the
+/// function's own, given and not estimated. It is called from several threads at a time.
 template <class Error>
 struct own_loss {
-  std::string name;  ///< name in a fit_summary, followed by K: one line, unlike that of any other loss
+  std::string name;  ///< name in a fit_summary, followed by K: one line, unlike the name of any other loss
   int steps;         ///< K, steps of a window
   Error error;       ///< error(start, finish, wanted): the residuals
 

@@ -234,8 +234,8 @@ using bcss2v = classical<"bcss2v">;
 using bcss3 = classical<"bcss3">;
 /// B A B A B A B A B with the least energy error on oscillators up to z = 4: order 2, four evaluations.
 using bcss4 = classical<"bcss4">;
-/// The word of bcss3 with the least error on oscillators as z -> 0, where that of energy is of fourth order:
-/// order 2, three evaluations.
+/// The word of bcss3 with the least error on oscillators as z -> 0, where the energy error is of fourth
+/// order: order 2, three evaluations.
 using predescu3 = classical<"predescu3">;
 
 /// Three steps of position Verlet, of the lengths w, 1 - 2w and w with w = 1/(2 - 2^(1/3)):

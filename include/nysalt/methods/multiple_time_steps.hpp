@@ -54,10 +54,11 @@ template <std::size_t Fast, std::size_t Slow, std::size_t Inner, std::size_t Out
 inline constexpr word nested_word =
     detail::nest_kicks<Fast, Slow, Inner>(std::make_index_sequence<2 * Inner * Outer + 1>());
 
-/// r-RESPA and its kin: a nested_word whose coefficients read the same from both ends, those of drifts, of
-/// Fast and of Slow adding up to one each. Parameters are the free drifts from the left, then the free kicks
-/// of Fast, then those of Slow. Symmetric, of order 2. The start is r-RESPA, `Outer` steps of it. A step
-/// costs Inner Outer evaluations of Fast and Outer of Slow. Source: [tuckerman_berne_martyna_1992].
+/// r-RESPA and its kin: a nested_word whose coefficients read the same from both ends, the coefficients of
+/// drifts, of Fast and of Slow adding up to one each. Parameters are the free drifts from the left, then the
+/// free kicks of Fast, then the free kicks of Slow. Symmetric, of order 2. The start is r-RESPA, `Outer`
+/// steps of it. A step costs Inner Outer evaluations of Fast and Outer of Slow. Source:
+/// [tuckerman_berne_martyna_1992].
 template <std::size_t Fast, std::size_t Slow, int Inner, int Outer = 1>
   requires(Inner >= 1 && Outer >= 1 && Inner < 10 && Outer < 10 && Inner * Outer >= 2)
 struct nested_kicks : composition<(Inner * Outer - 1) / 2 + Inner * Outer / 2 + Outer / 2> {

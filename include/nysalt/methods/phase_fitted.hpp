@@ -22,8 +22,8 @@ namespace nysalt::detail {
 Eigen::VectorXd defect_of_rotation(const word& letters, const std::vector<double>& coefficients,
                                    bool symmetric, double x);
 
-/// d defect_i / d theta_k. The matrix of a word is affine in each coefficient (but those of rotations), so
-/// that a difference over a step of 1 is the derivative.
+/// d defect_i / d theta_k. The matrix of a word is affine in each coefficient (but not in coefficients of
+/// rotations), so that a difference over a step of 1 is the derivative.
 Eigen::MatrixXd jacobian_of_defect(const run_time_family& family, const Eigen::VectorXd& theta, double x);
 
 /// Result of a continuation.
@@ -55,8 +55,8 @@ std::optional<named_parameters> phase_fitted_start(const run_time_family& family
 /// called phase-fitted and amplification-fitted [van_de_vyver_2007]; exponentially or trigonometrically
 /// fitted where they are built from the functions that they keep [simos_vigo_aguiar_2003;
 /// monovasilis_kalogiratou_simos_2013]. Of the parameters with that property they are those nearest to the
-/// method's own, which they become as z -> 0. Hence the order is that of the method if h -> 0 at a fixed omega;
-/// at a fixed z it is 2.
+/// method's own, which they become as z -> 0. Hence the order is the order of the method if h -> 0 at a fixed
+/// omega; at a fixed z it is 2.
 ///
 /// The frequency must be known; no data are needed. Of BAGAB (fg_chin) they have a closed form,
 ///   b = 2/z^2 - cot(z/2)/z,  c = ((1 - 2 b) z^2 - 4 (1 - sin z/z))/(2 z^4).
@@ -64,16 +64,16 @@ std::optional<named_parameters> phase_fitted_start(const run_time_family& family
 /// Others follow from z = 0 by Newton's method until their coefficients have no real continuation.
 ///
 /// Throws std::invalid_argument unless the family is symmetric, with two parameters or more and without
-/// rotations, and the method one of its starts, of order 4 or more; unless z is positive and finite, and below
-/// the end of the coefficients. Cost: a millisecond; they are right to rounding.
+/// rotations, and the method one of its starts, of order 4 or more; unless z is positive and finite, and
+/// below the end of the coefficients. Cost: a millisecond; they are right to rounding.
 tabulated phase_fitted(const run_time_family& family, const tabulated& classical, double z);
 
 /// Source of phase_fitted() in docs/bibliography.bib.
 inline constexpr std::string_view phase_fitted_source = "van_de_vyver_2007";
 
 /// The highest frequency of the system's modes, or of its bands if it declares no modes; 0 where it has
-/// neither. (Bands have room for what soft forces add, which phases should not have.) phase_fitted() at |step|
-/// times it suits the system.
+/// neither. (Bands have room for what soft forces add, which phases should not have.) phase_fitted() at
+/// |step| times it suits the system.
 double frequency_to_fit(const model& system);
 
 }  // namespace nysalt

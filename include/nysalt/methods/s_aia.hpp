@@ -52,8 +52,8 @@ class s_aia2 : public tabulated {
 /// [blanes_casas_sanz_serna_2014]; b is found along it as the a of s_aia2
 /// [nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024].
 ///
-/// b grows from that of predescu3 at highest_z = 0 over BCSS' 0.11888 at 3 to 1/6 at sqrt 27. From there to 6
-/// it stays 1/6, which is three equal steps of velocity Verlet: all others are unstable before sqrt 27.
+/// b grows from the b of predescu3 at highest_z = 0 over BCSS' 0.11888 at 3 to 1/6 at sqrt 27. From there to
+/// 6 it stays 1/6, which is three equal steps of velocity Verlet: all others are unstable before sqrt 27.
 class s_aia3 : public tabulated {
  public:
   static constexpr std::string_view source = "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024";

@@ -133,9 +133,9 @@ class words {
 // Random bits as a function of a counter and a key.
 
 /// Philox 4x32-10 [salmon_2011] in every lane: ten rounds of two products each; the multipliers and the
-/// increments of the key are those of its authors' library Random123. The counter's four words of 32 bits
-/// lie in lower halves; upper halves, the key's too, hold what they like and are of no account. If w are the
-/// four words that come out, the result is {w[0] 2^32 + w[1], w[2] 2^32 + w[3]}.
+/// increments of the key are the same as in its authors' library Random123. The counter's four words of 32
+/// bits lie in lower halves; upper halves, the key's too, hold what they like and are of no account. If w are
+/// the four words that come out, the result is {w[0] 2^32 + w[1], w[2] 2^32 + w[3]}.
 [[gnu::always_inline]] inline std::array<words, 2> philox(std::array<words, 4> counter, std::uint64_t key) {
   constexpr int rounds = 10;
   std::uint64_t first_key = key;
@@ -211,8 +211,8 @@ struct sine_and_cosine {
   return minus_two_log(one_to_two - (1.0 - 0x1p-53));
 }
 
-/// The pair: the upper 51 bits choose a direction of the quarter around that of x, symmetric and never its
-/// middle; the lowest bit turns the pair by half a turn, the next one reflects it in the diagonal.
+/// The pair: the upper 51 bits choose a direction of the quarter around the direction of x, symmetric and
+/// never its middle; the lowest bit turns the pair by half a turn, the next one reflects it in the diagonal.
 [[gnu::always_inline]] inline std::array<pack<double>, 2> normal_pair(const pack<double>& squared_distance,
                                                                       const words& bits) {
   const pack<double> one_to_two = ((bits >> 12) | (bits_of_one + 1)).as_doubles();

@@ -18,8 +18,8 @@
 
 namespace nysalt {
 
-/// Standard normal numbers of n consecutive intervals become those of all of them in one: with a the decay of
-/// one interval, exp(-gamma tau),
+/// Standard normal numbers of n consecutive intervals become the numbers of all of them in one: with a the
+/// decay of one interval, exp(-gamma tau),
 ///   xi = sqrt((1 - a^2)/(1 - a^{2 n})) sum_{j = 1..n} a^{n - j} xi_j,
 /// so that the noise of O is the same exactly, for any sigma [li_lu_tao_ye_2023, equation (3.11), with the
 /// exponent that does not reverse time].
@@ -28,7 +28,8 @@ class coarse_graining {
   /// `damping` is gamma tau of one interval.
   explicit coarse_graining(double damping) : damping_(damping), decay_(std::exp(-damping)) {}
 
-  /// Interval by interval: first() clears the sum, next() adds, and last() brings that of n to unit variance.
+  /// Interval by interval: first() clears the sum, next() adds, and last() brings the sum of n to unit
+  /// variance.
   template <class T, int N>
   static void first(vector<T, N>& sum) {
     for (T& x : sum) x = T(0.0);
@@ -97,8 +98,8 @@ class recorded_path {
     begin_ = known;
   }
 
-  /// The numbers of intervals from .. to - 1 made those of one. Throws std::invalid_argument if they are not
-  /// held.
+  /// The numbers of intervals from .. to - 1 made the numbers of one. Throws std::invalid_argument if they
+  /// are not held.
   void over(std::int64_t from, std::int64_t to, vector<T, N>& xi) const {
     if (from < begin_ || to > end()) {
       throw std::invalid_argument(
@@ -119,8 +120,8 @@ class recorded_path {
   std::vector<vector<T, N>> normals_;
 };
 
-/// The noise of a recorded path for the letters O of a method: that of each letter O over its own part of the
-/// step, halves included. Refers to the path.
+/// The noise of a recorded path for the letters O of a method: each letter O has the noise of its own part of
+/// the step, halves included. Refers to the path.
 template <class T, int N>
 class along_path {
  public:

@@ -21,7 +21,7 @@ namespace nysalt {
 
 /// Boost.Odeint's Runge-Kutta-Fehlberg 7(8) with step control [ahnert_mulansky_2011]: absolute and relative
 /// error of a step below the stated tolerance. For any kinetic energy, and independent of our own steps. In a
-/// bath of friction without noise it is that of the damped motion.
+/// bath of friction without noise it is the flow of the damped motion.
 class odeint_reference {
  public:
   /// Throws std::invalid_argument unless 0 < tolerance < 1.
@@ -99,7 +99,7 @@ class odeint_reference {
 ///
 /// Odeint hands the state out after each step and may change it, so every step is a plain one: nothing is
 /// merged, and a word that begins and ends with a kick costs one evaluation more than in our own loop.
-/// A tuned method checks at each step that it may take the step.
+/// A learned method checks at each step that it may take the step.
 class odeint_stepper {
  public:
   using value_type = double;                                     ///< value type, as Odeint requires

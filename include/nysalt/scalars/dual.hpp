@@ -125,7 +125,7 @@ struct dual {
   }
   [[gnu::always_inline]] friend dual operator/(double c, const dual& a) { return dual(c) / a; }
 
-  // Order is that of the values: a branch is taken as it would be without derivatives.
+  // Numbers are ordered by their values: a branch is taken as it would be without derivatives.
   friend auto operator<(const dual& a, const dual& b) { return a.value < b.value; }
   friend auto operator<=(const dual& a, const dual& b) { return a.value <= b.value; }
   friend auto operator>(const dual& a, const dual& b) { return a.value > b.value; }

@@ -278,7 +278,7 @@ pack<double, W> sqrt(const pack<double, W>& a) {
 }
 template <int W>
 pack<double, W> abs(const pack<double, W>& a) {
-  return select(a < 0.0, -a, a + 0.0);  // + 0.0: that of -0 is 0
+  return select(a < 0.0, -a, a + 0.0);  // + 0.0 makes 0 of -0
 }
 
 namespace detail {

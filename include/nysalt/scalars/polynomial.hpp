@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Polynomials by coefficients of powers, and by those of Bernstein's basis, between which their values lie.
+// Polynomials by coefficients of powers, and by Bernstein coefficients, between which their values lie.
 #pragma once
 
 #include <algorithm>

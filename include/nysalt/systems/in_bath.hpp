@@ -12,7 +12,8 @@
 namespace nysalt {
 
 namespace detail {
-/// Those of the system, at the temperature of the bath if the system has frequency_bands_at(temperature).
+/// The frequency bands of the system, at the temperature of the bath if the system has
+/// frequency_bands_at(temperature).
 template <HasFrequencyBands S>
 std::vector<frequency_band> frequency_bands_in(const S& system, const bath& in) {
   if constexpr (requires { system.frequency_bands_at(1.0); }) {

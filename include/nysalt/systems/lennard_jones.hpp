@@ -173,7 +173,7 @@ class growing_cluster {
   }
 
   /// Goes down the force until none is larger than `rest`. An atom feels a stiffness of a few times V'' = 57,
-  /// that of a pair: steps of this factor do not overshoot.
+  /// the stiffness of a pair: steps of this factor do not overshoot.
   void relax(double rest) {
     constexpr double factor = 1e-3;
     constexpr int most_steps = 100'000;

@@ -108,7 +108,7 @@ class logistic_regression {
     return sum;
   }
 
-  /// Upper bound of the largest eigenvalue of X^T X, which is that of X X^T: the largest sum of a row's
+  /// Upper bound of the largest eigenvalue of X^T X, which X X^T has, too: the largest sum of a row's
   /// magnitudes in the smaller of the two.
   static double bound_of_eigenvalues(const Eigen::MatrixXd& x) {
     const Eigen::MatrixXd products =

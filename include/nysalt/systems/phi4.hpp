@@ -122,7 +122,7 @@ class phi4_chain {
   static constexpr double usual_well_energy = 0.5 * 5.0 * 5.0 + 0.25 * 2.5 * 2.5 * 2.5 * 2.5;
 
   /// While each well holds an energy up to `well_energy`: its stiffness is 3 q^2 = 6 sqrt(energy) then, and
-  /// that of the springs at most 4.
+  /// the stiffness of the springs at most 4.
   std::vector<frequency_band> frequency_bands(double well_energy = usual_well_energy) const {
     return {{0.0, std::sqrt(4.0 + 6.0 * std::sqrt(well_energy))}};
   }

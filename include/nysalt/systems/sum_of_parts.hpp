@@ -19,8 +19,8 @@
 namespace nysalt {
 
 /// H = K + V_0 + V_1 + ...: each part is a system itself, of the same dimension, with a force or a potential
-/// V_i; K is that of the first. So every word of K and V steps it, and the letters kick_of_part and
-/// kick_of_parts, see flows/exact_flow.hpp, kick with the force of one part. Its forces are templates
+/// V_i; K is the kinetic energy of the first. So every word of K and V steps it, and the letters kick_of_part
+/// and kick_of_parts, see flows/exact_flow.hpp, kick with the force of one part. Its forces are templates
 /// over the scalar, no black boxes.
 template <System First, System... Rest>
   requires((Rest::dimension == First::dimension) && ...)

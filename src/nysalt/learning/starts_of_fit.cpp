@@ -76,8 +76,8 @@ std::vector<Eigen::Index> free_parameters(const run_time_family& family, const f
 
 namespace {
 
-/// Those of the effort where a search goes in stages, else none; of a black box, whose cost is not known,
-/// few.
+/// The number of the effort where a search goes in stages, else none; of a black box, whose cost is not
+/// known, few.
 int usual_random_starts(const learning_problem& problem, effort how_much, std::size_t free) {
   if (problem.stages.empty()) return 0;
   if (is_black_box(problem.system)) return 4;

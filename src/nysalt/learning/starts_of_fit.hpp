@@ -26,8 +26,8 @@ void fix(const fit_options& options, Eigen::VectorXd& theta);
 /// The numbers of the parameters that are to be learned.
 std::vector<Eigen::Index> free_parameters(const run_time_family& family, const fit_options& options);
 
-/// Those of the family or the one that was asked for, further ones, and random ones. Of `problem` only what
-/// is known of the system and the data counts.
+/// The starts of the family or the start that was asked for, further starts, and random ones. Of `problem`
+/// only what is known of the system and the data counts.
 std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
                                         const learning_problem& problem,
                                         const std::vector<Eigen::Index>& free);

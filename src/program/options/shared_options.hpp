@@ -12,7 +12,7 @@ namespace nysalt::program {
 
 /// --version and --config, which belong to a program, and the width of its help.
 void add_of_program(CLI::App& program);
-/// Those of every command.
+/// The options of every command.
 void add_common(CLI::App& command, common_settings& common);
 void add_force(CLI::App& command, common_settings& common, const char* what);
 
