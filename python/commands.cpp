@@ -148,7 +148,8 @@ std::string export_method(const py::dict& arguments) {
   asked.take("step", how.step);
   asked.take("placement", how.placement);
   asked.take("displaced", how.displaced);
-  return program::export_text(host, template_file, program::exported_from(program::find_method(method, held), how));
+  return program::export_text(host, template_file,
+                              program::exported_from(program::find_method(method, held), how));
 }
 
 void save(const std::string& path, const std::string& text) {

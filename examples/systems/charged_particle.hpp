@@ -227,7 +227,9 @@ inline tabulated boris() {
 /// Half a helix, an electric kick, half a helix: symplectic, of order 2, one electric force, and exact
 /// without an electric field.
 inline tabulated cyclotron_verlet() {
-  return {"cyclotron_verlet", word_of<cyclotron_flow, kick_of_part<0>, cyclotron_flow>(), {0.5, 1.0, 0.5},
+  return {"cyclotron_verlet",
+          word_of<cyclotron_flow, kick_of_part<0>, cyclotron_flow>(),
+          {0.5, 1.0, 0.5},
           {2, true, false}};
 }
 

@@ -399,7 +399,9 @@ struct kepler_flow : exact_flow<'K'> {
 /// an error of the size of the masses of the planets times h^2. One evaluation of the interaction and one
 /// Kepler motion of each planet a step, of a solar_system. Source: [wisdom_holman_1991].
 inline tabulated wisdom_holman() {
-  return {"wisdom_holman", word_of<kick_of_part<1>, kepler_flow, kick_of_part<1>>(), {0.5, 1.0, 0.5},
+  return {"wisdom_holman",
+          word_of<kick_of_part<1>, kepler_flow, kick_of_part<1>>(),
+          {0.5, 1.0, 0.5},
           {2, true, false}};
 }
 

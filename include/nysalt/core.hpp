@@ -3,15 +3,15 @@
 #pragma once
 
 #include "nysalt/bath.hpp"
-#include "nysalt/derivatives/properties.hpp"
 #include "nysalt/core/lockstep.hpp"
+#include "nysalt/derivatives/properties.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/gradient_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/langevin.hpp"
-#include "nysalt/methods/classical.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/scalars/pack.hpp"

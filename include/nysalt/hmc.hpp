@@ -40,8 +40,8 @@ struct hmc_options {
   /// unit of time of these masses, which step and length are in, coordinates that do not depend on each other
   /// have the frequency 1. Needs `acceptance`.
   bool diagonal_masses = false;
-  std::uint64_t seed = 1;  ///< seed of starts and chains
-  int threads = 1;         ///< changes no bit
+  std::uint64_t seed = 1;                 ///< seed of starts and chains
+  int threads = 1;                        ///< changes no bit
   progress_callback progress = {};        ///< counts trajectories of all chains
   const communicator* ranks = &one_rank;  ///< ranks that share the chains; changes no bit
   std::int64_t keep_every = 0;  ///< trajectories of a chain between two calls of `keep`; 0: it is not called

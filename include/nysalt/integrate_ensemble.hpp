@@ -22,13 +22,13 @@ namespace nysalt {
 
 /// Number, length, seed and threads of the trajectories of an ensemble.
 struct ensemble_options {
-  std::int64_t trajectories = 100;  ///< number of trajectories
-  std::int64_t steps = 1000;        ///< steps of each trajectory
-  std::int64_t every = 1;           ///< steps between observations
-  std::uint64_t seed = 1;           ///< seed of the starts
-  int threads = 1;                  ///< changes no bit
-  std::int64_t first = 0;           ///< number of the first trajectory
-  progress_callback progress = {};  ///< called after each block
+  std::int64_t trajectories = 100;        ///< number of trajectories
+  std::int64_t steps = 1000;              ///< steps of each trajectory
+  std::int64_t every = 1;                 ///< steps between observations
+  std::uint64_t seed = 1;                 ///< seed of the starts
+  int threads = 1;                        ///< changes no bit
+  std::int64_t first = 0;                 ///< number of the first trajectory
+  progress_callback progress = {};        ///< called after each block
   const communicator* ranks = &one_rank;  ///< ranks that share the trajectories; changes no bit
 };
 
@@ -105,8 +105,8 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
 /// trajectory after the other, or for all lanes at a time if it is marked by over_lanes; of trajectories that
 /// have diverged too, so it must bear any state.
 template <System S, Ensemble<S> E, class Observable, class Take>
-std::vector<std::optional<std::int64_t>> integrate_ensemble(const S& system, const tabulated& method, double step,
-                                                            const E& ensemble,
+std::vector<std::optional<std::int64_t>> integrate_ensemble(const S& system, const tabulated& method,
+                                                            double step, const E& ensemble,
                                                             const ensemble_options& options,
                                                             const Observable& observable, const Take& take) {
   const auto read = [&]<class T>(const phase_point<T, S::dimension>& x, std::span<T> number) {

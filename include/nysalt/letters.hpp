@@ -35,22 +35,22 @@ struct short_text {
 
 /// What a letter states of itself, as a value: what a word is made of.
 struct letter_facts {
-  char letter = '?';                       ///< name of the letter
-  std::size_t slots = 1;                   ///< number of coefficients
-  field reads = field::none;               ///< the force that must be known when the letter is applied
-  int power_of_second = 1;                 ///< power of h that goes with coefficients behind the first
-  int force_derivatives = 0;               ///< number of f'(q) v that the letter evaluates
-  int displaced_forces = 0;                ///< number of forces that the letter evaluates itself
-  bool moves_q = true;                     ///< whether a known force is stale afterwards
-  bool additive = true;                    ///< whether equal neighbours merge
-  bool symplectic = true;                  ///< whether the letter is a symplectic map
-  bool is_of_bath = false;                 ///< whether the letter is O
-  bool reads_modes = false;                ///< whether the letter is prepared with the modes of the system
-  splitting splits = splitting::any;       ///< the splitting of H that the letter belongs to
-  bool invertible = false;                 ///< whether negated coefficients take the letter back
-  bool reversible = true;                  ///< whether R letter R letter is the identity, R(q, p) = (q, -p)
-  short_text times{};                      ///< part of H whose time each coefficient is, a character for each
-  short_text parts{};                      ///< parts of V whose force the letter evaluates, a digit for each
+  char letter = '?';                  ///< name of the letter
+  std::size_t slots = 1;              ///< number of coefficients
+  field reads = field::none;          ///< the force that must be known when the letter is applied
+  int power_of_second = 1;            ///< power of h that goes with coefficients behind the first
+  int force_derivatives = 0;          ///< number of f'(q) v that the letter evaluates
+  int displaced_forces = 0;           ///< number of forces that the letter evaluates itself
+  bool moves_q = true;                ///< whether a known force is stale afterwards
+  bool additive = true;               ///< whether equal neighbours merge
+  bool symplectic = true;             ///< whether the letter is a symplectic map
+  bool is_of_bath = false;            ///< whether the letter is O
+  bool reads_modes = false;           ///< whether the letter is prepared with the modes of the system
+  splitting splits = splitting::any;  ///< the splitting of H that the letter belongs to
+  bool invertible = false;            ///< whether negated coefficients take the letter back
+  bool reversible = true;             ///< whether R letter R letter is the identity, R(q, p) = (q, -p)
+  short_text times{};                 ///< part of H whose time each coefficient is, a character for each
+  short_text parts{};                 ///< parts of V whose force the letter evaluates, a digit for each
 
   bool operator==(const letter_facts&) const = default;  ///< equal in all
 };
@@ -102,7 +102,7 @@ constexpr std::array<letter_facts, sizeof...(L)> facts_of_letters(const std::tup
 /// f(flow) for the flow of that letter among the given ones; false if there is none.
 template <class... L>
 [[gnu::always_inline]] inline bool with_letter([[maybe_unused]] char letter, std::tuple<L...>,
-                                                [[maybe_unused]] auto&& f) {
+                                               [[maybe_unused]] auto&& f) {
   return ((L::letter == letter && (f(L{}), true)) || ...);
 }
 
@@ -167,10 +167,9 @@ consteval bool have_different_names(const std::tuple<L...>*) {
 /// from S.
 template <System S, Flow... L>
 struct with_letters : S {
-  using letters =
-      decltype(std::tuple_cat(detail::letters_of<S>(),
-                              std::conditional_t<detail::is_among<L, detail::letters_of<S>>, std::tuple<>,
-                                                 std::tuple<L>>()...));
+  using letters = decltype(std::tuple_cat(
+      detail::letters_of<S>(),
+      std::conditional_t<detail::is_among<L, detail::letters_of<S>>, std::tuple<>, std::tuple<L>>()...));
   static_assert(detail::are_letters_of_users(static_cast<const std::tuple<L...>*>(nullptr)),
                 "nysalt: a letter of one's own takes a character that no known letter has");
   static_assert(detail::have_different_names(static_cast<const letters*>(nullptr)),

@@ -27,7 +27,7 @@ struct method_properties {
 struct method_validity {
   double step = 0.0;     ///< step of learning
   std::string system{};  ///< system of learning, as describe() returns it
-  std::string kind{};  ///< kind of that system, as kind_of() returns it; empty where unknown
+  std::string kind{};    ///< kind of that system, as kind_of() returns it; empty where unknown
   /// Energies of the training data; empty where they are not known.
   std::optional<energy_range> energies{};
 };
@@ -41,9 +41,9 @@ class tabulated : public method_properties {
   tabulated(std::string name, const word& letters, std::vector<double> coefficients,
             const method_properties& properties, std::optional<method_validity> validity = {});
 
-  const word& letters() const { return letters_; }                         ///< letters, in their order
+  const word& letters() const { return letters_; }                           ///< letters, in their order
   const std::vector<double>& coefficients() const { return coefficients_; }  ///< one for each slot
-  const std::string& name() const { return name_; }                        ///< name in tables
+  const std::string& name() const { return name_; }                          ///< name in tables
   /// Step and system of learning; empty of a method that was not learned.
   const std::optional<method_validity>& validity() const { return validity_; }
 
@@ -52,8 +52,7 @@ class tabulated : public method_properties {
   /// learning/reach.hpp computes whether that is chance.
   template <HasEnergy<double> S>
   bool has_seen(const S& system, const phase_point<double, S::dimension>& state) const {
-    return !validity_ || !validity_->energies ||
-           validity_->energies->contains(energy<double>(system, state));
+    return !validity_ || !validity_->energies || validity_->energies->contains(energy<double>(system, state));
   }
   /// The method without its validity: for any step and system.
   tabulated anywhere() const;
@@ -74,10 +73,10 @@ class tabulated : public method_properties {
 template <System S>
 void require_kinetic_energy_for(const tabulated& method, const S& system) {
   if (!method.requires_quadratic_kinetic || has_quadratic_kinetic(system)) return;
-  throw std::invalid_argument(sentence(
-      "{}: the kinetic energy must be quadratic for the order of the method, got that of {}; take a "
-      "method of any K(p), as blanes_moan_s10",
-      method.name(), describe(system)));
+  throw std::invalid_argument(
+      sentence("{}: the kinetic energy must be quadratic for the order of the method, got that of {}; take a "
+               "method of any K(p), as blanes_moan_s10",
+               method.name(), describe(system)));
 }
 
 /// The stepper of a method on a system, with the noise of its bath. Throws std::invalid_argument where the

@@ -109,8 +109,7 @@ class run_time_family {
   /// observed: a force evaluation for each pair.
   friend run_time_family processed(const run_time_family& kernel, int pairs);
 
-  friend run_time_family symmetric_word(std::string name, const word& letters,
-                                        const std::string& times);
+  friend run_time_family symmetric_word(std::string name, const word& letters, const std::string& times);
 
  private:
   /// `inner` has the same word, and the parameters here are the first coefficients of the word.

@@ -241,13 +241,14 @@ class stepper {
     if constexpr (may_be_noisy) {
       const bath& heat_bath = system_->bath();
       const Eigen::Index numbers = acts_ || dimension != Eigen::Dynamic ? size(*system_) : 0;
-      return noise_cursor<Noise, T, dimension, room>{&noise_,
-                                                     trajectory,
-                                                     step,
-                                                     stochastic_letters_,
-                                                     heat_bath.sigma() > 0.0,
-                                                     vector<T, dimension>(numbers),
-                                                     room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
+      return noise_cursor<Noise, T, dimension, room>{
+          &noise_,
+          trajectory,
+          step,
+          stochastic_letters_,
+          heat_bath.sigma() > 0.0,
+          vector<T, dimension>(numbers),
+          room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
     } else {
       return quiet_cursor<room>{room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
     }

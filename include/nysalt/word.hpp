@@ -141,24 +141,24 @@ class word {
 
   bool operator==(const word&) const = default;  ///< the same letters
 
-  std::array<char, most_letters> text{};             ///< letters, then zeros
-  std::size_t text_size = 0;                         ///< number of characters of the text
-  std::array<letter_facts, most_own> own_facts{};    ///< of own()
-  std::size_t own_count = 0;                         ///< number of letters of a system
-  std::size_t length = 0;                            ///< number of letters, without the processor's
-  std::size_t slots = 0;         ///< number of coefficients: first the kernel's, then the processor's
-  std::size_t kernel_slots = 0;  ///< number of coefficients without the processor
-  field reads = field::none;     ///< the force that the letters read
-  int force_derivatives = 0;     ///< f'(q) v in a step, one evaluation each
-  int displaced_forces = 0;      ///< forces at displaced points in a step
-  bool is_symplectic = true;     ///< whether every letter is symplectic
-  bool is_rotating = false;      ///< rotates()
-  bool reads_modes = false;      ///< whether the word has a letter R
-  bool merges = false;           ///< last and first letter are applied as one
-  bool merges_half_steps = false;     ///< first and last letter are of the bath
-  int stochastic_letters = 0;         ///< number of letters O
-  int evaluations_per_step = 0;       ///< force evaluations of a step of an open run
-  int evaluations_to_open = 0;        ///< force evaluations to open a run, with the evaluations of P(h)^-1
+  std::array<char, most_letters> text{};           ///< letters, then zeros
+  std::size_t text_size = 0;                       ///< number of characters of the text
+  std::array<letter_facts, most_own> own_facts{};  ///< of own()
+  std::size_t own_count = 0;                       ///< number of letters of a system
+  std::size_t length = 0;                          ///< number of letters, without the processor's
+  std::size_t slots = 0;           ///< number of coefficients: first the kernel's, then the processor's
+  std::size_t kernel_slots = 0;    ///< number of coefficients without the processor
+  field reads = field::none;       ///< the force that the letters read
+  int force_derivatives = 0;       ///< f'(q) v in a step, one evaluation each
+  int displaced_forces = 0;        ///< forces at displaced points in a step
+  bool is_symplectic = true;       ///< whether every letter is symplectic
+  bool is_rotating = false;        ///< rotates()
+  bool reads_modes = false;        ///< whether the word has a letter R
+  bool merges = false;             ///< last and first letter are applied as one
+  bool merges_half_steps = false;  ///< first and last letter are of the bath
+  int stochastic_letters = 0;      ///< number of letters O
+  int evaluations_per_step = 0;    ///< force evaluations of a step of an open run
+  int evaluations_to_open = 0;     ///< force evaluations to open a run, with the evaluations of P(h)^-1
   /// Force evaluations of each observation of a run: evaluations of P(-h), or of a first letter that is taken
   /// back and evaluates forces itself.
   int evaluations_to_observe = 0;
@@ -234,7 +234,8 @@ class word {
 
   /// A letter that does not find the force known evaluates it. Returns whether it is known after the last
   /// letter.
-  constexpr bool find_known(std::array<evaluation, most_letters>& found, std::size_t first, bool known) const {
+  constexpr bool find_known(std::array<evaluation, most_letters>& found, std::size_t first,
+                            bool known) const {
     for (std::size_t i = first; i < length; ++i) {
       const letter_facts& one = facts(i);
       const bool reads_force = one.reads != field::none;
@@ -261,7 +262,7 @@ template <Flow... L>
   requires(sizeof...(L) > 0)
 constexpr word word_of() {
   constexpr auto are_told_apart = []<class One>(std::type_identity<One>) {
-    return ((One::letter != L::letter || std::is_same_v<One, L>) && ...);
+    return ((One::letter != L::letter || std::is_same_v<One, L>)&&...);
   };
   static_assert((are_told_apart(std::type_identity<L>()) && ...),
                 "nysalt: letters of one's own must have different names; name one of them otherwise");

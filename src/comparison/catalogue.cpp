@@ -48,11 +48,11 @@ std::optional<int> pairs_in(std::string_view digits) {
 }
 
 /// Throws refusal for a letter that has no place in word:LETTERS.
-void require_letters(std::string_view name, std::string_view letters, const std::vector<letter_facts>& known) {
+void require_letters(std::string_view name, std::string_view letters,
+                     const std::vector<letter_facts>& known) {
   for (const char letter : letters) {
     if (std::string_view("ABRS").find(letter) != std::string_view::npos) continue;
-    if (std::ranges::any_of(known, [&](const auto& one) { return one.letter == letter; }))
-      continue;
+    if (std::ranges::any_of(known, [&](const auto& one) { return one.letter == letter; })) continue;
     const bool is_of_tables = std::string_view("OGHD|").find(letter) != std::string_view::npos;
     refuse("{}: each letter must be A, B, R, S or one that the system declares, here {}, got {}; {}", name,
            known.empty() ? "none" : names_of(known), letter,

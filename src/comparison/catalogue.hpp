@@ -8,10 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "nysalt/letters.hpp"
+#include "nysalt/learn.hpp"
 #include "nysalt/learning/problem.hpp"
 #include "nysalt/letters.hpp"
-#include "nysalt/learn.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/run_time_family.hpp"

@@ -120,8 +120,7 @@ void comparison::require_sound_command() const {
 }
 
 double comparison::cost_of_step(const method_source& source) const {
-  const double saved = source.word->evaluations_per_step -
-                       priced_evaluations(*source.word, options_.prices);
+  const double saved = source.word->evaluations_per_step - priced_evaluations(*source.word, options_.prices);
   return source.evaluations_per_step - saved;
 }
 

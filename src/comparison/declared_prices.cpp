@@ -15,7 +15,8 @@ void require_sound_prices(const std::vector<double>& prices, const std::vector<l
   if (prices.empty()) return;
   std::size_t parts = 0;
   for (const auto& one : of_system) {
-    for (const char part : one.parts.view()) parts = std::max(parts, static_cast<std::size_t>(part - '0') + 1);
+    for (const char part : one.parts.view())
+      parts = std::max(parts, static_cast<std::size_t>(part - '0') + 1);
   }
   if (parts == 0)
     refuse(

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "did_you_mean.hpp"
-#include "nysalt/method.hpp"
 #include "inputs.hpp"
+#include "nysalt/method.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {

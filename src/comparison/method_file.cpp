@@ -15,10 +15,9 @@
 #include "inputs.hpp"
 #include "method_file_format.hpp"
 #include "nysalt/derivatives/properties.hpp"
-#include "nysalt/letters.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
-#include "nysalt/letters.hpp"
 #include "nysalt/langevin.hpp"
+#include "nysalt/letters.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/method.hpp"
 #include "refusal.hpp"
@@ -244,7 +243,8 @@ int order_of(const tabulated& method, std::string times) {
 
 /// A table with letters of the system.
 tabulated table_of_system(const std::string& name, const nysalt::word& word,
-                          const std::vector<double>& coefficients, const document_reader& read, std::optional<double> declared) {
+                          const std::vector<double>& coefficients, const document_reader& read,
+                          std::optional<double> declared) {
   const tabulated bare(name, word, coefficients, {1, is_palindrome(word, coefficients), word.rotates()});
   const std::string times = times_of_slots(word);
   std::map<char, double> sums;

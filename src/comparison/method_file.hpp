@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "json.hpp"
-#include "nysalt/letters.hpp"
 #include "nysalt/learning/reach.hpp"
+#include "nysalt/letters.hpp"
 #include "nysalt/method.hpp"
 #include "prepared_problem.hpp"
 
@@ -29,8 +29,8 @@ struct scheme {
   std::string source;  // of a system of the user's own: its source and parameters; empty: a bundled one
   bool usable;
   std::string reason;
-  std::optional<energy_range> energies;  // that it was learned on
-  std::size_t trajectories = 0;          // how many, at the step with the fewest
+  std::optional<energy_range> energies;     // that it was learned on
+  std::size_t trajectories = 0;             // how many, at the step with the fewest
   std::vector<letter_facts> own_letters{};  // of the system, as they are stated
 
   /// The method at a step, under the family's name; beyond the curve that of its nearer end.
@@ -80,7 +80,8 @@ struct method_file {
 /// Reads either kind. Throws refusal, naming the file, for one that is missing, not whole, edited, foreign or
 /// of a newer version, and for coefficients that are not consistent or of a lower order than declared.
 /// Tables may have letters of a system, schemes state what theirs are.
-method_file read_method_file(const std::filesystem::path& path, const std::vector<letter_facts>& of_system = {});
+method_file read_method_file(const std::filesystem::path& path,
+                             const std::vector<letter_facts>& of_system = {});
 /// The same from the text of a file, whose name is part of refusals.
 method_file method_file_in(const std::string& text, const std::string& file,
                            const std::vector<letter_facts>& of_system = {});

@@ -134,8 +134,7 @@ void require_letters_of(const method_source& source, const prepared_problem& sys
 /// The same with the letters of the system for those that a file states.
 tabulated with_letters_of(const prepared_problem& system, const tabulated& method) {
   if (!method.letters().has_own_letters()) return method;
-  return {method.name(), word(method.letters().letters(), system.letters()),
-          method.coefficients(), method};
+  return {method.name(), word(method.letters().letters(), system.letters()), method.coefficients(), method};
 }
 
 }  // namespace

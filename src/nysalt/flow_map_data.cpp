@@ -261,8 +261,7 @@ void extend_data(const model& system, const initial_states& ensemble, const refe
   data_options of_further = options;
   of_further.first += there;
   of_further.trajectories -= there;
-  flow_map_data further =
-      detail::make_some_pairs(system, ensemble, reference, of_further, all.beyond(there));
+  flow_map_data further = detail::make_some_pairs(system, ensemble, reference, of_further, all.beyond(there));
   detail::add_up(further);
   detail::append(data, std::move(further));
   data.further_starts = typical_and_energetic_starts(

@@ -10,8 +10,7 @@ namespace nysalt {
 word thermostatted(const word& letters, placement where) {
   const std::string text = letters.letters();
   if (letters.stochastic_letters > 0) {
-    throw std::invalid_argument(
-        fmt::format("thermostat: the word must have no letters O, got {}", text));
+    throw std::invalid_argument(fmt::format("thermostat: the word must have no letters O, got {}", text));
   }
   if (letters.is_processed()) {
     throw std::invalid_argument(
@@ -23,10 +22,10 @@ word thermostatted(const word& letters, placement where) {
   if (where == placement::end) return letters.with_letters(text + o);
   if (where == placement::symmetric) return letters.with_letters(o + text + o);
   if (text.size() % 2 == 0) {
-    throw std::invalid_argument(
-        fmt::format("thermostat: the word must have a central letter to split, got {}; place O at the end, or "
-                    "symmetric",
-                    text));
+    throw std::invalid_argument(fmt::format(
+        "thermostat: the word must have a central letter to split, got {}; place O at the end, or "
+        "symmetric",
+        text));
   }
   const std::size_t central = text.size() / 2;
   return letters.with_letters(text.substr(0, central + 1) + o + text.substr(central));

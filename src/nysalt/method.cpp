@@ -15,8 +15,8 @@ tabulated::tabulated(std::string name, const word& letters, std::vector<double> 
       validity_(std::move(validity)) {
   if (coefficients_.size() != letters_.slots) {
     throw std::invalid_argument(
-        fmt::format("{}: coefficients must fit the letters, got {} coefficients for the {} letters {}{}", name_,
-                    coefficients_.size(), letters_.length, letters_.view(),
+        fmt::format("{}: coefficients must fit the letters, got {} coefficients for the {} letters {}{}",
+                    name_, coefficients_.size(), letters_.length, letters_.view(),
                     letters_.slots > letters_.length ? " (G and H take two)" : ""));
   }
   for (std::size_t i = 0; i < coefficients_.size(); ++i) {
@@ -35,14 +35,15 @@ tabulated tabulated::anywhere() const {
 void tabulated::require_validity(const std::string& system, double step) const {
   if (!validity_) return;
   if (std::abs(step - validity_->step) > 1e-9 * std::abs(validity_->step)) {
-    throw std::invalid_argument(sentence(
-        "learned:{} must run at the step {}, at which it was learned, got {}; learn it there, or use anywhere()",
-        name_, validity_->step, step));
+    throw std::invalid_argument(
+        sentence("learned:{} must run at the step {}, at which it was learned, got {}; learn it there, or "
+                 "use anywhere()",
+                 name_, validity_->step, step));
   }
   if (system != validity_->system) {
     throw std::invalid_argument(sentence(
-        "learned:{} must run on {}, for which it was learned, got {}; learn it there, or use anywhere()", name_,
-        validity_->system, system));
+        "learned:{} must run on {}, for which it was learned, got {}; learn it there, or use anywhere()",
+        name_, validity_->system, system));
   }
 }
 
@@ -74,10 +75,10 @@ tabulated repeated(const tabulated& method, int times) {
 
 tabulated thermostat(const tabulated& method, placement where) {
   if (method.validity()) {
-    throw std::invalid_argument(
-        fmt::format("thermostat: the method must not be of one system, got {}, which was learned for {}; take "
-                    "its anywhere()",
-                    method.name(), method.validity()->system));
+    throw std::invalid_argument(fmt::format(
+        "thermostat: the method must not be of one system, got {}, which was learned for {}; take "
+        "its anywhere()",
+        method.name(), method.validity()->system));
   }
   const word letters = thermostatted(method.letters(), where);
   return tabulated(method.name(), letters,

@@ -35,8 +35,7 @@ Eigen::MatrixXd thermostatted_jacobian(const run_time_family& plain, placement w
 
 }  // namespace
 
-run_time_family::run_time_family(std::string method_name, const word& all,
-                                 std::vector<double> coefficients)
+run_time_family::run_time_family(std::string method_name, const word& all, std::vector<double> coefficients)
     : name(std::move(method_name)),
       starts({{name, Eigen::VectorXd()}}),
       order(0),
@@ -328,7 +327,9 @@ tabulated member(const run_time_family& family, const std::vector<double>& theta
   }
   const Eigen::VectorXd column = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
   require_in_range(family, column);
-  return {family.name, family.letters, family.coefficients(column),
+  return {family.name,
+          family.letters,
+          family.coefficients(column),
           {family.order, family.symmetric, family.requires_quadratic_kinetic}};
 }
 

@@ -41,16 +41,14 @@ void refuse_two_splittings(std::string_view letters) {
   const auto letters_of = [](splitting of_h) {
     return listed([=](const letter_facts& one) { return one.splits == of_h; });
   };
-  throw std::invalid_argument(
-      fmt::format("the word {}: letters must be of one splitting, either {} of H into K and V or {} of H into "
-                  "its quadratic part and the rest",
-                  letters, letters_of(splitting::kinetic_and_potential),
-                  letters_of(splitting::quadratic_part_and_rest)));
+  throw std::invalid_argument(fmt::format(
+      "the word {}: letters must be of one splitting, either {} of H into K and V or {} of H into "
+      "its quadratic part and the rest",
+      letters, letters_of(splitting::kinetic_and_potential), letters_of(splitting::quadratic_part_and_rest)));
 }
 
 void refuse_word_of_bath_only(std::string_view letters) {
-  throw std::invalid_argument(
-      fmt::format("word: a word must have a letter other than O, got {}", letters));
+  throw std::invalid_argument(fmt::format("word: a word must have a letter other than O, got {}", letters));
 }
 
 void refuse_letters_of_processor(std::string_view letters, std::string_view processor) {

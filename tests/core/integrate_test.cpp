@@ -227,8 +227,8 @@ BOOST_AUTO_TEST_CASE(each_letter_has_a_coefficient_whatever_the_bath) {
     const std::string got = fmt::format("{} coefficients", count);
     for (const model& system : {warm, trivial, warm.base()}) {
       const auto make = [&] {
-        stepper<model, double, counter_noise>(
-            system, word("OBABO"), std::vector<double>(count, 0.5), 0.1, counter_noise(1));
+        stepper<model, double, counter_noise>(system, word("OBABO"), std::vector<double>(count, 0.5), 0.1,
+                                              counter_noise(1));
       };
       BOOST_TEST(refuses(make, {"OBABO", "5 letters", got}));
     }

@@ -7,9 +7,9 @@
 #include "../support/refusal.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
-#include "nysalt/methods/classical.hpp"
 #include "nysalt/derivatives/properties.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/systems/linear_chain.hpp"
 #include "nysalt/systems/with_quadratic_part.hpp"
 

@@ -69,8 +69,7 @@ template <Scalar C, class Noise>
 auto with_stepper(const model& system, const tabulated& method, double step, const Noise& noise,
                   const auto& f) {
   const auto c = method.coefficients();
-  return f(
-      stepper<model, C, Noise>(system, method.letters(), {c.begin(), c.end()}, step, noise));
+  return f(stepper<model, C, Noise>(system, method.letters(), {c.begin(), c.end()}, step, noise));
 }
 
 /// J of a plain step; the noise of its bath, which J does not depend on, is fresh.

@@ -9,8 +9,8 @@
 #include "../support/learned.hpp"
 #include "../support/members.hpp"
 #include "../support/rounding.hpp"
-#include "nysalt/references/fine_steps.hpp"
 #include "nysalt/learning/learn_enough.hpp"
+#include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -282,13 +282,13 @@ BOOST_AUTO_TEST_CASE(more_effort_is_more_starts) {
 
 BOOST_AUTO_TEST_CASE(enough_trajectories_tell_what_as_many_tell_at_once) {
   data_options made{.step = h, .horizon = 5.0 * h, .trajectories = 8};
-  const fine_steps reference(h / 20.0);
+  const reference accurate = fine_steps(h / 20.0);
   const fit_options options{.loss = loss_named("state:1"), .random_starts = 0, .planned_steps = 500};
-  const auto enough = learn_enough(two_stages, galaxy, gentle_starts, reference,
+  const auto enough = learn_enough(two_stages, galaxy, gentle_starts, accurate,
                                    {.first = made, .enough = {.share = 0.05, .most = 64}}, options);
   made.trajectories = enough.course.stops.back().trajectories;
   BOOST_TEST(made.trajectories > 8);
-  const data_sets sets(galaxy, gentle_starts, reference, made);
+  const data_sets sets(galaxy, gentle_starts, accurate, made);
   BOOST_TEST((enough.theta == sets.learned(two_stages, galaxy, options).theta));
 }
 

@@ -3,12 +3,12 @@
 #include "../laws/laws.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/analysis/cost_against_error.hpp"
-#include "nysalt/derivatives/taylor_order.hpp"
 #include "nysalt/core/lockstep.hpp"
+#include "nysalt/derivatives/taylor_order.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/gradient_composition.hpp"
-#include "nysalt/methods/classical.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/classical.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

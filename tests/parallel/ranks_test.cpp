@@ -196,7 +196,8 @@ BOOST_AUTO_TEST_CASE(what_ranks_gather_is_everywhere) {
         for (const std::int64_t i : {0, 1}) twice[static_cast<std::size_t>(m / 8 * 2 + i)] = ours.rank();
       }
       share.gather(twice, 2, 8);
-      if (!std::ranges::is_sorted(twice) || twice.front() != 0) throw std::logic_error("not gathered in groups");
+      if (!std::ranges::is_sorted(twice) || twice.front() != 0)
+        throw std::logic_error("not gathered in groups");
       if (ours.is_first()) bytes = ours.seen().bytes;
     });
     if (total == 2000) BOOST_TEST(bytes == 2 * before);  // it grows with the data, and the traffic shows it

@@ -6,8 +6,8 @@
 #include "../support/seeds.hpp"
 #include "../support/statistics.hpp"
 #include "nysalt/ensembles/given_states.hpp"
-#include "nysalt/methods/classical.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/references/fine_steps.hpp"
 

@@ -3,8 +3,8 @@
 // own kick is that of its force, and is used where the force is not needed again.
 #include "../laws/models.hpp"
 #include "../support/local_systems.hpp"
-#include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/core/kernels.hpp"
+#include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/systems/gaussian.hpp"
 #include "nysalt/systems/lennard_jones.hpp"
 

@@ -28,8 +28,7 @@ std::int64_t evaluations_of_run(const model& system, const tabulated& method, do
 template <SeparableSystem S>
 std::int64_t evaluations_of_run(const S& system, const tabulated& method, double step, std::int64_t steps,
                                 const phase_point<double, S::dimension>& start) {
-  return detail::evaluations_of_run(system, method, step, steps,
-                                    {start.q, start.p});
+  return detail::evaluations_of_run(system, method, step, steps, {start.q, start.p});
 }
 
 // The cost or step at which an error crosses a level.

@@ -193,9 +193,10 @@ trajectory_errors_result trajectory_errors(const S& system, const reference& ref
 
 /// Errors of one method, by one measure or several.
 template <SeparableSystem S, Ensemble<S> E>
-auto trajectory_errors(const S& system, const reference& reference, const E& ensemble, const tabulated& method,
-                       const auto& measures, const trajectory_options& options) {
-  return trajectory_errors(system, reference, ensemble, std::span<const tabulated>(&method, 1), measures, options);
+auto trajectory_errors(const S& system, const reference& reference, const E& ensemble,
+                       const tabulated& method, const auto& measures, const trajectory_options& options) {
+  return trajectory_errors(system, reference, ensemble, std::span<const tabulated>(&method, 1), measures,
+                           options);
 }
 
 }  // namespace nysalt

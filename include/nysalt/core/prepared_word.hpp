@@ -56,7 +56,9 @@ class prepared_word {
     }
     const word::evaluation_plan plan = w.plan();
     evaluates_to_open_ = plan.is_known_when_open;
-    const auto prepare_one = [&](std::size_t i, const C* from) { return prepare(system, w.facts(i), from, h, around); };
+    const auto prepare_one = [&](std::size_t i, const C* from) {
+      return prepare(system, w.facts(i), from, h, around);
+    };
     run_.reads = plain_.reads = w.reads == field::soft ? field::soft : field::whole;
     run_.calls = plain_.calls = w.stochastic_letters > 0;
     run_.threads = around.threads;
@@ -117,7 +119,8 @@ class prepared_word {
                std::int64_t steps, std::int64_t first, std::int64_t every, auto& cursor,
                const auto& observe) const {
     const auto see = [&] {
-      if (merges_ && is_called(run_.undo.front())) apply_called(system, run_.undo.front().number, y, cursor.room);
+      if (merges_ && is_called(run_.undo.front()))
+        apply_called(system, run_.undo.front().number, y, cursor.room);
       end(system, y, cursor);
       observe();
     };
@@ -158,7 +161,7 @@ class prepared_word {
   // What is called back: letter O number k as k, and
   static constexpr int next_step = -1;
   static constexpr int seam_of_steps = -2;
-  static constexpr int ends_step = 1 << 20;  // with the number of a letter O that is the last of a step
+  static constexpr int ends_step = 1 << 20;     // with the number of a letter O that is the last of a step
   static constexpr int first_called = 1 << 24;  // and any other letter number k as first_called + k
 
   template <System S>
@@ -181,7 +184,8 @@ class prepared_word {
     detail::with_letter(name, known_letters{}, [&]<class L>(const L&) {
       result.what = detail::action_of<L>();
       if constexpr (std::is_same_v<L, rotation>) {
-        turns_.push_back(std::make_shared<const turn>(rotation::prepare<Eigen::Dynamic>(c[0], h, around.part)));
+        turns_.push_back(
+            std::make_shared<const turn>(rotation::prepare<Eigen::Dynamic>(c[0], h, around.part)));
         result.turn = turns_.back().get();
       } else if constexpr (detail::action_of<L>() == detail::action::displaced_kick) {
         result.displaced = detail::prepare_coefficients<L>(c, h);
@@ -272,7 +276,8 @@ class prepared_word {
         one(held, {x.q.data(), x.p.data()});
       }
     } else {
-      throw std::logic_error("prepared_word: a letter of a system must be over the scalar of its coefficients");
+      throw std::logic_error(
+          "prepared_word: a letter of a system must be over the scalar of its coefficients");
     }
   }
   void apply_known(const auto& system, const letter& one, auto& x, auto& cursor) const {

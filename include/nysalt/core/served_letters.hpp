@@ -36,7 +36,8 @@ void require_declared(const word& letters, const letter_facts& own, const S& sys
   if constexpr (ErasedSystem<S>) {
     is_served = system.facts().template serves<T>(own.letter);
   } else {
-    with_letter(own.letter, letters_of<S>(), [&]<class L>(const L&) { is_served = serves_letter<L, T>(system); });
+    with_letter(own.letter, letters_of<S>(),
+                [&]<class L>(const L&) { is_served = serves_letter<L, T>(system); });
   }
   if (!is_served) {
     throw std::invalid_argument(sentence("cannot step {} by the word {}: the letter {} must serve the system",
@@ -56,15 +57,16 @@ void require_served(const word& letters, const S& system) {
   for (const char letter : letters.view()) {
     detail::with_letter(letter, known_letters{}, [&]<class L>(const L&) {
       if constexpr (detail::steps_by_own_letters_only<S> && !StochasticFlow<L>) {
-        throw std::invalid_argument(sentence(
-            "cannot step {} by the word {}: the letter {} must be one that the system declares, as the system "
-            "has no force of H = K(p) + V(q)",
-            describe(system), letters.letters(), letter));
+        throw std::invalid_argument(
+            sentence("cannot step {} by the word {}: the letter {} must be one that the system declares, as "
+                     "the system "
+                     "has no force of H = K(p) + V(q)",
+                     describe(system), letters.letters(), letter));
       }
       if constexpr (requires { L::needs; }) {
         if (!detail::serves_letter<L, T>(system)) {
-          throw std::invalid_argument(sentence("cannot step {} by the word {}: {}", describe(system),
-                                               letters.letters(), L::needs));
+          throw std::invalid_argument(
+              sentence("cannot step {} by the word {}: {}", describe(system), letters.letters(), L::needs));
         }
       }
     });

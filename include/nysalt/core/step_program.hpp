@@ -49,7 +49,7 @@ struct step_program {
   std::vector<letter> last;  ///< of a step after which the run may be observed
   std::vector<letter> undo;  ///< what takes the first letter back, of an open run
   field reads = field::none;
-  int threads = 1;     ///< that share a step where the system allows it
+  int threads = 1;            ///< that share a step where the system allows it
   bool calls = false;         ///< there are letters of the bath, and calls between steps
   bool is_of_shears = false;  ///< all letters are drifts and kicks of any kind
   /// Coefficients of a loop that is drifts and kicks in turn, each force being read once: kernels keep the
@@ -60,9 +60,8 @@ struct step_program {
 
   /// What follows from the letters.
   void complete() {
-    is_of_shears = std::ranges::none_of(loop, [](const letter& one) {
-      return one.what == action::call || one.what == action::rotation;
-    });
+    is_of_shears = std::ranges::none_of(
+        loop, [](const letter& one) { return one.what == action::call || one.what == action::rotation; });
     pairs.clear();
     if (calls || loop.empty() || loop.size() % 2 != 0) return;
     begins_with_kick = loop.front().what == action::kick;

@@ -203,7 +203,8 @@ template <field F, class S, class T, class C>
 void take_steps(const S& system, state_in_place<T, S::dimension>& x, auto& room,
                 const step_program<C>& letters, std::int64_t steps, const auto& other,
                 const watch<T>& watched) {
-  if constexpr (F == field::whole && !steps_by_own_letters_only<S> && std::same_as<C, double> && !is_dual<T>) {
+  if constexpr (F == field::whole && !steps_by_own_letters_only<S> && std::same_as<C, double> &&
+                !is_dual<T>) {
     if (!letters.pairs.empty()) return take_steps_in_pairs(system, x, room, letters, steps, watched);
   }
   watch_steps(

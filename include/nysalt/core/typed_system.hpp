@@ -16,9 +16,9 @@
 #include "nysalt/flows/drift_kick.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/rotation.hpp"
-#include "nysalt/word.hpp"
 #include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/in_bath.hpp"
+#include "nysalt/word.hpp"
 
 namespace nysalt::detail {
 

@@ -47,13 +47,11 @@ struct letter_check {
 /// Throws std::invalid_argument if the system does not serve the letter, or the letter is O, if there are no
 /// points, if one has not the system's dimension, or unless there is a coefficient for each slot. Cost:
 /// N + 8 letters a point, most over dual numbers.
-letter_check check_letter(const model& system, char letter,
-                          const phase_points& points, double h,
+letter_check check_letter(const model& system, char letter, const phase_points& points, double h,
                           std::vector<double> coefficients = {});
 
 /// Throws std::invalid_argument, with the report, if a letter of the system in this word fails
 /// check_letter().
-void require_sound_letters(const model& system, const word& letters,
-                           const phase_points& points, double h);
+void require_sound_letters(const model& system, const word& letters, const phase_points& points, double h);
 
 }  // namespace nysalt

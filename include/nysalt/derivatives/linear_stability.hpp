@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "nysalt/method.hpp"
-#include "nysalt/method.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {

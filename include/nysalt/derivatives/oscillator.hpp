@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "nysalt/core/sentence.hpp"
-#include "nysalt/word.hpp"
 #include "nysalt/scalars/polynomial.hpp"
 #include "nysalt/system.hpp"
+#include "nysalt/word.hpp"
 
 // The step of a word on the harmonic oscillator, letter by letter.
 
@@ -26,8 +26,8 @@ namespace nysalt {
 /// of a polynomial, or, for two modes, a matrix; theta is a number, or an array of two. With a step h: theta
 /// = h omega, k = h^2 kappa, and p counts in units of q/h.
 template <class P, class Theta>
-void step_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
-                        const Theta& theta, const auto& times_k, P& q, P& p) {
+void step_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients, const Theta& theta,
+                        const auto& times_k, P& q, P& p) {
   const split_stiffness<Theta, std::remove_cvref_t<decltype(times_k)>> stiffness{theta, times_k};
   for (std::size_t i = 0; i < word.length; ++i) {
     const bool is_known = detail::with_letter(word.letters()[i], known_letters{}, [&](auto flow) {

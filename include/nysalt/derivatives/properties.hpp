@@ -37,7 +37,8 @@ auto step_map(const S& system, const tabulated& method, double step) {
   return [stepper = make_stepper(system, method, step)](auto& x) { stepper.step(x); };
 }
 template <System S>
-void step_map(const S&& system, const tabulated& method, double step) = delete;  // it would refer to a temporary
+void step_map(const S&& system, const tabulated& method,
+              double step) = delete;  // it would refer to a temporary
 
 /// Omega of the symplectic form in (q, p), of 2 n rows.
 inline Eigen::MatrixXd symplectic_form(Eigen::Index n) {

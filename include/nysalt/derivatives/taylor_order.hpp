@@ -9,8 +9,8 @@
 
 #include "nysalt/method.hpp"
 #include "nysalt/phase_point.hpp"
-#include "nysalt/word.hpp"
 #include "nysalt/scalars/series.hpp"
+#include "nysalt/word.hpp"
 
 namespace nysalt {
 

@@ -16,7 +16,6 @@
 #include "nysalt/initial_states.hpp"
 #include "nysalt/judgement.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 
 // A test whether starts are beyond the energies that a method was learned on, or outside by chance.

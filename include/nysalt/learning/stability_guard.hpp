@@ -139,8 +139,7 @@ class stability_guard {
   std::string unstable(const nysalt::word& word, const std::vector<double>& coefficients, double step,
                        met which) const;
 
-  std::string magnified(const nysalt::word& word, const std::vector<double>& coefficients,
-                        double step) const;
+  std::string magnified(const nysalt::word& word, const std::vector<double>& coefficients, double step) const;
 
   std::string resonant(const nysalt::word& word, const std::vector<double>& coefficients, double step) const;
 

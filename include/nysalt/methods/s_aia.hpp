@@ -34,7 +34,7 @@ double energy_error_of_three_stages(double b, double x);
 class s_aia2 : public tabulated {
  public:
   static constexpr std::string_view source = "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024";
-  static constexpr word letters_of_all{"ABABA"};                   ///< letters at every z
+  static constexpr word letters_of_all{"ABABA"};                ///< letters at every z
   static constexpr method_properties promises{2, true, false};  ///< properties at every z
 
   /// The best coefficient for all z up to highest_z. Throws std::invalid_argument unless 0 < highest_z < 4.
@@ -57,7 +57,7 @@ class s_aia2 : public tabulated {
 class s_aia3 : public tabulated {
  public:
   static constexpr std::string_view source = "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024";
-  static constexpr word letters_of_all{"BABABAB"};                   ///< letters at every z
+  static constexpr word letters_of_all{"BABABAB"};              ///< letters at every z
   static constexpr method_properties promises{2, true, false};  ///< properties at every z
 
   /// The best coefficients for all z up to highest_z. Throws std::invalid_argument unless 0 < highest_z < 6.

@@ -13,8 +13,8 @@
 #include "../sampling/sampler.hpp"
 #include "nysalt/analysis/cost_against_error.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/core/sentence.hpp"
+#include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/shard.hpp"
 
@@ -63,13 +63,13 @@ acceptance_result acceptance(const model& system, const tabulated& method, const
     }
   }
   auto [of_each, diverged] = detail::rises_of_energy(system, method, options.step, ensemble,
-                                             {.trajectories = options.trajectories,
-                                              .steps = options.steps,
-                                              .every = options.steps,
-                                              .seed = options.seed,
-                                              .threads = options.threads,
-                                              .progress = options.progress,
-                                              .ranks = options.ranks});
+                                                     {.trajectories = options.trajectories,
+                                                      .steps = options.steps,
+                                                      .every = options.steps,
+                                                      .seed = options.seed,
+                                                      .threads = options.threads,
+                                                      .progress = options.progress,
+                                                      .ranks = options.ranks});
   for (double& rise : of_each) rise = rise <= 0.0 ? 1.0 : std::exp(-rise / temperature);
   shard(options.trajectories, *options.ranks).gather(of_each);
 

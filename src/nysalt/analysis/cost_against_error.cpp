@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/word.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/word.hpp"
 
 namespace nysalt::detail {
 

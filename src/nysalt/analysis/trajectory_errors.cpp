@@ -103,8 +103,8 @@ trajectory_errors_result summary(const measured_errors& found, const error_measu
 
 constexpr std::int64_t most_checks = 16;  // enough for the size of an error
 
-void require_comparable(const model& system, const reference& reference,
-                        std::span<const tabulated> methods, int parts, const trajectory_options& options) {
+void require_comparable(const model& system, const reference& reference, std::span<const tabulated> methods,
+                        int parts, const trajectory_options& options) {
   if (parts > 0 && !reference.gives_noise()) {
     throw std::invalid_argument(
         fmt::format("trajectory_errors: the reference must have noise to share, got {}; take fine_paths",

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "nysalt/derivatives/properties.hpp"
 #include "nysalt/core/served_letters.hpp"
+#include "nysalt/derivatives/properties.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {
@@ -94,8 +94,7 @@ class tried_letter {
     result.in_parts = as_column(after(0.6, after(0.4, x)));
     result.reversed = as_column(turned(after(1.0, turned(y))));
     constexpr double apart = 6e-6;  // the cube root of a rounding: its square and rounding over it are equal
-    result.difference =
-        (as_column(after(1.0 + apart, x)) - as_column(after(1.0 - apart, x))) / (2.0 * apart);
+    result.difference = (as_column(after(1.0 + apart, x)) - as_column(after(1.0 - apart, x))) / (2.0 * apart);
     result.slope = slope_at(x);
     return result;
   }
@@ -213,8 +212,7 @@ letter_check check_letter(const model& system, char letter, const phase_points& 
   return judge_letter(letters.facts(0), trials);
 }
 
-void require_sound_letters(const model& system, const word& letters, const phase_points& points,
-                           double h) {
+void require_sound_letters(const model& system, const word& letters, const phase_points& points, double h) {
   for (const letter_facts& own : letters.own()) {
     const letter_check found = check_letter(system, own.letter, points, h);
     if (!found.passed()) throw std::invalid_argument(found.report());

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/core/served_letters.hpp"
+#include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/scalars/dual.hpp"
 #include "nysalt/scalars/polynomial.hpp"
 #include "nysalt/scalars/series.hpp"

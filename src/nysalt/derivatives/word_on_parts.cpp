@@ -9,10 +9,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "nysalt/derivatives/oscillator.hpp"
-#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/core/served_letters.hpp"
+#include "nysalt/derivatives/oscillator.hpp"
+#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/stepper.hpp"
 
 namespace nysalt {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/core/sentence.hpp"
+#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/initial_states.hpp"
 
 namespace nysalt {

@@ -71,8 +71,8 @@ std::string text_of(std::string_view name, const template_subject& of, std::size
     refuse_export(
         "{}:{}: the method for @{}@ must be {}, got {} with the letters {}; put require {}: MESSAGE into the "
         "head",
-        of.host.file, line, name, found.needs, of.method.method.name(), letters_written(composition_of(of.method)),
-        found.needs);
+        of.host.file, line, name, found.needs, of.method.method.name(),
+        letters_written(composition_of(of.method)), found.needs);
   }
   return found.text(of);
 }

@@ -168,12 +168,11 @@ self_test self_test_of(const exported_method& method) {
   const nysalt::word& word = method.method.letters();
   if (!has_bath(method)) {
     const pinned_oscillators system;
-    return end_of(
-        stepper<pinned_oscillators>(system, word, method.method.coefficients(), 0.1));
+    return end_of(stepper<pinned_oscillators>(system, word, method.method.coefficients(), 0.1));
   }
   const pinned_oscillators_in_bath system;
-  return end_of(stepper<pinned_oscillators_in_bath, double, sines>(
-      system, word, method.method.coefficients(), 0.1, sines{word.stochastic_letters}));
+  return end_of(stepper<pinned_oscillators_in_bath, double, sines>(system, word, method.method.coefficients(),
+                                                                   0.1, sines{word.stochastic_letters}));
 }
 
 }  // namespace nysalt::detail

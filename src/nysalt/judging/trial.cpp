@@ -11,8 +11,8 @@
 
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/integrate_ensemble.hpp"
-#include "nysalt/methods/classical.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 
 namespace nysalt::detail {

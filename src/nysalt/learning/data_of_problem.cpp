@@ -16,9 +16,9 @@
 
 #include "../losses/windows.hpp"
 #include "nysalt/communicator.hpp"
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/derivatives/check_force.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
-#include "nysalt/core/sentence.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 

@@ -12,10 +12,10 @@
 #include <utility>
 
 #include "data_of_problem.hpp"
-#include "nysalt/derivatives/check_letter.hpp"
-#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/core/served_letters.hpp"
+#include "nysalt/derivatives/check_letter.hpp"
+#include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
 
 namespace nysalt {

@@ -41,8 +41,8 @@ std::optional<named_parameters> best_contained(search_task task, const learning_
   return named_parameters{"best of " + inner->family.name, inner->embed(found.best.theta)};
 }
 
-/// The member at theta, for the step and the system of the data. A covariance loss asks no data, and has seen no
-/// energies.
+/// The member at theta, for the step and the system of the data. A covariance loss asks no data, and has seen
+/// no energies.
 tabulated learned_method(const learning_problem& problem, const Eigen::VectorXd& theta, bool is_of_data) {
   const run_time_family& family = problem.family;
   return {family.name,

@@ -10,8 +10,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/core/sentence.hpp"
+#include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/scalars/polynomial.hpp"
 
 namespace nysalt::detail {
@@ -156,8 +156,8 @@ std::optional<Eigen::VectorXd> parameters_of_method(const run_time_family& famil
   const auto& wanted = method.coefficients();
   for (const auto& one : family.starts) {
     const auto c = family.coefficients(one.theta);
-    const bool is_equal = std::ranges::equal(
-        c, wanted, [](double x, double y) { return std::abs(x - y) <= rounding; });
+    const bool is_equal =
+        std::ranges::equal(c, wanted, [](double x, double y) { return std::abs(x - y) <= rounding; });
     if (is_equal) return one.theta;
   }
   return std::nullopt;
@@ -169,10 +169,10 @@ tabulated phase_fitted(const run_time_family& family, const tabulated& classical
   const std::string name = "phase_fitted_" + classical.name();
   if (!(family.letters == classical.letters()) || !family.symmetric || family.parameters() < 2 ||
       family.letters.reads != field::whole || classical.order < 4) {
-    throw std::invalid_argument(
-        sentence("{}: the family must be symmetric, with two parameters or more and without rotations, and of "
-                 "the word {} of a method of order 4 or more, got {} and a method of order {}",
-                 name, classical.letters().letters(), family.name, classical.order));
+    throw std::invalid_argument(sentence(
+        "{}: the family must be symmetric, with two parameters or more and without rotations, and of "
+        "the word {} of a method of order 4 or more, got {} and a method of order {}",
+        name, classical.letters().letters(), family.name, classical.order));
   }
   if (!(z > 0.0) || !std::isfinite(z)) {
     throw std::invalid_argument(sentence(
@@ -180,8 +180,8 @@ tabulated phase_fitted(const run_time_family& family, const tabulated& classical
   }
   const auto nearest = parameters_of_method(family, classical);
   if (!nearest) {
-    throw std::invalid_argument(sentence("{}: the method must be a start of the family {}, got another", name,
-                                         family.name));
+    throw std::invalid_argument(
+        sentence("{}: the method must be a start of the family {}, got another", name, family.name));
   }
   const auto fit = detail::fit_phase(family, *nearest, z);
   if (!fit.theta) {
@@ -190,7 +190,9 @@ tabulated phase_fitted(const run_time_family& family, const tabulated& classical
         "step",
         name, std::floor(1000.0 * fit.reached) / 1000.0, std::round(1000.0 * z) / 1000.0));
   }
-  return {name, family.letters, family.coefficients(*fit.theta),
+  return {name,
+          family.letters,
+          family.coefficients(*fit.theta),
           {classical.order, true, classical.requires_quadratic_kinetic || family.requires_quadratic_kinetic}};
 }
 

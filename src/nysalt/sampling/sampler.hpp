@@ -24,8 +24,8 @@
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/hmc.hpp"
 #include "nysalt/initial_states.hpp"
-#include "nysalt/method.hpp"
 #include "nysalt/integrate_ensemble.hpp"
+#include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/shard.hpp"
@@ -222,8 +222,8 @@ class block_of_chains {
   }
 
   /// One proposal: trajectory number n, of `steps` steps, and the Metropolis test.
-  void propose(const stepper<model>& stepper, double temperature, std::uint64_t seed,
-               std::int64_t n, std::int64_t steps) {
+  void propose(const stepper<model>& stepper, double temperature, std::uint64_t seed, std::int64_t n,
+               std::int64_t steps) {
     const model& system = stepper.system();
     const auto size = static_cast<std::size_t>(x_.q.size());
     normals_.resize(size + 2);

@@ -15,8 +15,8 @@
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/methods/classical.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/methods/classical.hpp"
 #include "nysalt/references/fine_steps.hpp"
 #include "nysalt/systems/textbook.hpp"
 
