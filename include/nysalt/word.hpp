@@ -171,11 +171,14 @@ class word {
     std::copy(letters.begin(), letters.end(), text.begin());
     length = std::min(letters.find(processor_mark), letters.size());
     if (length == 0) detail::refuse_word_without_letters();
-    for (const letter_facts& one : own) {
-      if (letters.find(one.letter) == std::string_view::npos || own_letter(one.letter)) continue;
-      if (detail::is_known_letter(one.letter)) continue;
-      if (own_count == most_own) detail::refuse_too_many_own_letters(letters, most_own);
-      own_facts[own_count++] = one;
+    for (const char letter : letters) {  // in the order of the word, so that equal words are equal
+      if (detail::is_known_letter(letter) || own_letter(letter)) continue;
+      for (const letter_facts& one : own) {
+        if (one.letter != letter) continue;
+        if (own_count == most_own) detail::refuse_too_many_own_letters(letters, most_own);
+        own_facts[own_count++] = one;
+        break;
+      }
     }
   }
 

@@ -510,6 +510,8 @@ BOOST_AUTO_TEST_CASE(a_liquid_allocates_where_its_list_is_made) {
     stepper.advance(run, steps);
     return std::pair(allocations - before, liquid.lists_made() - made);
   };
-  BOOST_TEST((allocations_at(0.0, 100) == std::pair<std::size_t, std::int64_t>(0, 0)));
+  const auto [at_rest, lists] = allocations_at(0.0, 100);
+  BOOST_TEST(at_rest == 0U);
+  BOOST_TEST(lists == 0);
   BOOST_TEST(allocations_at(3.0, 100).second > 0);
 }

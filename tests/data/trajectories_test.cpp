@@ -389,8 +389,9 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_made_is_refused) {
   BOOST_TEST(refuses([&] { exact_linear(oscillator); }, {"exact_linear", "in no bath"}));
   const reference of_the_alone = exact_linear(oscillator.base());
   phase_point<double, 1> x{vector<double, 1>(1.0), vector<double, 1>(0.0)};
-  BOOST_TEST(refuses([&] { of_the_alone.advance(oscillator, x, 0.1); },
-                     {"that of the constructor, harmonic_oscillator", "in bath(friction=0.1"}));
+  BOOST_TEST(
+      refuses([&] { of_the_alone.advance(oscillator, x, 0.1); },
+              {"the one that the reference was made for, harmonic_oscillator", "in bath(friction=0.1"}));
 }
 
 BOOST_AUTO_TEST_CASE(data_that_are_not_whole_are_refused_with_the_pair) {

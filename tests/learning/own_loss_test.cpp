@@ -253,6 +253,7 @@ BOOST_AUTO_TEST_CASE(errors_are_withheld_where_single_trajectories_make_the_curv
     problem.over_data = std::make_shared<const sixty_blocks>(curvature_of_two);
     problem.loss = objective_of(*problem.over_data);
     problem.stages.clear();
+    problem.one_step_before = {};
     problem.facts.trajectory_steps = problem.facts.loss_steps;
     return solve(problem).summary;
   };

@@ -65,6 +65,7 @@ class prepared_word {
     if (merges_half_steps_) run_.loop.push_back({.number = seam_of_steps});
     if (merges_half_steps_) run_.last.push_back({.number = seam_of_steps});
     const std::size_t slots_of_first = w.slots_of(0);
+    for (auto* letters : {&run_.loop, &run_.last, &plain_.loop}) letters->reserve(w.length + 2);
     std::size_t slot = 0;
     for (std::size_t i = 0; i < w.length; slot += w.slots_of(i), ++i) {
       const letter one = prepare_one(i, &c[slot]);
@@ -174,7 +175,7 @@ class prepared_word {
     letter result = with_step(facts.letter, c, h, around);
     if (result.what == detail::action::call) {
       result.number = first_called + static_cast<int>(called_.size());
-      called_.push_back(detail::prepared_letter_of(system, facts.letter, c, h));
+      called_.push_back(detail::prepared_letter_of(system, facts, c, h));
     }
     return result;
   }
@@ -218,6 +219,7 @@ class prepared_word {
     detail::step_program<C> result;
     result.reads = field::whole;
     const word::evaluation_plan plan = w.plan();
+    result.loop.reserve(w.length);
     for (std::size_t i = 0; i < w.length; ++i) {
       result.loop.push_back(evaluating(with_step(w.letter(i), &c[i], h, {}), plan.in_step[i]));
     }
@@ -266,18 +268,23 @@ class prepared_word {
   }
   template <System S, class T, int Size>
   [[gnu::noinline]] void apply_called(const S& system, int number, flow_state<T, Size>& x, auto& room) const {
-    if constexpr (detail::prepared_letter<C>::template serves<T>) {
-      const void* held = &system;
-      if constexpr (ErasedSystem<S>) held = system.held();
-      const auto& one = called_[static_cast<std::size_t>(number - first_called)].template over<T>();
+    const auto& prepared = called_[static_cast<std::size_t>(number - first_called)];
+    const void* held = &system;
+    if constexpr (ErasedSystem<S>) held = system.held();
+    const auto act = [&](const detail::applied_letter<T>& one) {
       if constexpr (Size == Eigen::Dynamic) {
         one(held, {x.q.data(), x.p.data(), &x.q, &x.p, &room});
       } else {
         one(held, {x.q.data(), x.p.data()});
       }
+    };
+    if constexpr (detail::prepared_letter<C>::template serves<T>) {
+      act(prepared.template over<T>());
+    } else if constexpr (!ErasedSystem<S>) {  // derivatives by the state, which are taken once in a while
+      const auto& [name, c, h] = prepared.unfolded;
+      act(detail::letter_of_system<S, T>(name, c.data(), h));
     } else {
-      throw std::logic_error(
-          "prepared_word: a letter of a system must be over the scalar of its coefficients");
+      throw std::logic_error("prepared_word: a model has its letters over the scalars of its kernels");
     }
   }
   void apply_known(const auto& system, const letter& one, auto& x, auto& cursor) const {

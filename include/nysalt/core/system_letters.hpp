@@ -94,10 +94,20 @@ std::vector<letter_facts> letters_declared_by(const S& system) {
   }
 }
 
-/// A letter with coefficients over C, for states over C, and over packs where C is double.
+/// A letter with the coefficients c, over C, and a step h.
+template <Scalar C>
+struct letter_with_step {
+  char name;
+  std::vector<C> c;
+  double h;
+};
+
+/// A letter with its coefficients and the step folded in, for states over C, and over packs where C is
+/// double.
 template <Scalar C>
 struct prepared_letter {
-  applied_letter<C> of_one;
+  letter_with_step<C> unfolded;
+  applied_letter<C> of_one{};
   template <class T>
   static constexpr bool serves = std::is_same_v<T, C>;
   template <class T>
@@ -108,8 +118,9 @@ struct prepared_letter {
 template <>
 struct prepared_letter<double> {
   using lanes = scalar_of_lanes<default_lanes>;
-  applied_letter<double> of_one;
-  applied_letter<lanes> of_lanes;
+  letter_with_step<double> unfolded;
+  applied_letter<double> of_one{};
+  applied_letter<lanes> of_lanes{};
   template <class T>
   static constexpr bool serves = std::is_same_v<T, double> || std::is_same_v<T, lanes>;
   template <class T>
@@ -124,8 +135,9 @@ struct prepared_letter<double> {
 
 /// The letter of that name as the system has it.
 template <class S, Scalar C>
-prepared_letter<C> prepared_letter_of(const S& system, char name, const C* c, double h) {
-  prepared_letter<C> result;
+prepared_letter<C> prepared_letter_of(const S& system, const letter_facts& facts, const C* c, double h) {
+  const char name = facts.letter;
+  prepared_letter<C> result{{name, {c, c + facts.slots}, h}};
   if constexpr (ErasedSystem<S>) {
     result.of_one = system.template kernels<C>().letter(name, c, h);
     if constexpr (std::is_same_v<C, double>) {

@@ -133,7 +133,8 @@ template <field F, class S, class State, class C>
       }
     }
   };
-  if constexpr (S::dimension != Eigen::Dynamic && std::same_as<T, double>) {
+  constexpr int most = 32;  // coordinates: of more not even the positions fit into vector registers
+  if constexpr (S::dimension != Eigen::Dynamic && S::dimension <= most && std::same_as<T, double>) {
     if (letters.is_of_shears) {
       flow_state<T, S::dimension> local{{x.q, x.p}, x.f};
       flow_room<T, S::dimension> space;

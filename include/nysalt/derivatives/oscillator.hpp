@@ -29,17 +29,17 @@ template <class P, class Theta>
 void step_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients, const Theta& theta,
                         const auto& times_k, P& q, P& p) {
   const split_stiffness<Theta, std::remove_cvref_t<decltype(times_k)>> stiffness{theta, times_k};
+  const double* c = coefficients.data();
   for (std::size_t i = 0; i < word.length; ++i) {
-    const bool is_known = detail::with_letter(word.letters()[i], known_letters{}, [&](auto flow) {
-      if constexpr (!StochasticFlow<decltype(flow)>) {
-        flow.on_oscillator(stiffness, &coefficients[word.first_slot(i)], q, p);
-      }
+    const bool is_known = detail::with_letter(word.letter(i), known_letters{}, [&](auto flow) {
+      if constexpr (!StochasticFlow<decltype(flow)>) flow.on_oscillator(stiffness, c, q, p);
+      c += flow.slots;
     });
     if (!is_known) {
       throw std::invalid_argument(
           sentence("the word {} must have letters whose action on an oscillator is known, got {}; examine "
                    "its stability by trial runs",
-                   word.letters(), word.letters()[i]));
+                   word.letters(), word.letter(i)));
     }
   }
 }

@@ -15,8 +15,8 @@ int main() {
     return make_flow_map_data(system, starts, fine_steps(1e-2),
                               {.step = 0.5, .horizon = 5.0, .trajectories = 8, .seed = seed});
   };
-  const auto [method, fit] = learn(nystrom{}, system, data_of(1), data_of(2));
-  std::printf("%s\n", fit.usable ? "usable" : "not usable");
+  const auto [theta, summary, method] = learn(nystrom{}, system, data_of(1), data_of(2));
+  std::printf("%s\n", summary.usable ? "usable" : "not usable");
 }
 
 // Expected output:
