@@ -60,9 +60,10 @@ function(compile_library)
   target_precompile_headers(nysalt_objects PRIVATE cmake/precompiled.hpp)
   # Sources of a folder include the same, and are compiled together, which takes a third of the time. No two of
   # them may give one name to two things. Not those that the systems of users need of the static library: a linker
-  # takes whole objects, and would take the learner, and want Ceres, with them.
+  # takes whole objects, and would take the learner, and want Ceres, with them. The passes over data are a unit of
+  # their own: in a larger one g++ no longer inlines the operators of derivatives there.
   foreach(source IN LISTS sources)
-    if(source MATCHES "/(analysis|exports|learning|losses|sampling)/")
+    if(NOT source MATCHES "/losses/passes.cpp$" AND source MATCHES "/(analysis|exports|learning|losses|sampling)/")
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${CMAKE_MATCH_1})
     endif()
   endforeach()

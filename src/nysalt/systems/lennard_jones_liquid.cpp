@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -81,7 +82,7 @@ void for_each_atom(const detail::neighbour_list& list, int threads, const detail
           });
     }
   };
-  for_each_trajectory(list.blocks(), threads, of_block);
+  for_each_trajectory(list.blocks(), threads, std::cref(of_block));  // a copy would allocate at each force
 }
 
 reals only(const integers& mask, const reals& x) {
