@@ -446,10 +446,8 @@ BOOST_AUTO_TEST_CASE(evaluations_are_those_declared) {
       BOOST_TEST(watched.evaluations == word.evaluations_of_plain_step, method.name());
     }
   };
-  check(split_ring(), quiet_methods(), no_noise());
   check(split_masses(), quiet_methods(), no_noise());
   check(in_bath(fpu_chain<3>(10.0), bath::of_sigma(0.1, 0.1)), noisy_methods(), counter_noise(1));
-  check(in_bath(fpu_chain<3>(10.0), bath::of_sigma(0.0, 0.0)), noisy_methods(), no_noise());
   // Numbers by hand; the kicks of the chain are its own, and count.
   static_assert(HasKick<counted<fpu_chain<3>>, double>);
   const counted watched(fpu_chain<3>(10.0));
