@@ -119,8 +119,9 @@ void apply_known(const S& system, const step_program_letter<C>& letter, State& x
   if (letter.what == action::rotation) apply_rotation(system, letter, x, room);
 }
 
-/// Interpreter loop: `steps` steps of any program. A state of a fixed dimension that nobody else reads
-/// meanwhile is a local copy, which stays in registers where it has few coordinates.
+/// Interpreter loop: `steps` steps of any program. If the program consists of shears alone, which call no
+/// function of the user with the state, a state of a small fixed dimension is copied to a local variable,
+/// whose coordinates are held in registers.
 template <field F, class S, class State, class C>
 [[gnu::flatten, gnu::noinline]] void take_any_steps(const S& system, State& x, auto& room,
                                                     const step_program<C>& letters, std::int64_t steps,

@@ -48,8 +48,8 @@ struct comparison {
   std::span<const tabulated> methods;
   std::span<const error_measure> measures;
   const trajectory_options& options;
-  std::int64_t checked;    // on so many trajectories the reference is compared with its finer self
-  std::int64_t perturbed;  // on so many with a run from perturbed starts
+  std::int64_t checked;    // number of trajectories on which the reference is compared with a finer one
+  std::int64_t perturbed;  // number of trajectories on which it is compared with a run from a perturbed start
   int parts;               // of a step, in which methods need the noise of a path; 0: there is none
   sample_weights weights;
   std::vector<std::size_t> begins;  // of the numbers of each measure among those of all, and where they end

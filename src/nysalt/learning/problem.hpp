@@ -93,7 +93,7 @@ class learning_problem {
 
   struct judges;
   int whole_;                         // steps of the shortest trajectory
-  int steps_;                         // at most so many
+  int steps_;                         // largest number of steps in a loss of this problem
   objective law_;                     // the loss, if it asks no data
   std::vector<shared_loss> counted_;  // those whose evaluations count
   Eigen::VectorXd motion_;            // mean square of each residual over the steps of the loss
