@@ -36,12 +36,12 @@ void tabulated::require_validity(const std::string& system, double step) const {
   if (!validity_) return;
   if (std::abs(step - validity_->step) > 1e-9 * std::abs(validity_->step)) {
     throw std::invalid_argument(
-        sentence("learned:{} must run at the step {}, at which it was learned, got {}; learn it there, or "
-                 "use anywhere()",
-                 name_, validity_->step, step));
+        fmt::format("learned:{} must run at the step {}, at which it was learned, got {}; learn it there, or "
+                    "use anywhere()",
+                    name_, validity_->step, step));
   }
   if (system != validity_->system) {
-    throw std::invalid_argument(sentence(
+    throw std::invalid_argument(fmt::format(
         "learned:{} must run on {}, for which it was learned, got {}; learn it there, or use anywhere()",
         name_, validity_->system, system));
   }
