@@ -15,9 +15,9 @@
 #include "counting.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/run_time_family.hpp"
 #include "peers/roofs.hpp"
 #include "peers/two_stage.hpp"
 #include "races.hpp"
@@ -36,7 +36,7 @@ constexpr double rounding = 1e-9;
 
 const fpu_chain<3> chain(omega);
 constexpr std::array<double, 2> theta{0.5, 0.4};
-const tabulated method = member(nystrom(), {theta[0], theta[1]});
+const nysalt::method method = member(nystrom(), {theta[0], theta[1]});
 
 two_stage folded() {
   const auto c = method.coefficients();

@@ -6,12 +6,12 @@
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/core/ensemble_loop.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/run_time_family.hpp"
+#include "nysalt/parallel/ensemble_loop.hpp"
 
 namespace nysalt::bench {
 

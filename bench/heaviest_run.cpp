@@ -14,10 +14,10 @@
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
-#include "nysalt/run_time_family.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "races.hpp"
 
@@ -31,7 +31,7 @@ constexpr std::int64_t all_trajectories = 10'000;
 
 /// Unobserved. The unit of work is the whole run: it takes so long as the time that is told, whatever share
 /// of the trajectories is run.
-runner run_of(const std::string& name, const tabulated& method, double step, std::int64_t trajectories,
+runner run_of(const std::string& name, const method& method, double step, std::int64_t trajectories,
               int threads) {
   const auto steps = static_cast<std::int64_t>(std::ceil(end_time / step));
   const auto turn = [=] {

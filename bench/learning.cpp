@@ -150,7 +150,7 @@ class problem {
 
  private:
   static constexpr int iterations_ = 200;
-  run_time_family family_{nystrom()};
+  family family_{nystrom()};
   is_defined defined_ = [this](const Eigen::VectorXd& theta) { return family_.is_defined(theta); };
   chain_type chain_{50.0};
   flow_map_data data_;

@@ -35,7 +35,7 @@ chain_state<double> start() {
 }
 
 template <class S>
-chain_state<double> ours(const S& system, const tabulated& method, std::int64_t count) {
+chain_state<double> ours(const S& system, const method& method, std::int64_t count) {
   const auto stepper = make_stepper(system, method, h);
   const auto from = fpu_law<3>(chain)(1, 0);
   auto run = stepper.open(phase_point<double, S::dimension>{from.q, from.p});

@@ -49,7 +49,7 @@ int main() {
              found.summary.derivatives);
 
   // At equal cost: the steps are such that each evaluates the force twenty times in a unit of time.
-  const auto report = [&](const tabulated& other, double method_step, std::int64_t evaluations) {
+  const auto report = [&](const method& other, double method_step, std::int64_t evaluations) {
     const auto result =
         trajectory_errors(chain, reference, starts, other, state_measure(chain),
                           {.step = method_step, .steps = 80 / evaluations, .trajectories = 50, .seed = 3});

@@ -36,7 +36,7 @@ int main() {
   // [measure]
   const auto measure = relative_measure(chain, [&](const auto& x) { return chain.stiff_energy(x); });
   // [/measure]
-  const auto report = [&](const tabulated& other, double method_step, std::int64_t steps) {
+  const auto report = [&](const method& other, double method_step, std::int64_t steps) {
     const auto result =
         trajectory_errors(chain, reference, law, other, measure,
                           {.step = method_step, .steps = steps, .trajectories = 100, .seed = 3});

@@ -105,8 +105,8 @@ int main() {
              found.summary.parameters[0].standard_error, found.summary.usable ? "yes" : found.summary.reason);
 
   fmt::print("                accepted           <q . grad V>, {} is exact\n", N);
-  const std::vector<tabulated> methods{found.method.anywhere(), mclachlan2{}, bcss2{}, verlet_2x{}};
-  const auto report = [&](const tabulated& each,
+  const std::vector<nysalt::method> methods{found.method.anywhere(), mclachlan2{}, bcss2{}, verlet_2x{}};
+  const auto report = [&](const nysalt::method& each,
                           bool accepts_all) {  // all of them: twelve evaluations a proposal
     const auto stepper = make_stepper(system, each, step);
     std::vector<double> accepted;

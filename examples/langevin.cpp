@@ -53,7 +53,7 @@ int main() {
 
   // [learn]
   // Each half of O needs the noise of its own half of the step.
-  const auto nystrom_in_bath = thermostatted(run_time_family(nystrom{}), placement::symmetric);
+  const auto nystrom_in_bath = thermostatted(family(nystrom{}), placement::symmetric);
   const data_options options{.step = step, .horizon = 1.5, .trajectories = 200, .seed = 1, .noise_parts = 2};
   data_options others = options;
   others.seed = 2;
@@ -64,7 +64,7 @@ int main() {
              found.theta[1], found.summary.usable ? "yes" : found.summary.reason);
 
   // [judge]
-  const std::vector<tabulated> methods{baoab{}, baoab_2x{}, found.method.anywhere()};
+  const std::vector<method> methods{baoab{}, baoab_2x{}, found.method.anywhere()};
   const auto along_path = path_measure(system, over_lanes([&](const auto& x) { return energy(system, x); }));
   const auto errors = trajectory_errors(system, paths, starts, methods, along_path,
                                         {.step = step, .steps = 50, .trajectories = 400, .seed = 3});

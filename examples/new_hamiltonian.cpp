@@ -52,7 +52,7 @@ int main() {
   const auto start = starts(3, 0);
   fmt::print("symplectic to {}\n",
              symplecticity_defect(system, found.method, step, start) < 1e-13 ? "rounding" : "no degree");
-  const auto report = [&](const tabulated& other) {
+  const auto report = [&](const method& other) {
     const auto energy = energy_drift(system, other, step, start, 2500);
     fmt::print("{:<16} largest relative energy error over 1000 units of time: {:.1e}\n", other.name(),
                energy.largest);

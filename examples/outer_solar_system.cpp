@@ -23,7 +23,7 @@ using namespace examples;
 const auto planets = outer_solar_system();
 const auto start = outer_solar_system_start();
 
-double energy_error(const tabulated& method, double step) {
+double energy_error(const method& method, double step) {
   const double before = energy<double>(planets, start);
   double worst = 0.0;
   const auto watch = [&](std::int64_t, double, const auto& x) {

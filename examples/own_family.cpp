@@ -46,7 +46,7 @@ int main() {
                found.summary.usable ? "yes" : found.summary.reason);
 
     const auto rival = learn(fg4{}, system, data, unseen);
-    const std::vector<tabulated> methods{found.method.anywhere(), rival.method.anywhere(), pefrl{}};
+    const std::vector<method> methods{found.method.anywhere(), rival.method.anywhere(), pefrl{}};
     const auto errors = trajectory_errors(system, reference, starts, methods, state_measure(system),
                                           {.step = step, .steps = 20, .trajectories = 100, .seed = 3});
     for (std::size_t k = 0; k < methods.size(); ++k) {

@@ -64,7 +64,7 @@ int main() {
   report("the turning", own);
 
   // Along a hundred revolutions, on ellipses that were not learned from, at equal cost.
-  const auto follow = [&](const char* name, const tabulated& method, double method_step) {
+  const auto follow = [&](const char* name, const method& method, double method_step) {
     const auto steps = std::llround(200.0 * std::numbers::pi / method_step);
     std::vector<double> angles;
     std::vector<double> distances;

@@ -59,7 +59,7 @@ int main() {
 
   // [along]
   const phase_point<double, 2> farthest{{-1.5, 0.0}, {0.0, -std::sqrt(1.0 / 3.0)}};
-  const auto report = [&](const tabulated& method, double step) {
+  const auto report = [&](const method& method, double step) {
     pericentres seen;
     integrate(system, method, step, farthest, std::llround(200.0 / step), seen);
     const double turned = seen.angles.back() - seen.angles.front();

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/families/multiple_time_steps.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/methods/multiple_time_steps.hpp"
 #include "nysalt/nysalt.hpp"
 #include "systems/bonded_chain.hpp"
 
@@ -39,7 +39,7 @@ using list = std::vector<tried>;
 reference reference_at(double step) { return fine_steps(step / std::ceil(step / 0.004)); }
 
 /// Tries a method of parts, or one of the whole force, which evaluates both each time.
-void try_out(list& all, const tabulated& method, double step) {
+void try_out(list& all, const method& method, double step) {
   const auto steps = static_cast<std::int64_t>(std::ceil(5.0 / step - 1e-9));
   const auto found = trajectory_errors(chain, reference_at(step), starts, method, state_measure(chain),
                                        {.step = step, .steps = steps, .trajectories = 64, .seed = 3});
@@ -51,7 +51,7 @@ void try_out(list& all, const tabulated& method, double step) {
 }
 
 // [learn]
-void try_learned(list& all, const run_time_family& family, double step) {
+void try_learned(list& all, const family& family, double step) {
   const auto data = [&](std::uint64_t seed) {
     return make_flow_map_data(chain, starts, reference_at(step),
                               {.step = step, .horizon = 24 * step, .trajectories = 16, .seed = seed});

@@ -121,7 +121,7 @@ py::dict method(const std::string& text, const std::string& name, const py::obje
   py::dict arguments;
   arguments["step"] = step;
   argument_reader(arguments).take("step", at);
-  const tabulated found = file.learned ? file.learned->at(at) : *file.table;
+  const nysalt::method found = file.learned ? file.learned->at(at) : *file.table;
   py::list coefficients;
   for (const double c : found.coefficients()) coefficients.append(c);
   py::dict all;

@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "nysalt/core/divergence.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/stepper.hpp"
+#include "nysalt/stepping/divergence.hpp"
 
 namespace nysalt::python {
 
@@ -41,7 +41,7 @@ struct noise_of_each {
   }
 };
 
-/// Which trajectories have run away, as core/divergence.hpp says.
+/// Which trajectories have run away, as stepping/divergence.hpp says.
 class watched_energies {
  public:
   watched_energies(const own_functions& functions, const bath& heat_bath,
@@ -87,12 +87,12 @@ class watched_energies {
 
 }  // namespace
 
-bool goes_together(const own_functions& functions, const tabulated& method) {
+bool goes_together(const own_functions& functions, const nysalt::method& method) {
   return functions.forces && method.letters().letters().find_first_not_of("ABDO|") == std::string::npos;
 }
 
 void integrate_together(const std::shared_ptr<const own_functions>& functions, const bath& heat_bath,
-                        const tabulated& method, const program::trajectories_plan& plan, std::span<double> q,
+                        const nysalt::method& method, const program::trajectories_plan& plan, std::span<double> q,
                         std::span<double> p) {
   const model system = side_by_side(functions, plan.count, heat_bath);
   const Eigen::Index n = functions->dimension;

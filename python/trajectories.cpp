@@ -174,7 +174,7 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
   }
   std::vector<std::string> warnings;
   compute(system.calls_python(), [&] {
-    const tabulated method = system.seeing_frequencies([&] {
+    const nysalt::method method = system.seeing_frequencies([&] {
       const auto source = program::find_method(command.method, command.held, system.model->letters());
       return coefficients_at(source, *system.model, command.step, common.force,
                              program::placement_asked(command.placement), warnings);

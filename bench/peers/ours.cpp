@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Ours, compiled as the peers are: fused is what NYSALT_FP_CONTRACT gives.
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/run_time_family.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "two_stage.hpp"
 

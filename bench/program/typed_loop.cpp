@@ -43,7 +43,7 @@ struct plan {
 /// As many trajectories side by side as fill a block of lanes, one block after the other, unobserved until
 /// the end.
 template <class System>
-void follow(const System& system, const auto& law, const tabulated& method, const plan& of) {
+void follow(const System& system, const auto& law, const method& method, const plan& of) {
   constexpr int N = System::dimension;
   using lanes = pack<double>;
   const auto stepper = make_stepper(system, method, of.step);

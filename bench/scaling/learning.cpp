@@ -49,7 +49,7 @@ struct learning_case {
   explicit learning_case(const size_of_work& size)
       : data(make_data(size, 1)),
         held_out(make_data(size, 2)),
-        problem(run_time_family(nystrom{}), chain, data, held_out, {.threads = size.threads}) {}
+        problem(family(nystrom{}), chain, data, held_out, {.threads = size.threads}) {}
 
   double loss() const { return problem.loss(problem.family.starts.front().theta).value; }
 };

@@ -17,12 +17,12 @@ from pathlib import Path
 
 # Every public header belongs to one group: files without .hpp, and folders.
 groups = {
-    "Entry points": "nysalt core learn odeint mpi version",
+    "Entry points": "nysalt core learn analyse parallel odeint mpi version",
     "Scalars and states": "scalar scalars/ phase_point lanes",
     "Systems": "system local_system force energy systems/ model plugin system_declaration",
     "Baths and noise": "bath noise noises/ langevin",
     "Flows and words": "flow flows/ letters word stepper",
-    "Families and methods": "family families/ run_time_family method methods/",
+    "Families and methods": "family families/ method methods/",
     "Initial states": "ensemble ensembles/ initial_states",
     "References": "reference references/",
     "Learning": "flow_map_data losses/ learning/",
@@ -32,12 +32,13 @@ groups = {
     "Comparisons": "compare recommend comparison_options export_to",
     "Ranks and files": "communicator communicators/ shard atomic_file",
 }
+internal = {"core", "kernels", "parallel", "stepping"}
 
 
 def public_headers(root):
     """{path below include/nysalt: text}"""
     folder = root / "include/nysalt"
-    paths = (path for path in sorted(folder.rglob("*.hpp")) if "core" not in path.relative_to(folder).parts)
+    paths = (path for path in sorted(folder.rglob("*.hpp")) if internal.isdisjoint(path.relative_to(folder).parts))
     return {str(path.relative_to(folder)): path.read_text() for path in paths}
 
 

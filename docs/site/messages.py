@@ -46,7 +46,7 @@ parts_of_messages = {
     "src/nysalt/derivatives/word_on_parts.cpp": {"K''(p) is not positive semidefinite",
                                                  "the letter {} is neither a drift nor a kick"},
     "src/nysalt/ensembles/burn_in.hpp": {"be that of equipartition", "not change afterwards"},
-    "src/nysalt/run_time_family.cpp": {"have a part of H for each coefficient", "leave out what follows |",
+    "src/nysalt/family.cpp": {"have a part of H for each coefficient", "leave out what follows |",
                                        "not have two equal neighbours", "read the same from both ends"},
     "src/nysalt/systems/lennard_jones_liquid.cpp": {"finite and at least 1", "from 0 to 3", "positive and finite",
                                                     "the number of threads"},

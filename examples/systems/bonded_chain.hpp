@@ -6,7 +6,7 @@
 #include <string>
 
 #include "nysalt/core/sentence.hpp"
-#include "nysalt/systems/sum_of_parts.hpp"
+#include "nysalt/flows/sum_of_parts.hpp"
 
 namespace examples {
 

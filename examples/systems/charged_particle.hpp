@@ -217,7 +217,7 @@ struct boris_turn : exact_flow<'w'> {
 
 /// Half a step straight on, half an electric kick, Boris' turn, half a kick, half a step straight on. Order
 /// 2, one electric force; it keeps volume, but is not symplectic. Source: [boris_1970; qin_and_others_2013].
-inline tabulated boris() {
+inline method boris() {
   return {"boris",
           word_of<velocity_drift, kick_of_part<0>, boris_turn, kick_of_part<0>, velocity_drift>(),
           {0.5, 0.5, 1.0, 0.5, 0.5},
@@ -226,7 +226,7 @@ inline tabulated boris() {
 
 /// Half a helix, an electric kick, half a helix: symplectic, of order 2, one electric force, and exact
 /// without an electric field.
-inline tabulated cyclotron_verlet() {
+inline method cyclotron_verlet() {
   return {"cyclotron_verlet",
           word_of<cyclotron_flow, kick_of_part<0>, cyclotron_flow>(),
           {0.5, 1.0, 0.5},

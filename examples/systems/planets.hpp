@@ -13,7 +13,7 @@
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/flows/exact_flow.hpp"
-#include "nysalt/systems/sum_of_parts.hpp"
+#include "nysalt/flows/sum_of_parts.hpp"
 
 // A star with planets in Jacobi's coordinates: Kepler motions, and what the planets do to each other.
 
@@ -398,7 +398,7 @@ struct kepler_flow : exact_flow<'K'> {
 /// Half a kick by the other planets, all planets along their ellipses, half a kick: order 2, symmetric, with
 /// an error of the size of the masses of the planets times h^2. One evaluation of the interaction and one
 /// Kepler motion of each planet a step, of a solar_system. Source: [wisdom_holman_1991].
-inline tabulated wisdom_holman() {
+inline method wisdom_holman() {
   return {"wisdom_holman",
           word_of<kick_of_part<1>, kepler_flow, kick_of_part<1>>(),
           {0.5, 1.0, 0.5},

@@ -62,13 +62,13 @@ int main() {
   // [compare]
   // A word of n evaluations takes n times the step of one evaluation: all rows cost the same.
   struct rival {
-    tabulated method;
+    nysalt::method method;
     int evaluations;            // of a step
     std::function<void()> run;  // a thousand times over [0, 40 step], 120 evaluations
   };
   const auto start = starts(3, 0);
   auto finish = start;
-  const auto rival_of = [&](const tabulated& each, int evaluations) {
+  const auto rival_of = [&](const nysalt::method& each, int evaluations) {
     const auto stepper = make_stepper(system, each, step / 3 * evaluations);
     const auto run = [&, stepper, evaluations] {
       for (int n = 0; n < 1000; ++n) finish = integrate(stepper, start, 120 / evaluations).finish;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "nysalt/bath.hpp"
-#include "nysalt/core/lockstep.hpp"
 #include "nysalt/derivatives/properties.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/gradient_composition.hpp"
@@ -15,6 +14,7 @@
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/scalars/pack.hpp"
+#include "nysalt/stepping/lockstep.hpp"
 #include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/gaussian.hpp"

@@ -34,7 +34,7 @@ class distributed_run {
   /// ranks if the system is no LocalSystem or is in a bath that acts, if the word is not drifts and kicks in
   /// turn or is processed, if the step is zero or not finite, if a start is not finite, or if there are more
   /// ranks than the sites can be shared by.
-  distributed_run(const model& system, const tabulated& method, double step, const start& at,
+  distributed_run(const model& system, const nysalt::method& method, double step, const start& at,
                   const communicator& ranks = one_rank);
   ~distributed_run();
   distributed_run(distributed_run&&) noexcept;             ///< leaves the other one without a state
@@ -68,7 +68,7 @@ class distributed_run {
 
 namespace detail {
 /// Whether the constructor of distributed_run admits this system and method on these ranks.
-bool can_be_distributed(const model& system, const tabulated& method, const communicator& ranks);
+bool can_be_distributed(const model& system, const method& method, const communicator& ranks);
 }  // namespace detail
 
 }  // namespace nysalt

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/core/ensemble_loop.hpp"
-#include "nysalt/core/lockstep.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/ensemble.hpp"
+#include "nysalt/parallel/ensemble_loop.hpp"
+#include "nysalt/stepping/lockstep.hpp"
 
 namespace nysalt {
 

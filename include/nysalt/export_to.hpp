@@ -32,13 +32,13 @@ struct export_options {
 
 /// Source text of the method for a host, with a self-test. Throws std::invalid_argument for an unknown host,
 /// and for a method that the host cannot take. Cost: ten steps of two oscillators.
-std::string export_to(std::string_view host, const tabulated& method, const export_options& options = {});
+std::string export_to(std::string_view host, const method& method, const export_options& options = {});
 
 /// Source text of the method for a host of one's own, by the template in `text`
 /// (docs/how-to/export_template.md); `file` names the template in messages. Throws std::invalid_argument,
 /// with file and line, for what is not the language of templates, and for a method that the template cannot
 /// take. Cost: as export_to().
-std::string export_by_template(std::string_view text, std::string_view file, const tabulated& method,
+std::string export_by_template(std::string_view text, std::string_view file, const nysalt::method& method,
                                const export_options& options = {});
 
 }  // namespace nysalt

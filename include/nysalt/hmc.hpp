@@ -85,7 +85,7 @@ struct hmc_result {
 /// force is not finite at a start, or the state to go on from is of other options; std::runtime_error if a
 /// coordinate did not vary where its variance is asked for. Cost of a trajectory of n steps:
 /// evaluations_to_open + n evaluations_per_step of the word, and one potential.
-hmc_result hmc(const model& system, const tabulated& method, const initial_states& starts,
+hmc_result hmc(const model& system, const method& method, const initial_states& starts,
                const hmc_options& options, const std::function<void(const hmc_draw&)>& take);
 
 /// The factor by which the standard deviation of a scalar may still shrink if chains went on for ever,

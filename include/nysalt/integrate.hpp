@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "nysalt/core/lockstep.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/stepping/lockstep.hpp"
 
 namespace nysalt {
 
@@ -80,14 +80,14 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
 
 /// Integrates by a method at a step. For many trajectories make the stepper once.
 template <System S, class Observer>
-outcome<S::dimension> integrate(const S& system, const tabulated& method, double step,
+outcome<S::dimension> integrate(const S& system, const method& method, double step,
                                 const phase_point<double, S::dimension>& start, std::int64_t steps,
                                 Observer&& observer, std::int64_t every = 1) {
   return integrate(make_stepper(system, method, step), start, steps, std::forward<Observer>(observer), every);
 }
 /// Integrates by a method at a step, without observer.
 template <System S>
-outcome<S::dimension> integrate(const S& system, const tabulated& method, double step,
+outcome<S::dimension> integrate(const S& system, const method& method, double step,
                                 const phase_point<double, S::dimension>& start, std::int64_t steps) {
   return integrate(make_stepper(system, method, step), start, steps);
 }

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "nysalt/communicator.hpp"
-#include "nysalt/core/ensemble_loop.hpp"
-#include "nysalt/core/lockstep.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/method.hpp"
+#include "nysalt/parallel/ensemble_loop.hpp"
 #include "nysalt/shard.hpp"
+#include "nysalt/stepping/lockstep.hpp"
 
 namespace nysalt {
 
@@ -105,7 +105,7 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
 /// trajectory after the other, or for all lanes at a time if it is marked by over_lanes; of trajectories that
 /// have diverged too, so it must bear any state.
 template <System S, Ensemble<S> E, class Observable, class Take>
-std::vector<std::optional<std::int64_t>> integrate_ensemble(const S& system, const tabulated& method,
+std::vector<std::optional<std::int64_t>> integrate_ensemble(const S& system, const method& method,
                                                             double step, const E& ensemble,
                                                             const ensemble_options& options,
                                                             const Observable& observable, const Take& take) {

@@ -10,10 +10,10 @@
 #include <string>
 #include <string_view>
 
-#include "nysalt/core/divergence.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_point.hpp"
+#include "nysalt/stepping/divergence.hpp"
 
 namespace nysalt {
 
@@ -116,7 +116,7 @@ class step_judge {
   /// Judgement of a method at the step. Not to be called by two threads at once. Throws std::invalid_argument
   /// if the method does not suit the system. Cost: a trial of at most `work`, less where trajectories are
   /// lost.
-  judgement of(const tabulated& method) const;
+  judgement of(const nysalt::method& method) const;
 
  private:
   struct known;
@@ -124,7 +124,7 @@ class step_judge {
 };
 
 /// The judgement of one method, see step_judge.
-judgement judge(const model& system, const phase_points& starts, const tabulated& method, double step,
+judgement judge(const model& system, const phase_points& starts, const nysalt::method& method, double step,
                 const judging_options& options = {});
 
 }  // namespace nysalt

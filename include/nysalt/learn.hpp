@@ -9,13 +9,13 @@
 #include <optional>
 #include <vector>
 
+#include "nysalt/family.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/learning/fit_summary.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/run_time_family.hpp"
 
 namespace nysalt {
 
@@ -54,7 +54,7 @@ struct fit_options {
 struct fit {
   Eigen::VectorXd theta;  ///< the learned parameters
   fit_summary summary;    ///< errors and verdict of the fit; `usable` says whether to use the method
-  tabulated method;       ///< the member at theta; it carries its step and system, and refuses others
+  nysalt::method method;  ///< the member at theta; it carries its step and system, and refuses others
 };
 
 /// theta that minimises a loss over `data`: the loss of the options, by default the state's error at several
@@ -77,8 +77,8 @@ struct fit {
 /// trusted is returned with usable = false. Cost: some 40 passes over a part of the data for each start, and
 /// some 20 to 200 over all for each of three minima, each a step with derivatives a pair. Memory: some five
 /// copies of the data.
-fit learn(const run_time_family& family, const model& system, const flow_map_data& data,
-          const flow_map_data& held_out, const fit_options& options = {});
+fit learn(const family& family, const model& system, const flow_map_data& data, const flow_map_data& held_out,
+          const fit_options& options = {});
 
 namespace detail {
 /// The options with the loss. Throws std::invalid_argument if they have one.
@@ -87,8 +87,8 @@ fit_options with_loss(fit_options options, loss_choice loss);
 
 /// The same with a loss of one's own. Throws std::invalid_argument, too, if the options have another loss.
 template <SeparableSystem S, class Error>
-fit learn(const run_time_family& family, const S& system, const flow_map_data& data,
-          const flow_map_data& held_out, const fit_options& options, const own_loss<Error>& own) {
+fit learn(const family& family, const S& system, const flow_map_data& data, const flow_map_data& held_out,
+          const fit_options& options, const own_loss<Error>& own) {
   return learn(family, system, data, held_out, detail::with_loss(options, loss_of(system, own)));
 }
 

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/core/requirements.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/stepper.hpp"
+#include "nysalt/systems/requirements.hpp"
 
 namespace nysalt {
 
@@ -34,12 +34,12 @@ struct method_validity {
 
 /// A method: letters, coefficients and what it promises. A learned one refuses other steps and systems than
 /// its own; anywhere() gives the plain method to those who ask for it.
-class tabulated : public method_properties {
+class method : public method_properties {
  public:
   /// A method from letters, one coefficient for each of their slots, and promises. Throws
   /// std::invalid_argument unless there is a finite coefficient for each slot.
-  tabulated(std::string name, const word& letters, std::vector<double> coefficients,
-            const method_properties& properties, std::optional<method_validity> validity = {});
+  method(std::string name, const word& letters, std::vector<double> coefficients,
+         const method_properties& properties, std::optional<method_validity> validity = {});
 
   const word& letters() const { return letters_; }                           ///< letters, in their order
   const std::vector<double>& coefficients() const { return coefficients_; }  ///< one for each slot
@@ -55,7 +55,7 @@ class tabulated : public method_properties {
     return !validity_ || !validity_->energies || validity_->energies->contains(energy<double>(system, state));
   }
   /// The method without its validity: for any step and system.
-  tabulated anywhere() const;
+  method anywhere() const;
 
   /// Throws std::invalid_argument where the method is not valid: at a step other than the learned one
   /// (to 1e-9 relative, as steps are typed in decimals) or for another system.
@@ -71,7 +71,7 @@ class tabulated : public method_properties {
 /// Throws std::invalid_argument, naming the method, if its order needs a quadratic kinetic energy that the
 /// system has not.
 template <System S>
-void require_kinetic_energy_for(const tabulated& method, const S& system) {
+void require_kinetic_energy_for(const method& method, const S& system) {
   if (!method.requires_quadratic_kinetic || has_quadratic_kinetic(system)) return;
   throw std::invalid_argument(
       sentence("{}: the kinetic energy must be quadratic for the order of the method, got that of {}; take a "
@@ -82,7 +82,7 @@ void require_kinetic_energy_for(const tabulated& method, const S& system) {
 /// The stepper of a method on a system, with the noise of its bath. Throws std::invalid_argument where the
 /// method is not valid on the system or the stepper refuses the word.
 template <System S, NoiseSource Noise = no_noise>
-stepper<S, double, Noise> make_stepper(const S& system, const tabulated& method, double step,
+stepper<S, double, Noise> make_stepper(const S& system, const method& method, double step,
                                        const Noise& noise = {}) {
   if constexpr (!detail::steps_by_own_letters_only<S>) require_suited<S>();
   if (method.validity()) method.require_validity(describe(system), step);
@@ -90,17 +90,17 @@ stepper<S, double, Noise> make_stepper(const S& system, const tabulated& method,
   return {system, method.letters(), method.coefficients(), step, noise};
 }
 template <System S, NoiseSource Noise = no_noise>
-void make_stepper(const S&& system, const tabulated& method, double step,
+void make_stepper(const S&& system, const method& method, double step,
                   const Noise& noise = {}) = delete;  // it would refer to a temporary
 
 /// Several steps of a method with an equal part of the step each, as one method: a coefficient of a letter
 /// goes with the power of h that the letter gives it. Throws std::invalid_argument unless there is at least
 /// one step, or, of several steps, if the word has letters O or a processor.
-tabulated repeated(const tabulated& method, int times);
+method repeated(const method& method, int times);
 
 /// A method in a bath: its word with letters O at a placement, under the same name. Throws
 /// std::invalid_argument if the method has letters O already, no central letter, or a validity: take its
 /// anywhere().
-tabulated thermostat(const tabulated& method, placement where);
+method thermostat(const method& method, placement where);
 
 }  // namespace nysalt

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/core/typed_system.hpp"
+#include "nysalt/kernels/typed_system.hpp"
 
 namespace nysalt {
 

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/core/requirements.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/system_declaration.hpp"
+#include "nysalt/systems/requirements.hpp"
 #include "nysalt/version.hpp"
 
 namespace nysalt {

@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/core/prepared_word.hpp"
 #include "nysalt/core/sentence.hpp"
-#include "nysalt/core/served_letters.hpp"
 #include "nysalt/noise.hpp"
+#include "nysalt/stepping/prepared_word.hpp"
+#include "nysalt/stepping/served_letters.hpp"
 
 namespace nysalt {
 

@@ -15,8 +15,8 @@
 
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/bath.hpp"
-#include "nysalt/core/kernels.hpp"
 #include "nysalt/initial_states.hpp"
+#include "nysalt/kernels/kernels.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/systems/in_bath.hpp"

@@ -19,12 +19,12 @@ namespace nysalt::program {
 
 namespace {
 template <class... F>
-std::vector<run_time_family> families_of() {
-  return {run_time_family(F{})...};
+std::vector<family> families_of() {
+  return {family(F{})...};
 }
 }  // namespace
 
-const std::vector<run_time_family>& families() {
+const std::vector<family>& families() {
   static const auto all = families_of<nystrom, aba<4>, aba<5>, aba<6>, bab<2>, bab<3>, bab<4>, bab<5>, bab<6>,
                                       aba3_free, aba4_free, aba6_free, bab6_free, fg_chin, fg4, fd_chin,
                                       r_aba<2>, r_aba<4>, r_aba<6>, r_fg4>();
@@ -84,7 +84,7 @@ std::string times_of_slots(const word& letters) {
 }
 
 namespace {
-run_time_family word_named(std::string_view name, const std::vector<letter_facts>& of_system) {
+family word_named(std::string_view name, const std::vector<letter_facts>& of_system) {
   const std::string letters(name.substr(word_prefix.size()));
   require_letters(name, letters, of_system);
   constexpr std::size_t most = 64;  // letters: their coefficients are learned
@@ -102,17 +102,17 @@ run_time_family word_named(std::string_view name, const std::vector<letter_facts
 }
 }  // namespace
 
-tabulated method_of_word(std::string_view name, const std::vector<letter_facts>& of_system) {
+method method_of_word(std::string_view name, const std::vector<letter_facts>& of_system) {
   const auto family = word_named(name, of_system);
   const Eigen::VectorXd& theta = family.starts.front().theta;
   return member(family, {theta.begin(), theta.end()});
 }
 
-run_time_family family_named(std::string_view name, const std::vector<letter_facts>& of_system) {
+family family_named(std::string_view name, const std::vector<letter_facts>& of_system) {
   if (is_word(name)) return word_named(name, of_system);
   const auto mark = name.rfind("+p");
   const std::string_view kernel = name.substr(0, mark);
-  const auto known = std::ranges::find(families(), kernel, &run_time_family::name);
+  const auto known = std::ranges::find(families(), kernel, &family::name);
   if (known == families().end()) {
     const char* more = mark == std::string_view::npos ? "" : "; one processor may follow, as in fg4+p3";
     refuse("unknown family '{}': {}{}", name, did_you_mean(kernel, family_names()), more);
@@ -127,8 +127,8 @@ run_time_family family_named(std::string_view name, const std::vector<letter_fac
   }
 }
 
-run_time_family placed(std::string_view name, std::optional<placement> where,
-                       const std::vector<letter_facts>& of_system) {
+family placed(std::string_view name, std::optional<placement> where,
+              const std::vector<letter_facts>& of_system) {
   const auto plain = family_named(name, of_system);
   return where ? thermostatted(plain, *where) : plain;
 }
@@ -137,8 +137,8 @@ std::string source_of_family(std::string_view name) {
   return is_word(name) ? std::string() : family_named(name).source;
 }
 
-tabulated family_member(const std::string& name, const std::vector<double>& parameters,
-                        const std::vector<letter_facts>& of_system) {
+method family_member(const std::string& name, const std::vector<double>& parameters,
+                     const std::vector<letter_facts>& of_system) {
   const auto family = family_named(name, of_system);
   if (std::ssize(parameters) != family.parameters()) {
     refuse("the family {} must have {} parameters ({}), got {}", name, family.parameters(),
@@ -186,7 +186,7 @@ adaptive_method adaptive(const char* name) {
   return {name, M::source, M::letters_of_all, M::promises, to_cover, [](double z) { return M(z); }};
 }
 
-adaptive_method fitted(const run_time_family& family, const tabulated& classical) {
+adaptive_method fitted(const family& family, const method& classical) {
   return {"phase_fitted_" + classical.name(),
           phase_fitted_source,
           classical.letters(),

@@ -8,12 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "nysalt/family.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/learning/problem.hpp"
 #include "nysalt/letters.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/run_time_family.hpp"
 #include "refusal.hpp"
 
 namespace nysalt::program {
@@ -22,7 +22,7 @@ class prepared_problem;
 struct fitted_frequency;  // prepared_problem.hpp
 
 /// Every family that can be learned.
-const std::vector<run_time_family>& families();
+const std::vector<nysalt::family>& families();
 std::vector<std::string> family_names();
 
 /// What names of words begin with, as in word:BAB: methods, and families of what is symmetric.
@@ -32,12 +32,12 @@ inline bool is_word(std::string_view name) { return name.starts_with(word_prefix
 /// FAMILY, or FAMILY+pPAIRS with a processor, or word:LETTERS, of A, B, R, S and the letters of a system.
 /// Throws refusal, listing the names, if there is none of that name, and where the family cannot have a
 /// processor, or a word no symmetric coefficients.
-run_time_family family_named(std::string_view name, const std::vector<letter_facts>& of_system = {});
+nysalt::family family_named(std::string_view name, const std::vector<letter_facts>& of_system = {});
 /// With its letters O, where there is a bath.
-run_time_family placed(std::string_view name, std::optional<placement> where,
-                       const std::vector<letter_facts>& of_system = {});
+nysalt::family placed(std::string_view name, std::optional<placement> where,
+                      const std::vector<letter_facts>& of_system = {});
 /// The member of word:LETTERS that is made of equal steps.
-tabulated method_of_word(std::string_view name, const std::vector<letter_facts>& of_system);
+nysalt::method method_of_word(std::string_view name, const std::vector<letter_facts>& of_system);
 /// The part of H whose time each slot is, a character each. Throws refusal for a letter that has several
 /// coefficients and does not say.
 std::string times_of_slots(const word& letters);
@@ -48,12 +48,12 @@ std::string names_of(const std::vector<letter_facts>& of_system);
 std::string source_of_family(std::string_view name);
 
 /// A member of a family, from its parameters. Throws what is wrong with them, or with the name.
-tabulated family_member(const std::string& family, const std::vector<double>& parameters,
-                        const std::vector<letter_facts>& of_system = {});
+nysalt::method family_member(const std::string& family, const std::vector<double>& parameters,
+                             const std::vector<letter_facts>& of_system = {});
 
 /// A classical method whose coefficients are fixed.
 struct classical_method {
-  tabulated method;
+  nysalt::method method;
   std::string_view source;  // in docs/bibliography.bib
 };
 const std::vector<classical_method>& classical_methods();
@@ -80,7 +80,7 @@ struct adaptive_method {
   word letters;
   method_properties properties;
   std::optional<fitted_frequency> (*frequency)(const prepared_problem&);  // nothing where none is known
-  std::function<tabulated(double z)> at;  // throws std::invalid_argument where it ends
+  std::function<method(double z)> at;  // throws std::invalid_argument where it ends
 };
 const std::vector<adaptive_method>& adaptive_methods();
 

@@ -11,7 +11,7 @@
 #include "checks.hpp"
 #include "declared_prices.hpp"
 #include "learning.hpp"
-#include "nysalt/core/served_letters.hpp"
+#include "nysalt/stepping/served_letters.hpp"
 #include "purpose.hpp"
 #include "refusal.hpp"
 #include "seeds.hpp"

@@ -31,7 +31,7 @@ struct row {
   double step;         // that is taken
   bool is_learned = false;
   bool gains_nothing = false;  // learned, and a classical method of its cost is as good by the loss
-  std::optional<tabulated> coefficients{};
+  std::optional<nysalt::method> coefficients{};
   std::optional<fitted_frequency> frequency{};  // of coefficients that follow from one
   std::string reason{};                         // why the method could not be used
   double share_of_evaluation = 1.0;   // what an evaluation costs on average, of one of the whole force
@@ -113,8 +113,8 @@ class comparison {
   void measure_paths(double step, const group& all, journal& kept);
   std::vector<asked_metric> along_paths() const;
   /// Coarser than the usual where the rows' errors allow it; nothing: the usual one.
-  std::optional<double> fine_step_for(double step, const std::vector<tabulated>& methods) const;
-  double refinement(const errors_plan& pilot, const std::vector<tabulated>& methods) const;
+  std::optional<double> fine_step_for(double step, const std::vector<method>& methods) const;
+  double refinement(const errors_plan& pilot, const std::vector<method>& methods) const;
   void take(std::size_t metric, double step, const group& all, const measured& found);
   void measure_acceptance(std::size_t metric, double step, const group& all, journal& kept);
   void measure_law(std::size_t metric, double step, const group& all, journal& kept);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "comparison.hpp"
-#include "nysalt/core/served_letters.hpp"
+#include "nysalt/stepping/served_letters.hpp"
 #include "sampled_run.hpp"
 
 namespace nysalt::program {

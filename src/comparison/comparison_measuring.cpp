@@ -122,7 +122,7 @@ void comparison::learn(row& line, journal& kept) {
   const auto where = placement_in(source, *system_, placement_asked(options_.placement));
   const std::string part = fmt::format("{} learned at {}", line.method, line.step);
   if (kept.has(part)) shown_.skip(work_of_learning(line));
-  const run_time_family family = placed(*source.family, where, system_->letters());
+  const nysalt::family family = placed(*source.family, where, system_->letters());
   const auto read = [&](const json& document) { return learned_row_from(document, line.method, family); };
   const learned_row found = kept.once(part, read, [&] {
     const learn_plan plan = plan_for(*source.family, where, line.step, options_.learning, common_);
@@ -148,7 +148,7 @@ std::vector<asked_metric> comparison::along_paths() const {
 
 /// The factor by which the reference should be finer for its error to be a hundred times below those of the
 /// rows, as that falls with the sixth power of its step.
-double comparison::refinement(const errors_plan& pilot, const std::vector<tabulated>& methods) const {
+double comparison::refinement(const errors_plan& pilot, const std::vector<method>& methods) const {
   constexpr double share = 0.01;
   constexpr double order = 6.0;
   double most = 0.0;
@@ -164,7 +164,7 @@ double comparison::refinement(const errors_plan& pilot, const std::vector<tabula
 
 /// Pilots on a few trajectories estimate the errors of the rows and of a coarse reference, which is refined
 /// until it is good enough, or the usual one is.
-std::optional<double> comparison::fine_step_for(double step, const std::vector<tabulated>& methods) const {
+std::optional<double> comparison::fine_step_for(double step, const std::vector<method>& methods) const {
   if (options_.learning.fine_step) return options_.learning.fine_step;
   const auto ranking = system_->fine_step_for_ranking(step);
   const auto paths = along_paths();
@@ -238,7 +238,7 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
     return all_measured_from(text, along_paths().size(), all.size(), options_.trajectories);
   };
   const auto found = kept.once(part, read, [&] {
-    std::vector<tabulated> methods;
+    std::vector<method> methods;
     for (const row* line : all) methods.push_back(*line->coefficients);
     constexpr double perturbation = 1e-6;
     const errors_plan plan{.trajectories = paths_at(step),

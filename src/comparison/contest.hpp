@@ -44,7 +44,7 @@ struct candidate {
   bool rotates = false;
   double step = 0.0;
   std::optional<learned_scheme> learned{};
-  std::optional<tabulated> method{};
+  std::optional<nysalt::method> method{};
   bracket search{};
   std::string reason{};  // why the candidate cannot win
   measured_error error{};

@@ -20,7 +20,7 @@ struct export_request {
 
 /// A method and the options of its export.
 struct export_source {
-  tabulated method;
+  nysalt::method method;
   export_options options;
 };
 

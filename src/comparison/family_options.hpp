@@ -16,7 +16,7 @@
 namespace nysalt::program {
 
 /// "b1=0.5" into the options. Throws refusal for what is not of that form, not a parameter, or named twice.
-inline void fix_parameter(const run_time_family& family, const std::string& text, fit_options& options) {
+inline void fix_parameter(const family& family, const std::string& text, fit_options& options) {
   const auto& names = family.parameter_names;
   const auto equals = text.find('=');
   const auto name = text.substr(0, equals);
@@ -33,7 +33,7 @@ inline void fix_parameter(const run_time_family& family, const std::string& text
 }
 
 /// Throws refusal, or std::invalid_argument where a fixed value is out of range.
-inline fit_options options_for(const run_time_family& family, const learning_options& how, int threads) {
+inline fit_options options_for(const family& family, const learning_options& how, int threads) {
   fit_options options;
   options.threads = threads;
   if (!how.coordinates.empty()) options.coordinates = coordinates_named(how.coordinates);

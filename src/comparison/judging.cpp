@@ -61,7 +61,7 @@ std::optional<std::string> warning_of(const std::string& name, const judgement& 
 namespace {
 
 /// The first z below `end` at which a step turns an oscillator by a quarter, or the end.
-double quarter_turn_of(const tabulated& method, double end) {
+double quarter_turn_of(const method& method, double end) {
   constexpr int samples = 1000;
   for (int i = 1; i <= samples; ++i) {
     double high = end * i / samples;
@@ -84,7 +84,7 @@ double rounded_down(double x) {
 
 }  // namespace
 
-double linear_step(const tabulated& method, const stability_chart& chart, double highest_frequency) {
+double linear_step(const method& method, const stability_chart& chart, double highest_frequency) {
   if (chart.windows.empty() || chart.windows.front().low > 0.0 || !(highest_frequency > 0.0)) return 0.0;
   double end = chart.windows.front().high;
   if (!chart.touching.empty()) end = std::min(end, chart.touching.front());
@@ -98,7 +98,7 @@ std::string advice(double linear_step) {
                      rounded_down(linear_step), 100.0 * linear_margin);
 }
 
-std::optional<double> safe_step(const tabulated& method, const prepared_problem& system, double linear_step,
+std::optional<double> safe_step(const method& method, const prepared_problem& system, double linear_step,
                                 int threads) {
   if (!has_windows(method.letters()) || linear_step == 0.0 || system.frequency_bands().empty()) {
     return std::nullopt;
@@ -118,11 +118,11 @@ std::optional<double> safe_step(const tabulated& method, const prepared_problem&
   return std::nullopt;
 }
 
-std::optional<rival_judgement> loses_fewest(const tabulated& method, const prepared_problem& system,
+std::optional<rival_judgement> loses_fewest(const method& method, const prepared_problem& system,
                                             const judgement& found, int threads) {
   if (found.holds() || found.verdict == step_verdict::not_tried || system.heat_bath().acts())
     return std::nullopt;
-  const auto is_served = [&](const tabulated& other) {
+  const auto is_served = [&](const nysalt::method& other) {
     if (other.requires_quadratic_kinetic && !has_quadratic_kinetic(system.definition().system)) return false;
     try {
       system.require_served(other.letters());
@@ -131,7 +131,7 @@ std::optional<rival_judgement> loses_fewest(const tabulated& method, const prepa
       return false;
     }
   };
-  std::vector<std::pair<double, const tabulated*>> candidates;  // window an evaluation
+  std::vector<std::pair<double, const nysalt::method*>> candidates;  // window an evaluation
   for (const auto& [other, source] : classical_methods()) {
     const nysalt::word& word = other.letters();
     if (!has_windows(word) || word.stochastic_letters > 0 || !is_served(other)) continue;
@@ -141,7 +141,7 @@ std::optional<rival_judgement> loses_fewest(const tabulated& method, const prepa
     candidates.emplace_back(limit_of(other) / word.evaluations_per_step, &other);
   }
   constexpr std::size_t most = 5;
-  std::ranges::stable_sort(candidates, std::greater(), &std::pair<double, const tabulated*>::first);
+  std::ranges::stable_sort(candidates, std::greater(), &std::pair<double, const nysalt::method*>::first);
   std::optional<rival_judgement> best;
   for (const auto& [window, other] : std::span(candidates).first(std::min(most, candidates.size()))) {
     const double cost =

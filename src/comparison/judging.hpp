@@ -36,7 +36,7 @@ std::optional<std::string> warning_of(const std::string& name, const judgement& 
 
 /// By the linear criterion nothing below this step is unstable, touches or turns by a quarter on frequencies
 /// from 0 to the highest, with the margins above; 0 if there is none.
-double linear_step(const tabulated& method, const stability_chart& chart, double highest_frequency);
+double linear_step(const nysalt::method& method, const stability_chart& chart, double highest_frequency);
 /// "by the linear criterion steps up to 0.0317 have a margin of 30 %"
 std::string advice(double linear_step);
 
@@ -44,8 +44,8 @@ std::string advice(double linear_step);
 /// and so on such that at 5/4 of it, at it and at 4/5, 16/25 and 64/125 of it none is lost in a trial, and no
 /// energy errs by as much as the kinetic energy. Nothing if there is none, if the word has no windows, or if
 /// the system's frequencies have no bound. Cost: a trial for each step.
-std::optional<double> safe_step(const tabulated& method, const prepared_problem& system, double linear_step,
-                                int threads);
+std::optional<double> safe_step(const nysalt::method& method, const prepared_problem& system,
+                                double linear_step, int threads);
 
 /// A classical method judged at the step where it costs as much as another method.
 struct rival_judgement {
@@ -56,7 +56,7 @@ struct rival_judgement {
 /// Beside a method that loses trajectories: the classical method that loses the fewest at equal cost, of the
 /// five with the longest stability windows an evaluation, as on close encounters every fixed step loses
 /// some. Nothing where at most 2 % are lost, and in a bath. Cost: five trials at most.
-std::optional<rival_judgement> loses_fewest(const tabulated& method, const prepared_problem& system,
+std::optional<rival_judgement> loses_fewest(const method& method, const prepared_problem& system,
                                             const judgement& found, int threads);
 /// "at equal cost verlet at step 0.05 loses the fewest trajectories, 3.1 %"
 std::string in_words(const rival_judgement& rival);

@@ -98,14 +98,14 @@ bool are_same(const std::vector<letter>& a, const std::vector<letter>& b) {
 }
 
 /// Whether the processor is the identity.
-bool is_trivial(const tabulated& method) {
+bool is_trivial(const method& method) {
   const auto c = method.coefficients();
   return std::all_of(c.begin() + static_cast<std::ptrdiff_t>(method.letters().kernel_slots), c.end(),
                      [](double x) { return std::abs(x) < same; });
 }
 
 /// Of processed words, of which many do the same.
-bool are_same_to_the_letter(const tabulated& a, const tabulated& b) {
+bool are_same_to_the_letter(const method& a, const method& b) {
   return a.letters().letters() == b.letters().letters() &&
          std::ranges::equal(a.coefficients(), b.coefficients(),
                             [](double x, double y) { return std::abs(x - y) < same; });
@@ -113,15 +113,15 @@ bool are_same_to_the_letter(const tabulated& a, const tabulated& b) {
 
 }  // namespace
 
-std::optional<std::string> known_as(const tabulated& method, std::span<const tabulated> known) {
+std::optional<std::string> known_as(const method& method, std::span<const nysalt::method> known) {
   if (method.letters().is_processed() && !is_trivial(method)) {
-    for (const tabulated& other : known) {
+    for (const nysalt::method& other : known) {
       if (are_same_to_the_letter(method, other)) return other.name();
     }
     return std::nullopt;
   }
   const auto letters = merged(letters_of(method.letters(), method.coefficients()), same);
-  for (const tabulated& other : known) {
+  for (const nysalt::method& other : known) {
     if (other.letters().is_processed()) continue;
     const auto one_step = merged(letters_of(other.letters(), other.coefficients()), same);
     for (int n = 1;; ++n) {
@@ -136,14 +136,14 @@ std::optional<std::string> known_as(const tabulated& method, std::span<const tab
 }
 
 std::optional<std::string> known_as(const std::string& family, const std::vector<double>& theta,
-                                    std::span<const tabulated> further,
+                                    std::span<const method> further,
                                     const std::vector<letter_facts>& of_system) {
-  const run_time_family named_family = family_named(family, of_system);
+  const nysalt::family named_family = family_named(family, of_system);
   const auto member = [&](const std::string& name, const Eigen::VectorXd& at) {
-    return tabulated(name, named_family.letters, named_family.coefficients(at),
-                     {named_family.order, named_family.symmetric, named_family.requires_quadratic_kinetic});
+    return method(name, named_family.letters, named_family.coefficients(at),
+                  {named_family.order, named_family.symmetric, named_family.requires_quadratic_kinetic});
   };
-  std::vector<tabulated> known;
+  std::vector<method> known;
   for (const auto& classical : classical_methods()) known.push_back(classical.method);
   known.insert(known.end(), further.begin(), further.end());
   for (const auto& [name, at] : named_family.starts) {

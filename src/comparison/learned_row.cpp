@@ -62,7 +62,7 @@ learned_row learned_row_of(const std::string& method, const fit_summary& fit, js
   return row;
 }
 
-learned_row learned_row_from(const json& document, const std::string& method, const run_time_family& family) {
+learned_row learned_row_from(const json& document, const std::string& method, const family& family) {
   learned_row row{.method = text_at(document, "method"),
                   .step = number_at(document, "step"),
                   .one_step_error = number_at(document, "one_step_error"),

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "json.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/learning/fit_summary.hpp"
-#include "nysalt/run_time_family.hpp"
 
 namespace nysalt::program {
 
@@ -37,7 +37,7 @@ std::string scheme_file(const std::string& method, double step);
 learned_row learned_row_of(const std::string& method, const fit_summary& fit, json scheme);
 /// Of what a journal holds of the method, which people may have edited. Throws std::exception for what is not
 /// whole, of another method, or not of the family.
-learned_row learned_row_from(const json& document, const std::string& method, const run_time_family& family);
+learned_row learned_row_from(const json& document, const std::string& method, const family& family);
 inline json to_json(const learned_row& row) { return row.document; }
 
 /// A field of each parameter, by its name.

@@ -37,8 +37,8 @@ auto in_file(const std::string& file, const auto& f) {
 }
 
 /// By name: the order of members means nothing in JSON. Each holds one number, or one for each step.
-std::vector<Eigen::VectorXd> parameters_in(const json& parameters, const run_time_family& family,
-                                           std::size_t steps, bool is_curve, const document_reader& read) {
+std::vector<Eigen::VectorXd> parameters_in(const json& parameters, const family& family, std::size_t steps,
+                                           bool is_curve, const document_reader& read) {
   if (!parameters.is_object()) refuse("{}: \"parameters\" must be an object", read.file());
   std::vector<Eigen::VectorXd> thetas(steps, Eigen::VectorXd::Zero(family.parameters()));
   const document_reader values(parameters, read.file());
@@ -168,7 +168,7 @@ scheme scheme_in(const json& document, const document_reader& read) {
   const std::string name = read.text("family");
   const document_reader of_system(read.member("system"), read.file());
   const auto own_letters = own_letters_in(document, read);
-  const run_time_family family = [&] {
+  const nysalt::family family = [&] {
     try {
       return family_named(name, own_letters);
     } catch (const refusal& problem) {
@@ -228,7 +228,7 @@ std::string sums_of(const nysalt::word& word, const std::vector<double>& coeffic
 
 /// The order of a word with letters of a system. Where these are of two parts of H, they obey the conditions
 /// of drifts and kicks; where there are more, it is that of its symmetry.
-int order_of(const tabulated& method, std::string times) {
+int order_of(const method& method, std::string times) {
   const std::string letters = method.letters().letters();
   const auto other = times.find_first_not_of(times[0]);
   const bool are_two = other != std::string::npos && times.size() == letters.size() &&
@@ -242,10 +242,10 @@ int order_of(const tabulated& method, std::string times) {
 }
 
 /// A table with letters of the system.
-tabulated table_of_system(const std::string& name, const nysalt::word& word,
-                          const std::vector<double>& coefficients, const document_reader& read,
-                          std::optional<double> declared) {
-  const tabulated bare(name, word, coefficients, {1, is_palindrome(word, coefficients), word.rotates()});
+method table_of_system(const std::string& name, const nysalt::word& word,
+                       const std::vector<double>& coefficients, const document_reader& read,
+                       std::optional<double> declared) {
+  const method bare(name, word, coefficients, {1, is_palindrome(word, coefficients), word.rotates()});
   const std::string times = times_of_slots(word);
   std::map<char, double> sums;
   for (std::size_t k = 0; k < times.size(); ++k) sums[times[k]] += coefficients[k];
@@ -263,8 +263,8 @@ tabulated table_of_system(const std::string& name, const nysalt::word& word,
   return {name, word, coefficients, {order, bare.symmetric, bare.requires_quadratic_kinetic}};
 }
 
-tabulated table_in(const json& document, const document_reader& read,
-                   const std::vector<letter_facts>& of_system) {
+method table_in(const json& document, const document_reader& read,
+                const std::vector<letter_facts>& of_system) {
   if (document.contains("placement")) {
     refuse("{}: a table must have no \"placement\"; write O among its letters, or FILE@PLACEMENT",
            read.file());
@@ -286,7 +286,7 @@ tabulated table_in(const json& document, const document_reader& read,
       const auto declared = document.contains("order") ? std::optional(read.number("order")) : std::nullopt;
       return table_of_system(name, word, coefficients, read, declared);
     }
-    const tabulated bare(name, word, coefficients, {1, false, false});
+    const method bare(name, word, coefficients, {1, false, false});
     if (word.stochastic_letters > 0) intervals_of_noise(word, coefficients);  // letters O cover the step once
     const auto found = taylor_order(bare);
     if (found.quadratic_kinetic < 1) {
@@ -310,9 +310,9 @@ tabulated table_in(const json& document, const document_reader& read,
     if (!word.reads_modes && limit_of(bare) == 0.0) {  // throws where there are too many letters
       refuse("{} must be linearly stable at small steps; take other coefficients", read.file());
     }
-    return tabulated(name, word, coefficients,
-                     {found.quadratic_kinetic, is_palindrome(word, coefficients),
-                      found.any_kinetic < found.quadratic_kinetic || word.reads_modes});
+    return method(name, word, coefficients,
+                  {found.quadratic_kinetic, is_palindrome(word, coefficients),
+                   found.any_kinetic < found.quadratic_kinetic || word.reads_modes});
   });
 }
 
@@ -328,17 +328,17 @@ letter_facts as_stated(const letter_facts& of_system) {
           .times = of_system.times};
 }
 
-tabulated scheme::at(double step) const {
+method scheme::at(double step) const {
   const double inside = std::clamp(step, curve.steps().front(), curve.steps().back());
-  const run_time_family placed_family = placed(family, where, own_letters);
+  const nysalt::family placed_family = placed(family, where, own_letters);
   Eigen::VectorXd theta = curve.at(inside);
   for (Eigen::Index k = 0; k < theta.size(); ++k) {  // a curve may swing beyond a bound that is attained
     const auto& [low, high, open] = placed_family.ranges[static_cast<std::size_t>(k)];
     if (!open) theta[k] = std::clamp(theta[k], low, high);
   }
   require_in_range(placed_family, theta);
-  return tabulated(placed_family.name, placed_family.letters, placed_family.coefficients(theta),
-                   {placed_family.order, placed_family.symmetric, placed_family.requires_quadratic_kinetic});
+  return method(placed_family.name, placed_family.letters, placed_family.coefficients(theta),
+                {placed_family.order, placed_family.symmetric, placed_family.requires_quadratic_kinetic});
 }
 
 nysalt::word scheme::letters() const { return placed(family, where, own_letters).letters; }

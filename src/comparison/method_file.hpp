@@ -34,7 +34,7 @@ struct scheme {
   std::vector<letter_facts> own_letters{};  // of the system, as they are stated
 
   /// The method at a step, under the family's name; beyond the curve that of its nearer end.
-  tabulated at(double step) const;
+  method at(double step) const;
   bool is_learned_at(double step) const { return curve.has(step); }
   /// Of the method at any step.
   word letters() const;
@@ -60,7 +60,7 @@ inline std::string scheme_text(const std::vector<learned_scheme>& learned, const
 
 /// The text of a table: the coefficients of any method under a name, with the step and the system that they
 /// were chosen for, which say what the table is of and are not checked when it is used.
-std::string table_text(const std::string& name, const tabulated& method, double step,
+std::string table_text(const std::string& name, const nysalt::method& method, double step,
                        const prepared_problem& system);
 
 /// A method that was chosen, as the file that `--method` takes: a scheme of what was learned, else a table.
@@ -73,8 +73,8 @@ struct chosen_method {
 using choice_observer = std::function<void(const chosen_method&)>;
 
 struct method_file {
-  std::optional<scheme> learned;   // one of the two
-  std::optional<tabulated> table;  // its order was found from its coefficients
+  std::optional<scheme> learned;  // one of the two
+  std::optional<method> table;    // its order was found from its coefficients
 };
 
 /// Reads either kind. Throws refusal, naming the file, for one that is missing, not whole, edited, foreign or

@@ -132,7 +132,7 @@ void require_letters_of(const method_source& source, const prepared_problem& sys
 }
 
 /// The same with the letters of the system for those that a file states.
-tabulated with_letters_of(const prepared_problem& system, const tabulated& method) {
+method with_letters_of(const prepared_problem& system, const method& method) {
   if (!method.letters().has_own_letters()) return method;
   return {method.name(), word(method.letters().letters(), system.letters()), method.coefficients(), method};
 }
@@ -169,8 +169,8 @@ std::string out_of_place(const scheme& learned, const prepared_problem& system, 
 namespace {
 
 /// Between learned steps the stability of the method is not yet known.
-tabulated from_scheme(const method_source& source, const prepared_problem& system, double step, bool force) {
-  tabulated method = with_letters_of(system, source.learned->at(step));
+method from_scheme(const method_source& source, const prepared_problem& system, double step, bool force) {
+  nysalt::method method = with_letters_of(system, source.learned->at(step));
   if (source.learned->is_learned_at(step) || force) return method;
   const judgement& found = system.judged(method, step, 1);
   if (!found.holds()) {
@@ -183,7 +183,7 @@ tabulated from_scheme(const method_source& source, const prepared_problem& syste
 }
 
 /// Refuses a method of another size that fails the trial at this one; without --force.
-void take_at_size(const method_source& source, const tabulated& method, const prepared_problem& system,
+void take_at_size(const method_source& source, const method& method, const prepared_problem& system,
                   double step, bool force, std::vector<std::string>& warnings) {
   const std::string which =
       fmt::format("{}: it was learned at another size, for {}", source.typed, source.learned->system);
@@ -203,14 +203,14 @@ void take_at_size(const method_source& source, const tabulated& method, const pr
       fmt::format("{}; for {} it was judged {}", which, system.description(), found.in_words()));
 }
 
-tabulated found_at(const method_source& source, const prepared_problem& system, double step, bool force,
-                   std::vector<std::string>& warnings) {
+method found_at(const method_source& source, const prepared_problem& system, double step, bool force,
+                std::vector<std::string>& warnings) {
   if (source.fixed) return *source.fixed;
   if (source.learned) {
     require_letters_of(source, system);
     const std::string why = out_of_place(*source.learned, system, step);
     if (why.empty()) {
-      tabulated method = from_scheme(source, system, step, force);
+      nysalt::method method = from_scheme(source, system, step, force);
       if (is_of_other_size(*source.learned, system))
         take_at_size(source, method, system, step, force, warnings);
       return method;
@@ -241,8 +241,8 @@ tabulated found_at(const method_source& source, const prepared_problem& system, 
 
 constexpr placement usual = placement::symmetric;  // the best of the three for the invariant distribution
 
-tabulated adapted_to_bath(const method_source& source, tabulated method, const prepared_problem& system,
-                          std::optional<placement> otherwise, std::vector<std::string>& warnings) {
+method adapted_to_bath(const method_source& source, method method, const prepared_problem& system,
+                       std::optional<placement> otherwise, std::vector<std::string>& warnings) {
   const bool has_letters = method.letters().stochastic_letters > 0;
   if (method.letters().is_processed() && source.where)
     refuse("{}: a processed method must have no letters O, got the placement {}; leave the placement away",
@@ -267,10 +267,9 @@ tabulated adapted_to_bath(const method_source& source, tabulated method, const p
 
 }  // namespace
 
-tabulated coefficients_at(const method_source& source, const prepared_problem& system, double step,
-                          bool force, std::optional<placement> otherwise,
-                          std::vector<std::string>& warnings) {
-  tabulated method =
+method coefficients_at(const method_source& source, const prepared_problem& system, double step, bool force,
+                       std::optional<placement> otherwise, std::vector<std::string>& warnings) {
+  nysalt::method method =
       adapted_to_bath(source, found_at(source, system, step, force, warnings), system, otherwise, warnings);
   system.require_served(method.letters());
   system.require_sound_letters(source.typed, method.letters(), step);
@@ -314,7 +313,7 @@ std::optional<placement> placement_in(const method_source& source, const prepare
   return where;
 }
 
-int noise_parts(const tabulated& method, const prepared_problem& system) {
+int noise_parts(const method& method, const prepared_problem& system) {
   if (system.heat_bath().sigma() == 0.0) return 0;
   return intervals_of_noise(method.letters(), method.coefficients()).parts;
 }

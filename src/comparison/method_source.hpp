@@ -15,7 +15,7 @@ namespace nysalt::program {
 /// @PLACEMENT or without.
 struct method_source {
   std::string typed;
-  std::optional<tabulated> fixed;             // classical and tables: the same at every step
+  std::optional<method> fixed;                // classical and tables: the same at every step
   std::optional<scheme> learned;              // from a file: at its own step
   std::optional<std::string> family;          // to be learned at each step
   const adaptive_method* adaptive = nullptr;  // of the catalogue: from step and frequency
@@ -57,8 +57,8 @@ std::string out_of_place(const scheme& learned, const prepared_problem& system, 
 /// source does not. A scheme that is out of place is refused unless `force`, and so is one of another size
 /// that fails the trial there; a warning says what was used all the same, or tried, and also where the step
 /// is not linearly stable for the system, or letters O are left out for want of a bath.
-tabulated coefficients_at(const method_source& source, const prepared_problem& system, double step,
-                          bool force, std::optional<placement> otherwise, std::vector<std::string>& warnings);
+method coefficients_at(const method_source& source, const prepared_problem& system, double step, bool force,
+                       std::optional<placement> otherwise, std::vector<std::string>& warnings);
 
 /// What is to be said if a scheme was learned on other energies than those of the starts of a plan, which
 /// must be prepared; nothing otherwise, and of another system's scheme. See energies_outside.
@@ -71,7 +71,7 @@ std::optional<placement> placement_in(const method_source& source, const prepare
                                       std::optional<placement> otherwise);
 
 /// In how many equal parts of a step a method wants the noise of a path; 0 without noise.
-int noise_parts(const tabulated& method, const prepared_problem& system);
+int noise_parts(const method& method, const prepared_problem& system);
 
 /// What `--placement` says; nothing if it is empty.
 std::optional<placement> placement_asked(const std::string& text);

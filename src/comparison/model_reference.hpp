@@ -38,9 +38,9 @@ inline double fine_step_within(double step, std::optional<double> asked, double 
 
 /// The method of small steps: in a bath BAOAB, else of order 6, SRKN11b where the kinetic energy is
 /// quadratic.
-inline tabulated method_of_reference(const model& system) {
-  if (system.bath().acts()) return tabulated(baoab{});
-  return has_quadratic_kinetic(system) ? tabulated(srkn11b{}) : tabulated(blanes_moan_s10{});
+inline method method_of_reference(const model& system) {
+  if (system.bath().acts()) return method(baoab{});
+  return has_quadratic_kinetic(system) ? method(srkn11b{}) : method(blanes_moan_s10{});
 }
 
 /// Of a system with frequencies up to `frequency`, or of none that is known, 0; a fine step goes through
@@ -102,7 +102,7 @@ class model_reference {
     return fastest() > 0.0 ? angle / fastest() : step / usual_steps * std::max(1.0, angle / usual);
   }
 
-  tabulated method_;
+  method method_;
   const bath* bath_;
   double frequency_;
   double angle_;

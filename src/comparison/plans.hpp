@@ -49,7 +49,7 @@ struct learn_plan {
 
 struct learned_scheme {
   fit_summary fit;
-  tabulated method;                      // with its letters O
+  nysalt::method method;                 // with its letters O
   std::optional<energy_range> energies;  // of the training data
   std::optional<enough_course> course = {};
 };

@@ -254,7 +254,7 @@ Eigen::VectorXd rate_of(const model& system, const nysalt::word& letter, std::si
                         const state_in_double& x, double h) {
   std::vector<double> c(letter.slots);
   c[slot] = 1.0;
-  const tabulated one_letter("letter", letter, c, {1, false, false});
+  const method one_letter("letter", letter, c, {1, false, false});
   state_in_double ahead = x;
   state_in_double behind = x;
   make_stepper(system, one_letter, h).step(ahead);
@@ -323,7 +323,7 @@ void prepared_problem::require_sound_letters(const std::string& name, const nysa
   const model base = made_.system.base();
   // Some moved by a part of a step: starts may be at rest, or at the minimum of V.
   const double moved_by = made_.frequency > 0.0 ? std::min(step, 0.1 / made_.frequency) : step;
-  const auto mover = make_stepper(base, tabulated(verlet()), moved_by);
+  const auto mover = make_stepper(base, method(verlet()), moved_by);
   states_in_double states;
   for (std::int64_t n = 0; n < 4; ++n) {
     states.push_back(sound_start(base, made_.starts, 1, n));
@@ -379,7 +379,7 @@ states_in_double prepared_problem::states_along_motion() const {
   constexpr double angle = 0.1;  // of the fastest motion in a step
   constexpr std::int64_t steps = 500;
   constexpr int samples = 4;
-  const auto stepper = make_stepper(system, tabulated(verlet()), angle / made_.frequency);
+  const auto stepper = make_stepper(system, method(verlet()), angle / made_.frequency);
   states_in_double states;
   for (const auto& start : begun) {
     auto run = stepper.open(start);
@@ -430,12 +430,11 @@ stability_guard prepared_problem::guard(const nysalt::word& word) const {
   return {made_.system, states, word};
 }
 
-const judgement& prepared_problem::judged(const tabulated& method, double step, int threads) const {
+const judgement& prepared_problem::judged(const method& method, double step, int threads) const {
   return judged_by(method, step, threads, evaluations_of_trial(made_.system));
 }
 
-const judgement& prepared_problem::judged_before(const tabulated& method,
-                                                 const trajectories_plan& run) const {
+const judgement& prepared_problem::judged_before(const method& method, const trajectories_plan& run) const {
   const std::int64_t all = evaluations_of_trial(made_.system);
   const auto taken =
       static_cast<double>(run.count) * static_cast<double>(run.steps) * method.letters().evaluations_per_step;
@@ -453,7 +452,7 @@ const judgement& prepared_problem::judged_before(const tabulated& method,
   return judged_by(method, run.step, run.threads, static_cast<std::int64_t>(std::max(taken, least)));
 }
 
-const judgement& prepared_problem::judged_by(const tabulated& method, double step, int threads,
+const judgement& prepared_problem::judged_by(const method& method, double step, int threads,
                                              std::int64_t evaluations) const {
   const std::string key = fmt::format("{} {} {} {}", method.letters().letters(),
                                       fmt::join(method.coefficients(), " "), step, evaluations);

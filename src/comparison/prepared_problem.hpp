@@ -26,7 +26,7 @@
 
 namespace nysalt {
 class stability_guard;
-class run_time_family;
+class family;
 }  // namespace nysalt
 
 namespace nysalt::program {
@@ -133,12 +133,12 @@ class prepared_problem {
   /// The judgement of a method at a step, on starts of its own, see starts_to_judge(): equal for equal
   /// coefficients, whatever the method is called and whichever command asks. Cost: that of step_judge::of();
   /// of a method that was judged at the step before none.
-  const judgement& judged(const tabulated& method, double step, int threads) const;
+  const judgement& judged(const nysalt::method& method, double step, int threads) const;
   /// The same before a run, by a trial of no more force evaluations than the run takes, or than take some
   /// tenths of a second if these are more; nothing is tried where they are too few. The verdict of less than
   /// a whole trial is `not_tried`: its reason is the fault that was found, and is empty if there was none.
   /// Counted, not measured: equal runs have equal judgements.
-  const judgement& judged_before(const tabulated& method, const trajectories_plan& run) const;
+  const judgement& judged_before(const nysalt::method& method, const trajectories_plan& run) const;
   /// Throws refusal for a word that the system does not serve.
   void require_served(const nysalt::word& word) const;
   /// Letters of one's own that the system has, by name.
@@ -162,18 +162,18 @@ class prepared_problem {
                        std::optional<double> fine_step, int noise_parts) const;
 
   /// Errors of several methods at one step against one reference, by each metric.
-  std::vector<trajectory_errors_result> errors(const std::vector<tabulated>& methods, const errors_plan& plan,
-                                               const counter& progress) const;
+  std::vector<trajectory_errors_result> errors(const std::vector<nysalt::method>& methods,
+                                               const errors_plan& plan, const counter& progress) const;
 
   /// Of Hybrid Monte Carlo, by trajectories that are as long as those of the plan.
-  acceptance_result acceptance(const tabulated& method, const trajectories_plan& plan, double temperature,
-                               const counter& progress) const;
+  acceptance_result acceptance(const nysalt::method& method, const trajectories_plan& plan,
+                               double temperature, const counter& progress) const;
 
   /// Of an observable at the first thousand starts of a plan, or all if they are fewer, and at those that
   /// fill the lanes.
   std::vector<double> values_at_starts(const trajectories_plan& plan, const std::string& observable) const;
   /// Statistics of a method, and of the reference: small steps, and in a bath BAOAB.
-  gathered_statistics statistics(const tabulated& method, const statistics_plan& plan,
+  gathered_statistics statistics(const nysalt::method& method, const statistics_plan& plan,
                                  const std::string& observable, const counter& progress) const;
   gathered_statistics reference_statistics(const statistics_plan& plan, const std::string& observable,
                                            std::optional<double> fine_step, const counter& progress) const;
@@ -187,11 +187,11 @@ class prepared_problem {
   int derivative_calls() const;
   /// Force evaluations of one whole trajectory, start-up included: counted over the first two steps, as every
   /// step after them costs the same.
-  std::int64_t count_evaluations(const tabulated& method, const trajectories_plan& plan) const;
+  std::int64_t count_evaluations(const nysalt::method& method, const trajectories_plan& plan) const;
 
   /// The steps only, on this thread, for timing: nothing is observed, and what diverges runs on. Refers to
   /// this.
-  std::function<void()> timed_run(const tabulated& method, const trajectories_plan& plan) const;
+  std::function<void()> timed_run(const nysalt::method& method, const trajectories_plan& plan) const;
 
   /// Highest angular frequency that motion from the initial distribution may meet, rare initial states
   /// included.
@@ -204,12 +204,12 @@ class prepared_problem {
   /// Trajectories begin at the law, and warning_of_starts() says why.
   void take_law(const std::string& why);
   /// By a trial of some evaluations.
-  const judgement& judged_by(const tabulated& method, double step, int threads,
+  const judgement& judged_by(const nysalt::method& method, double step, int threads,
                              std::int64_t evaluations) const;
   model_reference reference() const;
   error_measure measure_named(const asked_metric& metric) const;
   /// In which noise is wanted to learn with.
-  int noise_parts(const run_time_family& family) const;
+  int noise_parts(const nysalt::family& family) const;
   const initial_states& starts_or_law() const { return starts_ ? *starts_ : made_.starts; }
   /// States along some 200 rad of the fastest motion from some starts; only the starts of a black box, of a
   /// system of many coordinates and of one whose fastest motion is not known.

@@ -16,7 +16,7 @@ namespace nysalt::program {
 
 void prepared_problem::require_learnable(const std::string& name, std::optional<placement> where,
                                          const learning_options& how, double step) const {
-  const run_time_family family = placed(name, where, letters());
+  const nysalt::family family = placed(name, where, letters());
   if (family.parameters() == 0) {
     refuse(
         "{} must have coefficients to learn beyond the sums, got none; take the word as a method, or a "
@@ -63,7 +63,7 @@ std::int64_t prepared_problem::most_trajectories(const learn_plan& plan) const {
 
 learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& progress) const {
   require_learnable(plan.family, plan.where, plan.how, plan.step);
-  const run_time_family family = placed(plan.family, plan.where, letters());
+  const nysalt::family family = placed(plan.family, plan.where, letters());
   const int parts = noise_parts(family);
   fit_options options = options_for(family, plan.how, plan.threads);
   // The random starts of the search are those of every seed: a seed decides on data, not on the minima that
@@ -105,7 +105,7 @@ learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& pr
   return {std::move(summary), method.anywhere(), data.energies};
 }
 
-int prepared_problem::noise_parts(const run_time_family& family) const {
+int prepared_problem::noise_parts(const family& family) const {
   if (made_.system.bath().sigma() == 0.0) return 0;
   return intervals_of_noise(family.letters, family.coefficients(family.starts.front().theta)).parts;
 }

@@ -72,7 +72,7 @@ void prepared_problem::require_measure(const asked_metric& metric, const traject
   if (measure.needs_reference) reference().fine_step(plan.step, fine_step, noise_parts);
 }
 
-std::vector<trajectory_errors_result> prepared_problem::errors(const std::vector<tabulated>& methods,
+std::vector<trajectory_errors_result> prepared_problem::errors(const std::vector<method>& methods,
                                                                const errors_plan& plan,
                                                                const counter& progress) const {
   std::vector<error_measure> measures;
@@ -86,7 +86,7 @@ std::vector<trajectory_errors_result> prepared_problem::errors(const std::vector
                            std::span<const error_measure>(measures), options);
 }
 
-acceptance_result prepared_problem::acceptance(const tabulated& method, const trajectories_plan& plan,
+acceptance_result prepared_problem::acceptance(const method& method, const trajectories_plan& plan,
                                                double temperature, const counter& progress) const {
   return nysalt::acceptance(made_.system, method, *starts_, options_of(plan, progress), temperature);
 }
@@ -105,7 +105,7 @@ std::vector<double> prepared_problem::values_at_starts(const trajectories_plan& 
   return values;
 }
 
-gathered_statistics prepared_problem::statistics(const tabulated& method, const statistics_plan& plan,
+gathered_statistics prepared_problem::statistics(const method& method, const statistics_plan& plan,
                                                  const std::string& name, const counter& progress) const {
   const auto& trajectories = plan.trajectories;
   const auto stepper =
@@ -152,13 +152,11 @@ std::string prepared_problem::reference_of_statistics(double step, std::optional
                      reference().fine_step_for_statistics(step, fine_step));
 }
 
-std::int64_t prepared_problem::count_evaluations(const tabulated& method,
-                                                 const trajectories_plan& plan) const {
+std::int64_t prepared_problem::count_evaluations(const method& method, const trajectories_plan& plan) const {
   return evaluations_of_run(made_.system, method, plan.step, plan.steps, (*starts_)(plan.seed, 0));
 }
 
-std::function<void()> prepared_problem::timed_run(const tabulated& method,
-                                                  const trajectories_plan& plan) const {
+std::function<void()> prepared_problem::timed_run(const method& method, const trajectories_plan& plan) const {
   const auto stepper = make_stepper(made_.system, method, plan.step, counter_noise(plan.seed));
   return nysalt::detail::with_scalar_of(made_.system, [&]<class T>(T) -> std::function<void()> {
     std::vector<phase_point<T, Eigen::Dynamic>> starts;

@@ -13,7 +13,7 @@
 #include "json.hpp"
 #include "method_file.hpp"
 #include "nysalt/analysis/cost_against_error.hpp"
-#include "nysalt/run_time_family.hpp"
+#include "nysalt/family.hpp"
 #include "prepared_problem.hpp"
 #include "progress.hpp"
 
@@ -41,7 +41,7 @@ class recommendation {
   void plan_classical();
   void plan_families();
   void consider(candidate contender);
-  bool is_fixed_in(const run_time_family& family) const;
+  bool is_fixed_in(const nysalt::family& family) const;
 
   // At one error.
   void rank_at_one_error();
@@ -62,7 +62,7 @@ class recommendation {
   /// Coefficients at the contender's step; of a family with the optimum of a step nearby as one more start,
   /// or the only.
   void prepare(candidate& contender, const std::vector<double>& from = {}, bool only_from_there = false);
-  std::vector<tabulated> formulas_at(double step) const;
+  std::vector<nysalt::method> formulas_at(double step) const;
   void measure(const std::vector<candidate*>& all, std::int64_t count, std::uint64_t seed);
   void measure_at(double step, const std::vector<candidate*>& group, std::int64_t count, std::uint64_t seed);
   void measure_on_test(std::vector<candidate*> all);

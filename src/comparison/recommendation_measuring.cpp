@@ -57,8 +57,8 @@ void recommendation::prepare(candidate& contender, const std::vector<double>& fr
 }
 
 /// Methods whose coefficients depend on the step.
-std::vector<tabulated> recommendation::formulas_at(double step) const {
-  std::vector<tabulated> all;
+std::vector<method> recommendation::formulas_at(double step) const {
+  std::vector<method> all;
   if (system_->heat_bath().acts()) return all;
   for (const auto& contender : all_) {
     if (contender.source.adaptive == nullptr) continue;
@@ -117,7 +117,7 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
     }
     return;
   }
-  std::vector<tabulated> methods;
+  std::vector<method> methods;
   for (const candidate* contender : group) methods.push_back(*contender->method);
   const errors_plan asked{
       .trajectories = plan, .metrics = {metric()}, .fine_step = system_->fine_step_for_ranking(step)};

@@ -7,7 +7,7 @@
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "learning.hpp"
-#include "nysalt/core/served_letters.hpp"
+#include "nysalt/stepping/served_letters.hpp"
 #include "purpose.hpp"
 #include "recommendation.hpp"
 #include "seeds.hpp"
@@ -64,7 +64,7 @@ void recommendation::plan_classical() {
     candidate contender{.source = find_method(name), .where = {}};
     const bool has_bath = system_->heat_bath().acts();
     if (contender.source.fixed) {
-      const tabulated& method = *contender.source.fixed;
+      const method& method = *contender.source.fixed;
       if (!has_bath && method.letters().stochastic_letters > 0) continue;
       contender.order = method.order;
       contender.symmetric = method.symmetric;
@@ -102,7 +102,7 @@ void recommendation::plan_families() {
   }
 }
 
-bool recommendation::is_fixed_in(const run_time_family& family) const {
+bool recommendation::is_fixed_in(const family& family) const {
   const auto& names = family.parameter_names;
   return std::ranges::all_of(options_.learning.fix, [&](const std::string& text) {
     return std::ranges::find(names, text.substr(0, text.find('='))) != names.end();

@@ -11,9 +11,9 @@ namespace nysalt::program {
 
 namespace {
 
-tabulated first_member(const std::string& family, std::optional<placement> where,
-                       const prepared_problem& system) {
-  const run_time_family placed_family = placed(family, where, system.letters());
+method first_member(const std::string& family, std::optional<placement> where,
+                    const prepared_problem& system) {
+  const nysalt::family placed_family = placed(family, where, system.letters());
   return {placed_family.name,
           placed_family.letters,
           placed_family.coefficients(placed_family.starts.front().theta),

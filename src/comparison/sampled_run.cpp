@@ -40,9 +40,9 @@ std::int64_t all_trajectories_of_rank(std::int64_t count, const communicator& ra
 
 /// With as many trajectories side by side as P has lanes. Rank 0 takes, and its plan says where to begin.
 template <class P>
-double run_in_batches(const initial_value_problem& made, const initial_states& starts,
-                      const tabulated& method, const sampled_plan& plan, const record_taker& take,
-                      const counter& progress, const communicator& ranks) {
+double run_in_batches(const initial_value_problem& made, const initial_states& starts, const method& method,
+                      const sampled_plan& plan, const record_taker& take, const counter& progress,
+                      const communicator& ranks) {
   using states = phase_point<P, Eigen::Dynamic>;
   // Threads that find no trajectory of their own share the steps of the others, where the system allows it.
   const std::int64_t blocks =
@@ -123,7 +123,7 @@ double run_in_batches(const initial_value_problem& made, const initial_states& s
   return energy_error;
 }
 
-double run_from(const initial_states& starts, const initial_value_problem& made, const tabulated& method,
+double run_from(const initial_states& starts, const initial_value_problem& made, const method& method,
                 const sampled_plan& plan, const record_taker& take, const counter& progress) {
   // Where some ranks would have no trajectory, all share the sites of each.
   if (plan.trajectories.count < all_ranks().size() &&
@@ -171,12 +171,12 @@ void report_reached(const sampled_plan& plan, const run_progress& at, const comm
   if (signal != 0) throw interrupted(signal);
 }
 
-double run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
+double run(const prepared_problem& system, const method& method, const sampled_plan& plan,
            const record_taker& take, const counter& progress) {
   return run_from(system.prepared_starts(), system.definition(), method, plan, take, progress);
 }
 
-void integrate(const prepared_problem& system, const tabulated& method, const trajectories_plan& plan,
+void integrate(const prepared_problem& system, const method& method, const trajectories_plan& plan,
                std::span<double> q, std::span<double> p, const counter& progress) {
   const auto n = static_cast<std::size_t>(system.dimension());
   const auto count = static_cast<std::size_t>(plan.count);

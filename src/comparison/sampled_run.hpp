@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/core/divergence.hpp"
 #include "nysalt/ensemble_run.hpp"
+#include "nysalt/stepping/divergence.hpp"
 #include "plans.hpp"
 #include "prepared_problem.hpp"
 
@@ -96,13 +96,13 @@ inline std::int64_t end_of_segment(std::int64_t step, std::int64_t steps, std::o
 /// there anyway, so that cutting changes nothing in the run. Rank 0's plan says where to begin. Progress is
 /// reported in thousandths. Returns the largest |H - H_0| at the end of all trajectories that did not
 /// diverge. Collective.
-double run(const prepared_problem& system, const tabulated& method, const sampled_plan& plan,
+double run(const prepared_problem& system, const method& method, const sampled_plan& plan,
            const record_taker& take, const counter& progress);
 
 /// Takes given states, instead of starts, to the end of a plan: each of dimension() numbers, one trajectory
 /// after the other. With the bits of run(); where that is lost all of q and p become NaN. Throws refusal for
 /// a state that is not finite; then all are as they were.
-void integrate(const prepared_problem& system, const tabulated& method, const trajectories_plan& plan,
+void integrate(const prepared_problem& system, const nysalt::method& method, const trajectories_plan& plan,
                std::span<double> q, std::span<double> p, const counter& progress);
 
 }  // namespace nysalt::program

@@ -178,7 +178,7 @@ proposal_options sampling_choice::proposals(std::uint64_t seed) const {
           .ranks = &all_ranks()};
 }
 
-tabulated sampling_choice::method_at(const sampling_candidate& candidate, double step) const {
+method sampling_choice::method_at(const sampling_candidate& candidate, double step) const {
   if (candidate.learned) return candidate.learned->method;
   if (candidate.source.fixed) return *candidate.source.fixed;
   return candidate.source.adaptive->at(step * candidate.source.adaptive->frequency(*system_)->value);

@@ -67,7 +67,7 @@ class sampling_choice {
   std::optional<acceptance_step> step_of(const sampling_candidate& candidate, double guess,
                                          std::uint64_t seed, std::string& reason) const;
   /// The coefficients of a word at a step; of one that was learned, those of its own step.
-  tabulated method_at(const sampling_candidate& candidate, double step) const;
+  method method_at(const sampling_candidate& candidate, double step) const;
   void learn(sampling_candidate& candidate, double first_step);
 
   const sampling_candidate* best_of(bool learned) const;

@@ -87,7 +87,7 @@ json scheme_document(const std::vector<learned_scheme>& learned, const prepared_
   return document;
 }
 
-std::string table_text(const std::string& name, const tabulated& method, double step,
+std::string table_text(const std::string& name, const method& method, double step,
                        const prepared_problem& system) {
   return text_of(json{{"format", table_format},
                       {"version", known_version},

@@ -10,7 +10,7 @@
 namespace nysalt::program {
 
 struct timed_method {
-  tabulated method;
+  nysalt::method method;
   trajectories_plan plan;
   double evaluations_per_time;
 };

@@ -69,7 +69,7 @@ distributed_run::start values_of(const Eigen::VectorXd& our_q, const Eigen::Vect
 /// One trajectory, with the checks for divergence of a lockstep.
 class shared_trajectory {
  public:
-  shared_trajectory(const model& system, const tabulated& method, double step, const state& start,
+  shared_trajectory(const model& system, const nysalt::method& method, double step, const state& start,
                     const communicator& ranks)
       : system_(&system),
         ranks_(&ranks),
@@ -200,7 +200,7 @@ class shared_trajectory {
 }  // namespace
 
 double run_on_shared_sites(const initial_value_problem& made, const initial_states& starts,
-                           const tabulated& method, const sampled_plan& plan, const record_taker& take,
+                           const method& method, const sampled_plan& plan, const record_taker& take,
                            const counter& progress, const communicator& ranks) {
   const trajectories_plan& all = plan.trajectories;
   const model system = made.system.on_threads(all.threads);

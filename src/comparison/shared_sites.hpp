@@ -13,7 +13,7 @@ namespace nysalt::program {
 /// trajectory; on rank 0 also the state of a sample, and at a checkpoint the states of all trajectories.
 /// Collective.
 double run_on_shared_sites(const initial_value_problem& made, const initial_states& starts,
-                           const tabulated& method, const sampled_plan& plan, const record_taker& take,
+                           const method& method, const sampled_plan& plan, const record_taker& take,
                            const counter& progress, const communicator& ranks);
 
 }  // namespace nysalt::program

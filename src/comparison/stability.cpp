@@ -6,13 +6,13 @@
 
 namespace nysalt::program {
 
-stability_chart chart_of(const tabulated& method) {
+stability_chart chart_of(const method& method) {
   return chart_stability(method.letters(), method.coefficients());
 }
-std::vector<stability_window> stability_of(const tabulated& method) { return chart_of(method).windows; }
-double limit_of(const tabulated& method) { return stability_limit(method); }
+std::vector<stability_window> stability_of(const method& method) { return chart_of(method).windows; }
+double limit_of(const nysalt::method& method) { return stability_limit(method); }
 
-double half_trace_of(const tabulated& method, double z) {
+double half_trace_of(const nysalt::method& method, double z) {
   return matrix_on_oscillator(method.letters(), method.coefficients(), z * z).half_trace();
 }
 

@@ -8,8 +8,8 @@
 
 #include "nysalt/communicator.hpp"
 #include "nysalt/core/sentence.hpp"
-#include "nysalt/core/tiled_steps.hpp"
 #include "nysalt/core/tree_sum.hpp"
+#include "nysalt/kernels/tiled_steps.hpp"
 
 namespace nysalt {
 
@@ -38,7 +38,7 @@ bool is_in_turn(const std::string& letters) {
          letters.find("AA") == std::string::npos && letters.find("BB") == std::string::npos;
 }
 
-detail::step_program<double> letters_of(const model& system, const tabulated& method, double step) {
+detail::step_program<double> letters_of(const model& system, const method& method, double step) {
   const nysalt::word& word = method.letters();
   if (word.is_processed()) {
     throw std::invalid_argument(
@@ -74,7 +74,7 @@ Eigen::Index least_share(const site_layout& layout) { return std::max<Eigen::Ind
 
 }  // namespace
 
-bool detail::can_be_distributed(const model& system, const tabulated& method, const communicator& ranks) {
+bool detail::can_be_distributed(const model& system, const method& method, const communicator& ranks) {
   const nysalt::word& word = method.letters();
   if (system.bath().acts() || system.sites() == nullptr || word.is_processed() || !is_in_turn(word.letters()))
     return false;
@@ -86,7 +86,7 @@ bool detail::can_be_distributed(const model& system, const tabulated& method, co
 }
 
 struct distributed_run::parts {
-  parts(const model& of, const tabulated& method, double step, const communicator& among)
+  parts(const model& of, const nysalt::method& method, double step, const communicator& among)
       : system(of),
         sites(&sites_of(system)),
         layout(sites->layout()),
@@ -195,7 +195,7 @@ struct distributed_run::parts {
   std::vector<double> right_halo;
 };
 
-distributed_run::distributed_run(const model& system, const tabulated& method, double step, const start& at,
+distributed_run::distributed_run(const model& system, const method& method, double step, const start& at,
                                  const communicator& ranks)
     : parts_(std::make_unique<parts>(system, method, step, ranks)) {
   parts_->fill(at);

@@ -12,10 +12,10 @@
 
 #include "learning/data_of_problem.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/core/ensemble_loop.hpp"
 #include "nysalt/core/steps_in.hpp"
 #include "nysalt/ensembles/starts_to_judge.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/parallel/ensemble_loop.hpp"
 
 namespace nysalt {
 

@@ -265,7 +265,8 @@ stability_guard guard_of(const model& system, const accurate_motion& motion, con
 }
 
 /// What linear theory says of the method; nothing where the force has no derivatives.
-void add_linear(const stability_guard& guard, const tabulated& method, Eigen::Index size, judgement& found) {
+void add_linear(const stability_guard& guard, const nysalt::method& method, Eigen::Index size,
+                judgement& found) {
   const nysalt::word& word = method.letters();
   const auto& coefficients = method.coefficients();
   const auto& bands = guard.frequencies(met::often);
@@ -326,7 +327,7 @@ step_judge::~step_judge() = default;
 step_judge::step_judge(step_judge&&) noexcept = default;
 step_judge& step_judge::operator=(step_judge&&) noexcept = default;
 
-judgement step_judge::of(const tabulated& method) const {
+judgement step_judge::of(const method& method) const {
   const auto& [system, starts, step, options, evaluations, motion, guard, no_guard, unconfined] = *known_;
   const nysalt::word& word = method.letters();
   judgement found;
@@ -362,7 +363,7 @@ judgement step_judge::of(const tabulated& method) const {
   return found;
 }
 
-judgement judge(const model& system, const phase_points& starts, const tabulated& method, double step,
+judgement judge(const model& system, const phase_points& starts, const method& method, double step,
                 const judging_options& options) {
   return step_judge(system, starts, step, options).of(method);
 }

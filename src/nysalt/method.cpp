@@ -6,8 +6,8 @@
 
 namespace nysalt {
 
-tabulated::tabulated(std::string name, const word& letters, std::vector<double> coefficients,
-                     const method_properties& properties, std::optional<method_validity> validity)
+method::method(std::string name, const word& letters, std::vector<double> coefficients,
+               const method_properties& properties, std::optional<method_validity> validity)
     : method_properties(properties),
       name_(std::move(name)),
       letters_(letters),
@@ -26,13 +26,13 @@ tabulated::tabulated(std::string name, const word& letters, std::vector<double> 
   }
 }
 
-tabulated tabulated::anywhere() const {
-  tabulated result = *this;
+method method::anywhere() const {
+  method result = *this;
   result.validity_.reset();
   return result;
 }
 
-void tabulated::require_validity(const std::string& system, double step) const {
+void method::require_validity(const std::string& system, double step) const {
   if (!validity_) return;
   if (std::abs(step - validity_->step) > 1e-9 * std::abs(validity_->step)) {
     throw std::invalid_argument(
@@ -47,7 +47,7 @@ void tabulated::require_validity(const std::string& system, double step) const {
   }
 }
 
-tabulated repeated(const tabulated& method, int times) {
+method repeated(const method& method, int times) {
   const word& letters = method.letters();
   if (times == 1) return method;
   if (times < 1 || letters.stochastic_letters > 0 || letters.is_processed()) {
@@ -73,7 +73,7 @@ tabulated repeated(const tabulated& method, int times) {
   return {fmt::format("{} x {}", times, method.name()), letters.with_letters(text), coefficients, method};
 }
 
-tabulated thermostat(const tabulated& method, placement where) {
+method thermostat(const method& method, placement where) {
   if (method.validity()) {
     throw std::invalid_argument(fmt::format(
         "thermostat: the method must not be of one system, got {}, which was learned for {}; take "
@@ -81,10 +81,10 @@ tabulated thermostat(const tabulated& method, placement where) {
         method.name(), method.validity()->system));
   }
   const word letters = thermostatted(method.letters(), where);
-  return tabulated(method.name(), letters,
-                   thermostatted_coefficients(method.letters(), where, method.coefficients()),
-                   {thermostatted_order(where, method.order, method.symmetric),
-                    where != placement::end && method.symmetric, method.requires_quadratic_kinetic});
+  return nysalt::method(method.name(), letters,
+                thermostatted_coefficients(method.letters(), where, method.coefficients()),
+                {thermostatted_order(where, method.order, method.symmetric),
+                 where != placement::end && method.symmetric, method.requires_quadratic_kinetic});
 }
 
 }  // namespace nysalt

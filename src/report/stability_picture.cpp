@@ -10,7 +10,7 @@
 
 namespace nysalt::program {
 
-stability_curve stability_curve_of(const tabulated& method, const stability_chart& chart, double highest_z) {
+stability_curve stability_curve_of(const method& method, const stability_chart& chart, double highest_z) {
   constexpr int points = 2000;
   const double last = chart.windows.empty() ? 2.0 : chart.windows.back().high;
   const double end = std::max(1.1 * last, std::min(1.3 * highest_z, 4.0 * last));

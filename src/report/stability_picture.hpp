@@ -16,7 +16,8 @@ struct stability_curve {
   std::vector<double> half_trace;
 };
 /// From 0 to a bit beyond the last window, or beyond highest_z, though not to where windows are dots.
-stability_curve stability_curve_of(const tabulated& method, const stability_chart& chart, double highest_z);
+stability_curve stability_curve_of(const nysalt::method& method, const stability_chart& chart,
+                                   double highest_z);
 
 /// Lines z,half_trace.
 std::string table_of(const stability_curve& curve);

@@ -37,8 +37,8 @@ exhibit energies_at_200(const setting& setup) {
   const double fine = setup.pick(1e-4, 1e-3);
   constexpr double step = 0.02;
   constexpr double sample = 0.2;
-  const tabulated learned = learn_at(setup, *system, step, usual_learning_setup(setup)).method;
-  const tabulated verlet = classical("verlet", *system);
+  const method learned = learn_at(setup, *system, step, usual_learning_setup(setup)).method;
+  const method verlet = classical("verlet", *system);
   const auto by_fine = followed(setup, *system, verlet, fine, horizon, sample, count, stiff);
   const auto by_verlet = followed(setup, *system, verlet, step, horizon, sample, count, stiff);
   const auto by_learned = followed(setup, *system, learned, step, horizon, sample, count, stiff);

@@ -26,7 +26,7 @@ struct at_step {
 at_step stability_at(const setting& setup, const prepared_problem& system, double step, double horizon,
                      std::int64_t count) {
   const auto learned = learn_at(setup, system, step, usual_learning_setup(setup));
-  const auto lost = [&](const tabulated& method) {
+  const auto lost = [&](const method& method) {
     return diverged(followed(setup, system, method, step, horizon, horizon, count, {"stiff_energy"}));
   };
   return {step,

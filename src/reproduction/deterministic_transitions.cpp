@@ -39,9 +39,9 @@ transitions follow_transitions(const setting& setup) {
   const double sample = 25.0 * step;
   const double horizon = setup.pick(300.0, 5.0);
   const auto count = setup.pick<std::int64_t>(400, 16);
-  const tabulated learned = learn_at(setup, *system, step, usual_learning_setup(setup)).method;
+  const method learned = learn_at(setup, *system, step, usual_learning_setup(setup)).method;
   transitions all{step, sample, reference_runs(setup, *system, sample, horizon, count), {}, {}, 0};
-  for (const auto& [name, method] : {std::pair<std::string, tabulated>{"NySALT", learned},
+  for (const auto& [name, method] : {std::pair<std::string, nysalt::method>{"NySALT", learned},
                                      {"suboptimal (0.45, 0.43)", two_stages(0.45, 0.43)},
                                      {"McLachlan", classical("mclachlan2", *system)},
                                      {"Verlet", classical("verlet", *system)}}) {

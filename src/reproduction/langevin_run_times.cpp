@@ -31,7 +31,7 @@ exhibit run_times(const setting& setup) {
                         .fine_step = gap_step});
   });
   // Of the steps only; as many trajectories of fine steps as take a moment, the time is proportional.
-  const auto seconds = [&](const tabulated& method, double step_size, std::int64_t count) {
+  const auto seconds = [&](const method& method, double step_size, std::int64_t count) {
     const auto job = system.timed_run(method, {step_size, static_cast<std::int64_t>(40.0 / step_size), count,
                                                seed_for(role::test, setup.seed()), 1});
     return seconds_of(job) * 10'000.0 / static_cast<double>(count);

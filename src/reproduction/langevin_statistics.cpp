@@ -18,7 +18,7 @@ std::vector<named_curve> empty_curves(const std::vector<double>& gaps) {
   return {{"BAOAB", {gaps, {}}}, {"BAOAB with half steps", {gaps, {}}}, {"NySALT", {gaps, {}}}};
 }
 
-std::vector<tabulated> methods_at(const setting& setup, const std::string& start, double gap) {
+std::vector<method> methods_at(const setting& setup, const std::string& start, double gap) {
   const prepared_problem& system = setup.in_bath(start);
   return {classical("baoab", system), classical("baoab_2x", system),
           setup.learned_in_bath(start, gap, placement::end)};

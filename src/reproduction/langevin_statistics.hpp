@@ -19,7 +19,7 @@ statistics_plan plan_of_statistics(const setting& setup, double step, role whose
 /// BAOAB, BAOAB with half steps and NySALT, without errors yet.
 std::vector<named_curve> empty_curves(const std::vector<double>& gaps);
 /// The same methods.
-std::vector<tabulated> methods_at(const setting& setup, const std::string& start, double gap);
+std::vector<method> methods_at(const setting& setup, const std::string& start, double gap);
 
 /// Throws if the curve has no such point.
 estimate at_gap(const error_curve& curve, double gap);

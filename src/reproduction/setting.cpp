@@ -46,7 +46,7 @@ const prepared_problem& setting::in_bath(const std::string& start) const {
   return *system;
 }
 
-const tabulated& setting::learned_in_bath(const std::string& start, double gap, placement where) const {
+const method& setting::learned_in_bath(const std::string& start, double gap, placement where) const {
   const std::tuple key{start, gap, where};
   const auto known = learned_.find(key);
   if (known != learned_.end()) return known->second;
@@ -92,19 +92,19 @@ std::vector<estimate> theta_with_errors(const learned_scheme& learned) {
   return theta;
 }
 
-tabulated classical(const std::string& name, const prepared_problem& system) {
+method classical(const std::string& name, const prepared_problem& system) {
   std::vector<std::string> warnings;
   return coefficients_at(find_method(name), system, 1e-3, true, placement::symmetric, warnings);
 }
 
-tabulated two_stages(double b1, double beta1) { return family_member("nystrom", {b1, beta1}); }
+method two_stages(double b1, double beta1) { return family_member("nystrom", {b1, beta1}); }
 
 double reference_step(double step, double frequency) {
   return step / std::ceil(step * frequency / 0.05 - 1e-9);
 }
 
 measured_errors errors_at(const setting& setup, const prepared_problem& system,
-                          const std::vector<tabulated>& methods, double step, const judged& how) {
+                          const std::vector<method>& methods, double step, const judged& how) {
   const auto fine = how.fine_step ? how.fine_step : system.fine_step_for_ranking(step);
   const errors_plan plan{.trajectories = plan_of(setup, step, how.horizon, how.trajectories),
                          .metrics = {{how.metric, how.observable}},
@@ -119,7 +119,7 @@ estimate error_of(const method_error& method) {
   return method.error;
 }
 
-std::vector<record> followed(const setting& setup, const prepared_problem& system, const tabulated& method,
+std::vector<record> followed(const setting& setup, const prepared_problem& system, const method& method,
                              double step, double horizon, double sample, std::int64_t trajectories,
                              const std::vector<std::string>& observables) {
   std::vector<record> all;

@@ -39,11 +39,11 @@ class setting {
   /// are prepared once.
   const prepared_problem& in_bath(const std::string& start) const;
   /// The fits of the paper (M = 512, Ttr = 1, loss in q and p), once for each gap and placement.
-  const tabulated& learned_in_bath(const std::string& start, double gap, placement where) const;
+  const method& learned_in_bath(const std::string& start, double gap, placement where) const;
 
  private:
   mutable std::map<std::string, std::unique_ptr<prepared_problem>> baths_;
-  mutable std::map<std::tuple<std::string, double, placement>, tabulated> learned_;
+  mutable std::map<std::tuple<std::string, double, placement>, method> learned_;
 };
 
 /// The chain of the paper, without a bath. The spread multiplies the deviation 1/omega of its starts.
@@ -67,8 +67,8 @@ learned_scheme learn_at(const setting& setup, const prepared_problem& system, do
 /// (b1, beta1) with the standard errors of the fit.
 std::vector<estimate> theta_with_errors(const learned_scheme& learned);
 
-tabulated classical(const std::string& name, const prepared_problem& system);
-tabulated two_stages(double b1, double beta1);
+method classical(const std::string& name, const prepared_problem& system);
+method two_stages(double b1, double beta1);
 
 /// Errors of several methods at one step, and the reference's own.
 struct measured_errors {
@@ -83,15 +83,15 @@ struct judged {
   std::optional<double> fine_step{};  // empty: coarse enough to rank methods
 };
 measured_errors errors_at(const setting& setup, const prepared_problem& system,
-                          const std::vector<tabulated>& methods, double step, const judged& how);
+                          const std::vector<method>& methods, double step, const judged& how);
 
 /// Infinite if more than half of the trajectories diverged: the error of the others is that of a lucky few.
 estimate error_of(const method_error& method);
 
 /// Numbers along trajectories: rows[trajectory].values holds `observables` at the times 0, every, 2 every...
-std::vector<record> followed(const setting& setup, const prepared_problem& system, const tabulated& method,
-                             double step, double horizon, double sample, std::int64_t trajectories,
-                             const std::vector<std::string>& observables);
+std::vector<record> followed(const setting& setup, const prepared_problem& system,
+                             const nysalt::method& method, double step, double horizon, double sample,
+                             std::int64_t trajectories, const std::vector<std::string>& observables);
 
 /// The reference's step below omega h = .05 that divides `step`.
 double reference_step(double step, double frequency = omega);

@@ -23,7 +23,7 @@ sweep errors_against_gap(const setting& setup, const prepared_problem& system,
   for (const auto& one : rivals) all.methods.push_back({one.name, {gaps, {}}});
   for (const double gap : gaps) {
     const double step = gap * gap_step;
-    std::vector<tabulated> methods;
+    std::vector<method> methods;
     for (const auto& one : rivals) methods.push_back(one.at(gap));
     const auto found = errors_at(setup, system, methods, step, how);
     all.of_reference.push_back(found.of_reference);

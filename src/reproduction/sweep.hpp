@@ -25,7 +25,7 @@ struct sweep {
 /// A method of the sweep, by its name and the step.
 struct rival {
   std::string name;
-  std::function<tabulated(double gap)> at;
+  std::function<method(double gap)> at;
 };
 sweep errors_against_gap(const setting& setup, const prepared_problem& system,
                          const std::vector<rival>& rivals, const std::vector<double>& gaps,

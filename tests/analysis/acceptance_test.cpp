@@ -19,7 +19,7 @@ namespace {
 const fpu_chain<3> chain(50.0);
 const model of_chain(chain);
 const fpu_law<3> law(chain);
-const tabulated by_verlet{verlet{}};
+const method by_verlet{verlet{}};
 
 /// The mean of min(1, exp(-x)) over x normal of mean mu and variance 2 mu, by the midpoint rule.
 double accepted(double mu) {
@@ -62,7 +62,7 @@ initial_states thermal(double temperature = 1.0) {
   return gibbs_of_modes<Eigen::Dynamic>(oscillators, temperature);
 }
 
-acceptance_step step_of(const tabulated& method, double acceptance, double guess,
+acceptance_step step_of(const method& method, double acceptance, double guess,
                         const proposal_options& options) {
   return step_at_acceptance(
       system_of_all, [&](double) { return method; }, acceptance, guess, thermal(options.temperature),
@@ -136,7 +136,7 @@ BOOST_AUTO_TEST_CASE(it_is_the_mean_over_trajectories_of_what_integrate_says) {
 // With an odd K a palindrome runs back from (q, p) by -h, and not from (q, -p).
 BOOST_AUTO_TEST_CASE(what_is_no_proposal_is_refused) {
   const trajectory_options options{.step = 0.01, .steps = 5, .trajectories = 3};
-  const tabulated one_way = start_of<aba3_free>();
+  const method one_way = start_of<aba3_free>();
   BOOST_TEST(refuses([&] { acceptance(chain, one_way, law, options); },
                      {"aba3_free", "must be reversible", "symmetric"}));
   const model warm = of_chain.in(bath::of_temperature(1.0, 1.0));
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(of_a_gaussian_target_many_times_larger_the_step_is_that_of_
   constexpr double larger = 500.0;
   const proposal_options options{.length = 100.0, .times_larger = larger, .states = 400, .seed = seed(1)};
   const double of_part = acceptance_at(energy_error_at(0.9) / larger);
-  for (const auto& method : {by_verlet, tabulated(bcss3{})}) {
+  for (const auto& method : {by_verlet, nysalt::method(bcss3{})}) {
     const double exact = gaussian_step(method, spectrum, of_part);
     const auto found = step_of(method, 0.9, 0.5 * exact, options);
     BOOST_TEST(!found.is_longest);
@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(chains_are_accepted_as_often_as_asked) {
 BOOST_AUTO_TEST_CASE(a_method_may_depend_on_the_step_and_end) {
   const proposal_options options{.length = 5.0, .states = 64};
   const auto found = step_at_acceptance(
-      system_of_all, [](double step) { return tabulated(s_aia3(1.5 * step)); }, 0.5, 1.0, thermal(), options);
+      system_of_all, [](double step) { return method(s_aia3(1.5 * step)); }, 0.5, 1.0, thermal(), options);
   BOOST_TEST(found.step < 4.0);
   BOOST_TEST(found.step > 2.0);
   BOOST_TEST(!found.is_longest);
@@ -238,8 +238,7 @@ BOOST_AUTO_TEST_CASE(targets_and_proposals_that_cannot_be_are_refused) {
   }
   BOOST_TEST(
       refuses([&] { gaussian_step(by_verlet, many, 1.0 - 1e-12); }, {"must be one that verlet reaches"}));
-  BOOST_TEST(
-      refuses([&] { gaussian_step(tabulated(mclachlan_atela4{}), one, 0.9); }, {"must be reversible"}));
+  BOOST_TEST(refuses([&] { gaussian_step(method(mclachlan_atela4{}), one, 0.9); }, {"must be reversible"}));
 
   const auto at = [&](proposal_options options, double step = 0.1) {
     return acceptance_of_proposals(system_of_all, by_verlet, step, thermal(), options);
@@ -248,7 +247,7 @@ BOOST_AUTO_TEST_CASE(targets_and_proposals_that_cannot_be_are_refused) {
   BOOST_TEST(refuses([&] { at({.length = 1.0, .times_larger = -1.0}); }, {"times_larger"}));
   BOOST_TEST(refuses([&] { at({.length = 1.0}, 1e-9); }, {"at most 1", "take a larger step"}));
   BOOST_TEST(refuses([&] { at({.length = 1.0}, -0.1); }, {"step must be positive"}));
-  const tabulated one_way("one way", word("AB"), {1.0, 1.0}, {1, false, false});
+  const method one_way("one way", word("AB"), {1.0, 1.0}, {1, false, false});
   BOOST_TEST(refuses([&] { step_of(one_way, 0.9, 0.1, {.length = 1.0}); }, {"must be reversible"}));
   for (const double acceptance : {0.0, 1.0}) {
     BOOST_TEST(refuses([&] { step_of(by_verlet, acceptance, 0.1, {.length = 1.0}); }, {"between 0 and 1"}));

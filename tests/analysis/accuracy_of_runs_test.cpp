@@ -42,14 +42,14 @@ const model swing{pendulum()};
 const phase_point<double, Eigen::Dynamic> start{Eigen::VectorXd::Constant(1, 1.0),
                                                 Eigen::VectorXd::Constant(1, 0.5)};
 
-order_measurement measure(const tabulated& method, const reference& accurate, std::int64_t fewest,
+order_measurement measure(const method& method, const reference& accurate, std::int64_t fewest,
                           int halvings) {
   return convergence_order(swing, method, accurate, start, 4.0, fewest, halvings);
 }
 
-const tabulated by_verlet{verlet()};
+const method by_verlet{verlet()};
 /// A mistake in Verlet: the kick is a little too weak, which is not even consistent.
-const tabulated weak_kick("weak_kick", word("BAB"), {0.499, 1.0, 0.499}, {2, true, false});
+const method weak_kick("weak_kick", word("BAB"), {0.499, 1.0, 0.499}, {2, true, false});
 
 const in_bath warm(henon_heiles(), bath::of_sigma(0.5, 0.1));
 
@@ -155,20 +155,20 @@ BOOST_AUTO_TEST_CASE(long_runs_need_no_more_memory) {
 // The steps are so small that the next even power of them adds less than a tenth to the error of the first:
 // log2(1.1) < .15.
 BOOST_AUTO_TEST_CASE(orders_are_those_of_the_methods) {
-  const auto order = [](const tabulated& method, std::int64_t fewest, int halvings, double fine_step = 1e-2) {
+  const auto order = [](const method& method, std::int64_t fewest, int halvings, double fine_step = 1e-2) {
     return measure(method, fine_steps(fine_step), fewest, halvings).order;
   };
   BOOST_TEST(std::abs(order(by_verlet, 16, 5) - 2.0) < 0.15);
-  BOOST_TEST(std::abs(order(tabulated(pefrl()), 16, 4) - 4.0) < 0.15);
-  BOOST_TEST(std::abs(order(tabulated(srkn11b()), 8, 3, 2.5e-3) - 6.0) < 0.15);
+  BOOST_TEST(std::abs(order(nysalt::method(pefrl()), 16, 4) - 4.0) < 0.15);
+  BOOST_TEST(std::abs(order(nysalt::method(srkn11b()), 8, 3, 2.5e-3) - 6.0) < 0.15);
   BOOST_TEST(order(weak_kick, 16, 5) < 1.0);
   // Steps in the noise do not count, but those above it do; where all are, what is left is no order.
-  const auto result = measure(tabulated(srkn6b()), fine_steps(1e-2), 32, 10);
+  const auto result = measure(nysalt::method(srkn6b()), fine_steps(1e-2), 32, 10);
   BOOST_TEST(result.errors.back() < 1e-11);
   BOOST_TEST(std::abs(result.order - 4.0) < 0.15);
   BOOST_TEST(std::isnan(measure(by_verlet, fine_steps(0.125, by_verlet), 32, 4).order));
-  BOOST_TEST(std::isnan(order(tabulated(srkn11b()), 4000, 3, 1e-3)));  // rounding alone
-  BOOST_TEST(std::isnan(order(by_verlet, 16, 0)));                     // a single step
+  BOOST_TEST(std::isnan(order(nysalt::method(srkn11b()), 4000, 3, 1e-3)));  // rounding alone
+  BOOST_TEST(std::isnan(order(by_verlet, 16, 0)));                          // a single step
 }
 
 BOOST_AUTO_TEST_CASE(steps_are_halved_and_errors_measured_at_the_horizon) {
@@ -301,7 +301,7 @@ BOOST_AUTO_TEST_CASE(in_a_bath_the_noise_is_common) {
   const initial_states law = normal_around<1>({vector<double, 1>(0.0), vector<double, 1>(0.0)}, 0.3, 1.0);
   const trajectory_options options{.step = .1, .steps = 200, .trajectories = 20, .perturbation = 1e-3};
   const auto result =
-      trajectory_errors(warm, fine_paths(.05), law, tabulated(baoab()), state_measure(warm), options);
+      trajectory_errors(warm, fine_paths(.05), law, method(baoab()), state_measure(warm), options);
   BOOST_TEST(std::isinf(result.predictable_until.value()));
 }
 

@@ -94,7 +94,7 @@ normal_around<Eigen::Dynamic> around_zero(Eigen::Index size, double of_q, double
 }
 
 stepper<model> stepper_of(const model& system, double step) {
-  return make_stepper(system, tabulated(verlet()), step);
+  return make_stepper(system, method(verlet()), step);
 }
 
 /// Of Verlet on the oscillator omega = 2 at z = omega h = 1.2: q = A cos(n turn + phase), and normal starts
@@ -356,7 +356,7 @@ BOOST_AUTO_TEST_CASE(statistics_are_those_of_stored_trajectories) {
     if (n >= 10) seen[static_cast<std::size_t>(m) - 7].push_back(x);
   };
   const auto diverged =
-      integrate_ensemble(galaxy::system, tabulated(verlet()), 0.1, galaxy::law, options, position, take);
+      integrate_ensemble(galaxy::system, method(verlet()), 0.1, galaxy::law, options, position, take);
   histogram all(*wanted.histogram);
   std::int64_t counted = 0;
   std::size_t lost = 0;

@@ -21,7 +21,7 @@ const model all{linear_chain(Eigen::MatrixXd::Identity(8, 8))};
 const normal_around<Eigen::Dynamic> law({Eigen::VectorXd::Zero(8), Eigen::VectorXd::Zero(8)}, 1.0, 1.0);
 /// One step of it errs by 1e-9 or so.
 const auto flow = fine_steps(0.2);
-const tabulated by_verlet{verlet()};
+const method by_verlet{verlet()};
 
 /// The mean of |dq_i| over oscillators, trajectories and times.
 error_measure modulus_measure() {

@@ -26,16 +26,16 @@ struct setting {
   model system;
   initial_states starts;
   nysalt::reference reference;
-  std::vector<tabulated> methods;
+  std::vector<method> methods;
   std::vector<error_measure> measures;
   double step;
 
   trajectory_options options(std::int64_t steps, std::int64_t trajectories) const {
     return {.step = step, .steps = steps, .trajectories = trajectories, .threads = 2};
   }
-  errors judged(const std::vector<tabulated>& some, const error_measure& measure,
+  errors judged(const std::vector<method>& some, const error_measure& measure,
                 const trajectory_options& how) const {
-    return trajectory_errors(system, reference, starts, std::span<const tabulated>(some), measure, how);
+    return trajectory_errors(system, reference, starts, std::span<const method>(some), measure, how);
   }
 };
 
@@ -46,20 +46,20 @@ const auto stiff_energy = [](const state& x) { return same_chain.stiff_energy(x)
 const model of_chain(chain);
 
 /// Two half Verlets, and nearly McLachlan.
-const std::array<tabulated, 2> pairs{member(nystrom(), {.5, .375}), member(nystrom(), {.5, .4034})};
+const std::array<method, 2> pairs{member(nystrom(), {.5, .375}), member(nystrom(), {.5, .4034})};
 
-const tabulated by_verlet{verlet()};
-const tabulated by_baoab{baoab()};
-const tabulated by_end{thermostat(mclachlan2(), placement::end)};
-const tabulated by_halves{thermostat(mclachlan2(), placement::symmetric)};
-const tabulated by_thirds("thirds", word("OABOBAO"),
-                          std::vector<double>{1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0}, {});
+const method by_verlet{verlet()};
+const method by_baoab{baoab()};
+const method by_end{thermostat(mclachlan2(), placement::end)};
+const method by_halves{thermostat(mclachlan2(), placement::symmetric)};
+const method by_thirds("thirds", word("OABOBAO"),
+                       std::vector<double>{1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0}, {});
 
 const setting on_the_chain{"chain",
                            of_chain,
                            law,
                            fine_steps(5e-4),
-                           {tabulated(pairs[0]), tabulated(pairs[1])},
+                           {method(pairs[0]), method(pairs[1])},
                            {energy_measure(of_chain), state_measure(of_chain), exchange_measure(same_chain),
                             path_measure(of_chain, stiff_energy)},
                            0.02};
@@ -137,7 +137,7 @@ struct kept_path {
       states.push_back(run->state());
     }
   }
-  auto stepper_of(const tabulated& method, double step) const {
+  auto stepper_of(const nysalt::method& method, double step) const {
     const auto intervals = intervals_of_noise(method.letters(), method.coefficients());
     return make_stepper(warm, method, step, along_path<double, Eigen::Dynamic>(path, intervals, step));
   }
@@ -145,7 +145,7 @@ struct kept_path {
   std::vector<state> states;
 };
 
-double error_by_hand(const tabulated& method, const trajectory_options& options, std::size_t parts) {
+double error_by_hand(const method& method, const trajectory_options& options, std::size_t parts) {
   double squares = 0.0;
   for (std::uint64_t m = 0; m < static_cast<std::uint64_t>(options.trajectories); ++m) {
     const kept_path kept(options, m, parts);
@@ -183,15 +183,16 @@ BOOST_AUTO_TEST_CASE(a_reference_tells_its_own_error) {
   setting own = on_the_chain;
   own.reference = fine_steps(.01, verlet());
   own.step = .01;
-  const auto of = [&](const tabulated& method) {
+  const auto of = [&](const method& method) {
     return own.judged({method}, own.measures[3], own.options(20, 5));
   };
   // Stepped without merging, which rounds otherwise: some 20 roundings of numbers below 10 in each of 20
   // steps.
   BOOST_TEST(of(by_verlet).methods[0].error.mean <= 20 * 20 * eps * 10.0);
   BOOST_TEST(of(by_verlet).reference == "verlet with step 0.01");
-  BOOST_TEST(of(by_verlet).reference_error.value().mean == of(tabulated(verlet_2x())).methods[0].error.mean,
-             tolerance(.1));  // relative to either of two paths that differ by 3 %
+  BOOST_TEST(
+      of(by_verlet).reference_error.value().mean == of(nysalt::method(verlet_2x())).methods[0].error.mean,
+      tolerance(.1));  // relative to either of two paths that differ by 3 %
 }
 
 // Where noise is weak the steps of BAOAB are of order two: the error that a reference tells, 4/3 of its
@@ -290,7 +291,7 @@ BOOST_AUTO_TEST_CASE(beside_others_and_by_its_type_a_method_has_the_error_that_i
   const auto& measure = on_the_chain.measures[3];
   const auto both = trajectory_errors(chain, fine_steps(5e-4), fpu_law<3>(chain), pairs, measure, options);
   const auto of_span = trajectory_errors(chain, fine_steps(5e-4), fpu_law<3>(chain),
-                                         std::span<const tabulated>(pairs), measure, options);
+                                         std::span<const method>(pairs), measure, options);
   const auto as_data = on_the_chain.judged(on_the_chain.methods, measure, options);
   BOOST_TEST((bits_of(both) == bits_of(as_data) && bits_of(of_span) == bits_of(as_data)));
   for (std::size_t n = 0; n < 2; ++n) {
@@ -310,7 +311,7 @@ BOOST_AUTO_TEST_CASE(each_measure_says_what_it_says_alone) {
         options.null_model = more;
         if (more) options.perturbation = 1e-6;
         const auto together =
-            trajectory_errors(on->system, on->reference, on->starts, std::span<const tabulated>(on->methods),
+            trajectory_errors(on->system, on->reference, on->starts, std::span<const method>(on->methods),
                               std::span(on->measures), options);
         BOOST_REQUIRE(together.size() == on->measures.size());
         for (std::size_t i = 0; i < together.size(); ++i) {
@@ -336,7 +337,7 @@ BOOST_AUTO_TEST_CASE(one_reference_serves_all_measures) {
     const trajectory_options options{
         .step = .02, .steps = 5, .trajectories = 20, .null_model = true, .perturbation = perturbation};
     const auto found = trajectory_errors(singly, reference, on_the_chain.starts,
-                                         std::span<const tabulated>(on_the_chain.methods),
+                                         std::span<const method>(on_the_chain.methods),
                                          std::span<const error_measure>(measures), options);
     BOOST_TEST(found[0].reference_error.has_value() == measures[0].needs_reference);
     BOOST_TEST(found[0].reference.empty() != measures[0].needs_reference);
@@ -359,8 +360,7 @@ BOOST_AUTO_TEST_CASE(without_sigma_there_is_no_noise_and_no_part) {
 }
 
 BOOST_AUTO_TEST_CASE(evaluations_are_counted_for_one_whole_trajectory) {
-  const std::vector<tabulated> methods{by_verlet, tabulated(verlet_2x()), tabulated(mclachlan2()),
-                                       tabulated(srkn6b())};
+  const std::vector<method> methods{by_verlet, method(verlet_2x()), method(mclachlan2()), method(srkn6b())};
   const auto result =
       on_the_chain.judged(methods, on_the_chain.measures[0], {.step = .01, .steps = 20, .trajectories = 3});
   // Verlet: one for each step, and one to begin; McLachlan: none to begin with a drift.
@@ -509,8 +509,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
     BOOST_TEST(refuses([&] { judged(law, measure, one); },
                        {measure.name, "of systems of 6 degrees of freedom", "got 2"}));
   }
-  const tabulated tuned("nystrom", pairs[1].letters(), pairs[1].coefficients(), pairs[1],
-                        method_validity{.02, of_chain.description()});
+  const method tuned("nystrom", pairs[1].letters(), pairs[1].coefficients(), pairs[1],
+                     method_validity{.02, of_chain.description()});
   const auto at_step = [&](double step) {
     return trajectory_errors(of_chain, fine_steps(5e-4), law, tuned, by_state, {.step = step, .steps = 5});
   };
@@ -537,11 +537,11 @@ BOOST_AUTO_TEST_CASE(several_measures_must_fit_into_memory) {
 }
 
 BOOST_AUTO_TEST_CASE(in_a_bath_methods_must_share_the_noise) {
-  const auto judge = [](const std::vector<tabulated>& methods, const reference& reference) {
+  const auto judge = [](const std::vector<method>& methods, const reference& reference) {
     const setting on = in_the_bath(reference, 0.12);
     on.judged(methods, on.measures[1], on.options(20, 5));
   };
-  const auto refused = [&](const std::vector<tabulated>& methods, double step, said words) {
+  const auto refused = [&](const std::vector<method>& methods, double step, said words) {
     return refuses([&] { judge(methods, fine_paths(step)); }, words);
   };
   const std::vector all{by_baoab, by_halves, by_thirds};

@@ -30,27 +30,27 @@ const model warm = in_bath(pendulum(), bath::of_sigma(0.3, 0.2));
 const model heated = in_bath(pendulum(), bath::of_sigma(0.0, 0.2));
 const model cold = in_bath(pendulum(), bath::of_temperature(0.3, 0.0));
 const model trivial = in_bath(pendulum(), bath::of_temperature(0.0, 0.7));
-const tabulated by_verlet{verlet()};
-const tabulated by_baoab{baoab()};
-const tabulated by_obabo{obabo()};
-const tabulated by_two{baoab_2x()};
+const method by_verlet{verlet()};
+const method by_baoab{baoab()};
+const method by_obabo{obabo()};
+const method by_two{baoab_2x()};
 
 point at(double q, double p) { return {vector<double, 1>(q), vector<double, 1>(p)}; }
 state one(double q, double p) { return {Eigen::VectorXd::Constant(1, q), Eigen::VectorXd::Constant(1, p)}; }
 state somewhere() { return one(0.7, -0.4); }
 
 template <class Noise = counter_noise>
-bool refused(const model& system, const tabulated& method, double step, said words,
+bool refused(const model& system, const method& method, double step, said words,
              const Noise& noise = Noise(1)) {
   return refuses([&] { make_stepper(system, method, step, noise); }, words);
 }
-bool refused_without_noise(const model& system, const tabulated& method, said words) {
+bool refused_without_noise(const model& system, const method& method, said words) {
   return refuses([&] { make_stepper(system, method, 0.1); }, words);
 }
 
 /// What 100 steps draw, looked at every so often and at the end.
 template <bool DrawsFreely = true>
-drawn_noise drawn_by(const model& system, const tabulated& method, std::int64_t every) {
+drawn_noise drawn_by(const model& system, const method& method, std::int64_t every) {
   drawn_noise notes;
   const auto fixed = make_stepper(system, method, 0.1, noted_noise<DrawsFreely>(notes));
   auto run = fixed.open(somewhere(), 3);
@@ -76,7 +76,7 @@ struct runaway {
 };
 
 /// The first step at which the state runs away, by looking at every one; -1 if none of them does.
-std::int64_t first_bad_step(const model& system, const tabulated& method, double step, const state& x,
+std::int64_t first_bad_step(const model& system, const method& method, double step, const state& x,
                             std::int64_t steps) {
   const auto fixed = make_stepper(system, method, step);
   auto run = fixed.open(x);
@@ -100,7 +100,7 @@ std::int64_t first_bad_step(const model& system, const tabulated& method, double
   return -1;
 }
 
-void gives_up_in_time(const model& system, const tabulated& method, double step, const state& x) {
+void gives_up_in_time(const model& system, const method& method, double step, const state& x) {
   const std::int64_t first = first_bad_step(system, method, step, x, 5000);
   BOOST_REQUIRE(first > 0);
   const auto fixed = make_stepper(system, method, step);
@@ -136,7 +136,7 @@ bool has_scale(const model& system, double scale, double start = 0.0) {
 }
 
 template <System S, NoiseSource Noise = no_noise>
-std::size_t allocations_of(const S& chain, const tabulated& method, std::int64_t steps,
+std::size_t allocations_of(const S& chain, const method& method, std::int64_t steps,
                            const Noise& noise = {}) {
   const auto stepper = make_stepper(chain, method, 1e-3, noise);
   phase_point<double, S::dimension> start{make_vector<double>(chain), make_vector<double>(chain)};
@@ -213,7 +213,7 @@ BOOST_AUTO_TEST_CASE(noise_does_not_go_back_in_time_but_damping_does) {
   }
   BOOST_TEST(!refused(trivial, by_baoab, -0.1, {}));
   // A palindrome's step back undoes its step; some ten operations on numbers of size one, twice.
-  for (const auto& method : {by_baoab, by_obabo, tabulated(aboba())}) {
+  for (const auto& method : {by_baoab, by_obabo, nysalt::method(aboba())}) {
     auto x = somewhere();
     make_stepper(cold, method, 0.1).step(x);
     BOOST_TEST(distance(x, somewhere()) > 0.01);
@@ -247,7 +247,7 @@ BOOST_AUTO_TEST_CASE(noise_is_drawn_once) {
   const auto drew = [](const drawn_noise& drawn, std::size_t normals, std::size_t halves) {
     return drawn.normals.size() == normals && drawn.halves.size() == halves;
   };
-  const tabulated mine("mine", word("OAOBO"), {0.25, 1.0, 0.5, 1.0, 0.25}, {1, false, false});
+  const method mine("mine", word("OAOBO"), {0.25, 1.0, 0.5, 1.0, 0.25}, {1, false, false});
   for (const std::int64_t every : {1, 1000}) {
     BOOST_TEST(drew(drawn_by(warm, by_baoab, every), 100, 0));
     BOOST_TEST(drew(drawn_by<false>(warm, by_baoab, every), 100, 0));
@@ -391,7 +391,7 @@ BOOST_AUTO_TEST_CASE(a_bath_that_heats_has_no_bound) {
 BOOST_AUTO_TEST_CASE(any_system_goes_in_lanes) {
   draws random;
   for (const specimen& one : specimens_with([](const model& system) { return system.facts().in_lanes; })) {
-    for (const auto& method : {by_verlet, tabulated(srkn6b())}) {
+    for (const auto& method : {by_verlet, nysalt::method(srkn6b())}) {
       const run_of run{one.system, method, 0.02};
       BOOST_TEST(run.lanes_are_alone(one, random), describe(one.system) << ", " << method.name());
     }
@@ -437,7 +437,7 @@ BOOST_AUTO_TEST_CASE(the_loops_of_odeint_see_our_states) {
     agrees(x);
   };
   check(by_verlet);
-  check(tabulated(takahashi_imada()));
+  check(nysalt::method(takahashi_imada()));
   check(srkn6b());  // a row of the table of classical methods
   BOOST_TEST(odeint_stepper(verlet()).order() == 2);
   BOOST_TEST(odeint_stepper(srkn11b()).order() == 6);
@@ -460,9 +460,9 @@ BOOST_AUTO_TEST_CASE(the_loop_allocates_nothing) {
   BOOST_TEST(allocations_of(linear, start_of<r_aba<4>>(), 1) == 4U);
   for (const Eigen::Index pairs : {70, 600}) {  // tiles have a few buffers
     const model chain(fpu_chain<>(pairs, 50.0));
-    const auto of_few = allocations_of(chain, tabulated(verlet{}), 5000);
+    const auto of_few = allocations_of(chain, method(verlet{}), 5000);
     BOOST_TEST(of_few < 40U);
-    BOOST_TEST(allocations_of(chain, tabulated(verlet{}), 10000) == of_few);
+    BOOST_TEST(allocations_of(chain, method(verlet{}), 10000) == of_few);
   }
 }
 
@@ -472,11 +472,11 @@ BOOST_AUTO_TEST_CASE(the_noisy_loop_allocates_nothing) {
   const in_bath warm_and_dynamic(dynamic, bath::of_sigma(0.1, 0.05));
   const in_bath cold(fixed, bath::of_sigma(0.1, 0.0));
   const counter_noise noise(1);
-  BOOST_TEST(allocations_of(warm, tabulated(obabo{}), 1000, noise) == 0U);
-  BOOST_TEST(allocations_of(cold, tabulated(obabo{}), 1000) == 0U);
+  BOOST_TEST(allocations_of(warm, method(obabo{}), 1000, noise) == 0U);
+  BOOST_TEST(allocations_of(cold, method(obabo{}), 1000) == 0U);
   BOOST_TEST(allocations_of(warm_and_dynamic, baoab(), 1000, noise) == 1U);
-  BOOST_TEST(allocations_of(warm_and_dynamic, tabulated(obabo{}), 2, noise) ==
-             allocations_of(warm_and_dynamic, tabulated(obabo{}), 1000, noise));
+  BOOST_TEST(allocations_of(warm_and_dynamic, method(obabo{}), 2, noise) ==
+             allocations_of(warm_and_dynamic, method(obabo{}), 1000, noise));
 }
 
 // A thousand steps, watched at each: what is allocated is allocated before.

@@ -9,19 +9,15 @@ namespace {
 
 using texts = std::map<std::string, std::string>;  // by path below include/nysalt
 
-/// Names of files without .hpp, and of folders with a slash, whose files may be named apart; from the lowest
-/// layer to the highest.
+/// Folders, with a slash, and concepts at the top, by their names without .hpp; from the lowest layer to the
+/// highest.
 const std::vector<std::vector<std::string>> layers{
-    {"core/sentence", "core/fingerprint", "core/tree_sum", "core/rounding", "core/steps_in",
-     "core/independent_iterations", "scalar", "scalars/", "phase_point"},
-    {"system", "local_system", "core/requirements", "force", "energy", "lanes", "bath", "noise",
-     "core/modal_coordinates", "systems/", "noises/"},
-    {"flow", "flows/", "systems/sum_of_parts", "letters", "word", "core/step_program", "core/take_steps",
-     "core/merged_half_steps", "core/system_letters", "core/prepared_word", "core/served_letters", "stepper"},
-    {"core/site_kernels", "core/tiled_steps", "core/kernels", "core/typed_system", "model"},
-    {"langevin", "family", "families/", "run_time_family", "method", "methods/"},
-    {"core/divergence", "integrate", "core/lockstep"},
-    {"atomic_file", "communicator", "communicators/", "shard", "core/ensemble_loop"},
+    {"core/", "scalar", "scalars/", "phase_point"},
+    {"system", "local_system", "force", "energy", "lanes", "bath", "noise", "systems/", "noises/"},
+    {"flow", "flows/", "letters", "word", "stepping/", "stepper"},
+    {"kernels/", "model"},
+    {"langevin", "family", "families/", "method", "methods/", "integrate"},
+    {"atomic_file", "communicator", "communicators/", "shard", "parallel/"},
     {"derivatives/"},
     {"reference", "references/", "ensemble", "initial_states", "ensembles/"},
     {"distributed_run", "integrate_ensemble", "ensemble_run", "flow_map_data"},
@@ -30,17 +26,15 @@ const std::vector<std::vector<std::string>> layers{
     {"analysis/"},
     {"hmc"},
     {"version", "export_to", "system_declaration", "plugin", "comparison_options", "compare", "recommend"},
-    {"core"},
+    {"core", "analyse", "parallel"},
     {"odeint", "mpi", "nysalt"}};
 
 int layer_of(const std::string& path) {
-  const auto layer_with = [](const std::string& name) {
-    const auto has = [&](const auto& layer) { return std::ranges::find(layer, name) != layer.end(); };
-    const auto found = std::ranges::find_if(layers, has);
-    return found == layers.end() ? -1 : static_cast<int>(found - layers.begin());
-  };
-  const int of_file = layer_with(path.substr(0, path.rfind('.')));
-  return of_file >= 0 ? of_file : layer_with(path.substr(0, path.find('/') + 1));
+  const auto slash = path.find('/');
+  const auto name = slash == std::string::npos ? path.substr(0, path.rfind('.')) : path.substr(0, slash + 1);
+  const auto has = [&](const auto& layer) { return std::ranges::find(layer, name) != layer.end(); };
+  const auto found = std::ranges::find_if(layers, has);
+  return found == layers.end() ? -1 : static_cast<int>(found - layers.begin());
 }
 
 /// What stands at the first group of a regex, in lines of the preprocessor: others are not searched, as that

@@ -8,7 +8,7 @@
 #include "../support/refusal.hpp"
 #include "../support/rounding.hpp"
 #include "nysalt/core.hpp"
-#include "nysalt/run_time_family.hpp"
+#include "nysalt/family.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -18,14 +18,14 @@ namespace {
 const fpu_chain<3> learned_for(50.0);
 
 /// The member of nystrom at one theta, valid at a step of 0.02 for a system.
-tabulated learned_on(const std::string& system, std::optional<energy_range> energies = {}) {
-  const tabulated plain = member(nystrom(), {0.5, 0.41});
+method learned_on(const std::string& system, std::optional<energy_range> energies = {}) {
+  const method plain = member(nystrom(), {0.5, 0.41});
   return {plain.name(), plain.letters(), plain.coefficients(), plain,
           method_validity{0.02, system, "", energies}};
 }
-const tabulated tuned = learned_on(describe(learned_for));
+const method tuned = learned_on(describe(learned_for));
 
-bool refused(const model& system, const tabulated& method, double step, said words) {
+bool refused(const model& system, const method& method, double step, said words) {
   return refuses([&] { make_stepper(system, method, step); }, words);
 }
 
@@ -66,7 +66,7 @@ struct with_too_few_coefficients : nystrom {
 /// The coefficients of a struct over dual numbers, in a bath with those of its letters O, are those of the
 /// family, and their derivatives.
 template <Family F>
-void check_coefficients(const run_time_family& family, std::optional<placement> where = {}) {
+void check_coefficients(const family& family, std::optional<placement> where = {}) {
   draws random;
   for (int n = 0; n < 5; ++n) {
     auto theta = F::start();
@@ -99,7 +99,7 @@ void check_coefficients(const run_time_family& family, std::optional<placement> 
 
 template <Family F>
 void check_struct() {
-  const run_time_family family{F()};
+  const nysalt::family family{F()};
   BOOST_TEST(family.name == F::name);
   BOOST_TEST(family.parameters() == F::parameters);
   BOOST_TEST(family.order == F::order);
@@ -117,7 +117,7 @@ void check_struct() {
 
 template <Family F>
 void check_thermostatted(placement where, const char* letters, int order) {
-  const auto family = thermostatted(run_time_family(F()), where);
+  const auto family = thermostatted(nysalt::family(F()), where);
   BOOST_TEST(family.letters.letters() == letters);
   BOOST_TEST(family.order == order);
   BOOST_TEST(family.symmetric == (F::symmetric && where != placement::end));
@@ -131,7 +131,7 @@ void check_thermostatted(placement where, const char* letters, int order) {
 }
 
 /// Whether members of the family that `larger` contains are members of `larger`, the processor being nothing.
-bool embeds(const run_time_family& larger) {
+bool embeds(const family& larger) {
   draws random;
   const auto& [inner, slopes, origin] = *larger.contained;
   Eigen::VectorXd theta = inner.starts.front().theta;
@@ -155,8 +155,8 @@ struct with_wrong_letters_first : free_composition<drift, kick, 3> {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_family_may_be_told_its_word_at_run_time) {
-  const tabulated plain = member(told_at_run_time{}, {0.3});
-  const tabulated with_o = member(told_at_run_time{word("ABOA")}, {0.3});
+  const method plain = member(told_at_run_time{}, {0.3});
+  const method with_o = member(told_at_run_time{word("ABOA")}, {0.3});
   BOOST_TEST(plain.letters().letters() == "ABA");
   BOOST_TEST(with_o.letters().letters() == "ABOA");
   BOOST_TEST((with_o.coefficients() == std::vector{0.3, 1.0, 1.0, 1.0 - 0.3}));
@@ -196,7 +196,7 @@ BOOST_AUTO_TEST_CASE(it_knows_the_energies_that_it_has_seen) {
   const auto at = [](double p) {
     return phase_point<double, 1>{vector<double, 1>(0.0), vector<double, 1>(p)};
   };
-  const tabulated learned = learned_on(describe(system), energy_range{-0.9, 1.0});
+  const method learned = learned_on(describe(system), energy_range{-0.9, 1.0});
   BOOST_TEST(learned.has_seen(system, at(1.0)));
   BOOST_TEST(learned.has_seen(system, at(2.0 + 1e-7)));  // as far outside as references err
   BOOST_TEST(!learned.has_seen(system, at(2.01)));
@@ -211,25 +211,25 @@ BOOST_AUTO_TEST_CASE(a_family_knows_what_its_struct_says) {
   check_thermostatted<nystrom>(placement::end, "ABABAO", 1);
   check_thermostatted<nystrom>(placement::symmetric, "OABABAO", 2);
   check_thermostatted<fg4>(placement::middle, "ABAGOGABA", 2);  // a letter of two slots is split
-  const auto once = thermostatted(run_time_family(nystrom()), placement::end);
+  const auto once = thermostatted(family(nystrom()), placement::end);
   BOOST_TEST(refuses([&] { thermostatted(once, placement::end); }, {"ABABAO", "must have no letters O"}));
 }
 
 BOOST_AUTO_TEST_CASE(members_of_a_contained_family_are_members) {
   for (const auto& family :
-       {run_time_family(aba3_free()), run_time_family(bab6_free()), processed(run_time_family(fg4()), 3),
-        thermostatted(run_time_family(aba4_free()), placement::middle)}) {
+       {nysalt::family(aba3_free()), nysalt::family(bab6_free()), processed(nysalt::family(fg4()), 3),
+        thermostatted(nysalt::family(aba4_free()), placement::middle)}) {
     BOOST_REQUIRE_MESSAGE(family.contained, family.name);
     BOOST_TEST(family.contained->family.parameters() < family.parameters(), family.name);
     BOOST_TEST(embeds(family), family.name);
   }
-  BOOST_TEST(!run_time_family(aba<4>()).contained);
-  BOOST_TEST(refuses<std::logic_error>([] { run_time_family{with_wrong_letters_first()}; },
+  BOOST_TEST(!nysalt::family(aba<4>()).contained);
+  BOOST_TEST(refuses<std::logic_error>([] { nysalt::family{with_wrong_letters_first()}; },
                                        {"wrong", "bab3", "ABABABA", "BABABAB"}));
 }
 
 BOOST_AUTO_TEST_CASE(classical_members_and_points_without_a_name_are_starts_too) {
-  const run_time_family four{with_further_start()};
+  const family four{with_further_start()};
   BOOST_REQUIRE(four.starts.size() == 3U);
   BOOST_TEST(four.starts[1].name == "pefrl");
   BOOST_TEST(four.starts[2].name == "further start");
@@ -238,11 +238,11 @@ BOOST_AUTO_TEST_CASE(classical_members_and_points_without_a_name_are_starts_too)
   for (std::size_t i = 0; i < found.size(); ++i) {
     BOOST_TEST(std::abs(found[i] - expected[i]) <= 4.0 * eps);  // sums of four numbers below one
   }
-  BOOST_TEST(run_time_family(nystrom()).starts.size() == 1U);
+  BOOST_TEST(family(nystrom()).starts.size() == 1U);
 }
 
 BOOST_AUTO_TEST_CASE(parameters_have_ranges_of_which_some_are_open) {
-  const run_time_family family{nystrom()};  // b1 in (0, 1), beta1 in [0, 0.5]
+  const nysalt::family family{nystrom()};  // b1 in (0, 1), beta1 in [0, 0.5]
   const auto is_defined = [&](double b1, double beta1) {
     return family.is_defined(Eigen::Vector2d(b1, beta1));
   };

@@ -26,11 +26,10 @@ const black_box box;
 const in_bath warm(fixed_chain, bath::of_temperature(0.3, 0.02));
 const in_bath warm_free(dynamic_chain, bath::of_sigma(0.4, 0.3));
 
-const std::vector<tabulated> quiet_words{verlet(),      srkn11b(), takahashi_imada(),
-                                         omelyan_fg4(), impulse(), start_of<r_fg4>()};
-const std::vector<tabulated> noisy_words{
-    baoab(), obabo(), aboba(),
-    tabulated("at one end", nysalt::word("OBA"), {1.0, 1.0, 1.0}, {1, false, false})};
+const std::vector<method> quiet_words{verlet(),      srkn11b(), takahashi_imada(),
+                                      omelyan_fg4(), impulse(), start_of<r_fg4>()};
+const std::vector<method> noisy_words{
+    baoab(), obabo(), aboba(), method("at one end", nysalt::word("OBA"), {1.0, 1.0, 1.0}, {1, false, false})};
 
 /// All numbers of a state, in order.
 void add(std::vector<double>& all, double x) { all.push_back(x); }
@@ -69,7 +68,7 @@ phase_point<R, N> gathered(const start_states& starts) {
 
 /// What a run over T shows: advanced at once, watched, cut, one plain step, and the energy.
 template <Scalar T, NoiseSource Noise, class S>
-std::vector<double> numbers_of_run(const S& system, const tabulated& method, double step,
+std::vector<double> numbers_of_run(const S& system, const method& method, double step,
                                    const start_states& starts, const Noise& noise) {
   const stepper<S, double, Noise> fixed(system, method.letters(), method.coefficients(), step, noise);
   const auto x = gathered<T, S::dimension>(starts);
@@ -100,7 +99,7 @@ std::vector<double> numbers_of_run(const S& system, const tabulated& method, dou
 
 /// Plain steps over T = dual<R, 2>, with derivatives by two parameters.
 template <class R, NoiseSource Noise, class S>
-std::vector<double> numbers_of_step(const S& system, const tabulated& method, double step,
+std::vector<double> numbers_of_step(const S& system, const method& method, double step,
                                     const start_states& starts, const Noise& noise) {
   using T = dual<R, 2>;
   const auto plain = method.coefficients();
@@ -120,7 +119,7 @@ std::vector<double> numbers_of_step(const S& system, const tabulated& method, do
 /// numbers(system, table, step) of the system and of its model are the same; another step or table has
 /// others.
 template <class S>
-void compare(const S& system, const tabulated& method, const auto& numbers) {
+void compare(const S& system, const method& method, const auto& numbers) {
   constexpr double step = 0.05;
   const auto expected = numbers(system, method, step);
   BOOST_REQUIRE(!expected.empty());
@@ -130,31 +129,30 @@ void compare(const S& system, const tabulated& method, const auto& numbers) {
   BOOST_TEST((numbers(erased, method, step * (1.0 + 1e-12)) != expected));
   auto changed = method.coefficients();
   for (const std::size_t i : {std::size_t{0}, changed.size() / 2}) changed[i] += 1e-9;
-  const tabulated another("another", method.letters(), changed, method);
+  const nysalt::method another("another", method.letters(), changed, method);
   BOOST_TEST((numbers(erased, another, step) != expected));
 }
 
 template <class S, Scalar T>
-bool serves_word(const S& system, const tabulated& method) {
+bool serves_word(const S& system, const method& method) {
   return !refuses([&] { require_served<S, T>(method.letters(), system); }, {});
 }
 
 template <class S, NoiseSource Noise, NoiseSource Lifted>
-int compare_all(const S& system, const std::vector<tabulated>& words, const Noise& noise,
-                const Lifted& lifted) {
+int compare_all(const S& system, const std::vector<method>& words, const Noise& noise, const Lifted& lifted) {
   const auto starts = starts_of(system);
   int compared = 0;
-  for (const tabulated& method : words) {
+  for (const method& method : words) {
     if (!serves_word<S, double>(system, method)) continue;
     ++compared;
     BOOST_TEST_CONTEXT(describe(system) << ", " << method.name()) {
       const auto run_over = [&]<Scalar T>(T) {
-        compare(system, method, [&](const auto& tested, const tabulated& table, double h) {
+        compare(system, method, [&](const auto& tested, const nysalt::method& table, double h) {
           return numbers_of_run<T>(tested, table, h, starts, noise);
         });
       };
       const auto step_over = [&]<Scalar R>(R) {
-        compare(system, method, [&](const auto& tested, const tabulated& table, double h) {
+        compare(system, method, [&](const auto& tested, const nysalt::method& table, double h) {
           return numbers_of_step<R>(tested, table, h, starts, lifted);
         });
       };
@@ -202,7 +200,7 @@ BOOST_AUTO_TEST_CASE(a_model_steps_with_the_bits_of_its_system) {
 BOOST_AUTO_TEST_CASE(a_model_in_a_bath_feels_the_noise_of_its_system) {
   BOOST_TEST(compare_all(warm, noisy_words, counter_noise(3), fresh_noise(3)) == 4);
   const auto starts = starts_of(warm_free);  // with masses
-  for (const tabulated& method : noisy_words) {
+  for (const method& method : noisy_words) {
     const auto expected = numbers_of_run<lanes>(warm_free, method, 0.05, starts, counter_noise(3));
     const auto of_seed = [&](std::uint64_t seed) {
       return numbers_of_run<lanes>(model(warm_free), method, 0.05, starts, counter_noise(seed));
@@ -240,7 +238,7 @@ BOOST_AUTO_TEST_CASE(a_model_refuses_what_its_system_refuses_in_the_same_words) 
 // States are of any size until they are stepped.
 BOOST_AUTO_TEST_CASE(a_state_of_another_size_is_refused) {
   const model erased(fixed_chain);
-  const auto fixed = make_stepper(erased, tabulated(verlet()), 0.1);
+  const auto fixed = make_stepper(erased, method(verlet()), 0.1);
   const phase_point<double, Eigen::Dynamic> of_three{Eigen::VectorXd::Zero(3), Eigen::VectorXd::Zero(3)};
   BOOST_TEST(refuses([&] { fixed.open(of_three); }, {"3 positions", "6 degrees of freedom"}));
 }

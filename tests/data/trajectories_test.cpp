@@ -115,8 +115,9 @@ Eigen::VectorXd noise_between(std::uint64_t seed, std::uint64_t trajectory, std:
 BOOST_AUTO_TEST_CASE(each_trajectory_is_as_if_alone) {
   const model quiet = galaxy;
   const model warm = in_bath(galaxy, bath::of_sigma(0.05, 0.05));
-  for (const auto& [system, method] :
-       {std::pair(&quiet, tabulated(verlet())), {&warm, tabulated(baoab())}, {&warm, tabulated(obabo())}}) {
+  for (const auto& [system, method] : {std::pair(&quiet, nysalt::method(verlet())),
+                                       {&warm, nysalt::method(baoab())},
+                                       {&warm, nysalt::method(obabo())}}) {
     BOOST_TEST_CONTEXT(describe(*system) << ", " << method.name()) {
       const auto stepper = make_stepper(*system, method, 0.1, counter_noise(5));
       const auto expected = alone(stepper);
@@ -130,7 +131,7 @@ BOOST_AUTO_TEST_CASE(each_trajectory_is_as_if_alone) {
     }
   }
   for (const std::int64_t every : {1, 64, 1000}) {
-    const auto stepper = make_stepper(quiet, tabulated(verlet()), 0.1);
+    const auto stepper = make_stepper(quiet, nysalt::method(verlet()), 0.1);
     BOOST_TEST((together<detail::lanes>(stepper, every) == alone(stepper, every)));
   }
 }
@@ -148,7 +149,7 @@ BOOST_AUTO_TEST_CASE(an_observable_is_read_in_any_number_of_lanes) {
     return std::pair(values, diverged_at);
   };
   const model system = galaxy;
-  const auto expected = alone(make_stepper(system, tabulated(verlet()), 0.1));
+  const auto expected = alone(make_stepper(system, method(verlet()), 0.1));
   const auto found = by(in_lanes<henon_heiles, 3>(galaxy));
   BOOST_TEST((by(galaxy) == found));
   BOOST_TEST((found.second == expected.diverged_at));
@@ -156,7 +157,7 @@ BOOST_AUTO_TEST_CASE(an_observable_is_read_in_any_number_of_lanes) {
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
-  const auto refused = [](const model& system, const tabulated& method, const initial_states& starts,
+  const auto refused = [](const model& system, const method& method, const initial_states& starts,
                           const ensemble_options& options, auto... said) {
     const auto follow = [&] {
       integrate_ensemble(
@@ -165,7 +166,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
     };
     BOOST_TEST(refuses(follow, {said...}));
   };
-  const tabulated by_verlet{verlet()};
+  const nysalt::method by_verlet{verlet()};
   ensemble_options before_the_first;
   before_the_first.first = -3;
   refused(galaxy, by_verlet, star_law, {.trajectories = 0}, "trajectories 0");
@@ -178,7 +179,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   refused(galaxy, by_verlet, states, {.trajectories = 2}, "start 1 ", "must be finite");
   // By its method an ensemble has no source of noise.
   const in_bath warm(galaxy, bath::of_sigma(0.05, 0.05));
-  refused(warm, tabulated(baoab()), star_law, {.trajectories = 2}, "source of noise", "counter_noise");
+  refused(warm, nysalt::method(baoab()), star_law, {.trajectories = 2}, "source of noise", "counter_noise");
   const model system = galaxy;
   const auto stepper = make_stepper(system, by_verlet, 0.1);
   using run = ensemble_run<double, std::remove_const_t<decltype(stepper)>>;

@@ -22,7 +22,7 @@ const phase_point<double, 1> at_one{vector<double, 1>(1.0), vector<double, 1>(1.
 using windows = std::vector<stability_window>;
 
 /// The eigenvalues' largest absolute value, from the exact Jacobian of a step.
-double spectral_radius(const tabulated& method, double z) {
+double spectral_radius(const method& method, double z) {
   const Eigen::MatrixXd step = jacobian(step_map(unit_oscillator, method, z), at_one);
   return test::spectral_radius(step);
 }
@@ -30,7 +30,7 @@ double spectral_radius(const tabulated& method, double z) {
 /// What rounding may add to it where the eigenvalues are apart: the determinant, 1, is their squared size,
 /// and errs by 2 |J| |dJ|. Letter k rounds the product P_k so far, by 2 eps |L_k| |P_k|, and the letters
 /// after it carry that on.
-double radius_rounding(const tabulated& method, double z) {
+double radius_rounding(const method& method, double z) {
   const word& all = method.letters();
   const std::string_view letters = all.view();
   const auto& c = method.coefficients();
@@ -54,7 +54,7 @@ double radius_rounding(const tabulated& method, double z) {
   return 2.0 * norm(product) * error;
 }
 
-bool has_radius_one(const tabulated& method, double z) {
+bool has_radius_one(const method& method, double z) {
   return spectral_radius(method, z) <= 1.0 + radius_rounding(method, z);
 }
 
@@ -85,7 +85,7 @@ const auto nearly = tolerance(1e-13);
 
 /// The first z of a grid, which goes past the last window, where steps are not as stable as the windows say,
 /// or 0. Next to an end rounding decides.
-double first_wrong(const windows& claimed, const tabulated& method) {
+double first_wrong(const windows& claimed, const method& method) {
   for (double z = 0.0137; z < std::max(12.0, 1.2 * claimed.back().high); z += 0.0137) {
     const bool is_at_end = std::ranges::any_of(claimed, [&](const auto& one) {
       return std::abs(z - one.low) < 1e-3 || std::abs(z - one.high) < 1e-3;
@@ -187,7 +187,7 @@ BOOST_AUTO_TEST_CASE(windows_hold_everywhere_and_wrong_ones_do_not) {
       BOOST_TEST_CONTEXT(method.name()) BOOST_TEST(first_wrong(stability_windows(method), method) == 0.0);
     }
   }
-  const tabulated method = member(nystrom(), {0.5, 0.4});
+  const nysalt::method method = member(nystrom(), {0.5, 0.4});
   BOOST_TEST(first_wrong(with_a_gap, method) == 0.0);
   BOOST_TEST(first_wrong({with_a_gap[0], {again, 1.01 * last}}, method) > last);
   BOOST_TEST(first_wrong({{0.0, last}}, method) > end);

@@ -8,9 +8,9 @@
 #include "../support/systems_with_letters.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/derivatives/properties.hpp"
+#include "nysalt/families/multiple_time_steps.hpp"
+#include "nysalt/flows/sum_of_parts.hpp"
 #include "nysalt/learning/stability_guard.hpp"
-#include "nysalt/methods/multiple_time_steps.hpp"
-#include "nysalt/systems/sum_of_parts.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;

@@ -60,18 +60,18 @@ taylor_orders order_in_other_coordinates(double c) {
 
 constexpr double pi = std::numbers::pi;
 
-tabulated classical_word(std::string_view name) {
+method classical_word(std::string_view name) {
   std::vector<classical_row> rows(std::begin(classical_table), std::end(classical_table));
   rows.insert(rows.end(), std::begin(processed_table), std::end(processed_table));
   return as_data(*std::ranges::find(rows, name, &classical_row::name));
 }
 
-double rho(const tabulated& method, double z) {
+double rho(const method& method, double z) {
   return energy_error_on_oscillator(method.letters(), method.coefficients(), z);
 }
 
 /// The mean growth of (omega q)^2/2 + p^2/2 after n steps from independent normal omega q and p.
-double growth(const tabulated& method, double z, int steps) {
+double growth(const method& method, double z, int steps) {
   const auto m = matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
   const Eigen::Matrix2d step{{m.qq, m.qp * z}, {m.pq / z, m.pp}};
   Eigen::Matrix2d power = Eigen::Matrix2d::Identity();
@@ -108,18 +108,17 @@ with_quadratic_part<linear_chain> two_modes(const Eigen::Matrix2d& rest) {
 
 /// Logarithm of the spectral radius of the matrix of one step.
 double growth_of_step(const auto& system, const nysalt::word& word, const std::vector<double>& c, double h) {
-  const tabulated method("a step", word, c, {1, false, false});
+  const method method("a step", word, c, {1, false, false});
   const phase_point<double, Eigen::Dynamic> anywhere{Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.3, 0.1)};
   return std::log(spectral_radius(jacobian(step_map(system, method, h), anywhere)));
 }
 
-std::optional<resonance> near(const tabulated& method, const std::vector<frequency_band>& bands,
-                              double step) {
+std::optional<resonance> near(const method& method, const std::vector<frequency_band>& bands, double step) {
   return near_resonance(method.letters(), method.coefficients(), bands, step);
 }
 
 /// Position Verlet in that many equal steps, whose phase at z is 2 n asin(z/(2 n)).
-tabulated many_steps(int n) {
+method many_steps(int n) {
   std::string letters = "A";
   std::vector<double> c{0.5 / n};
   for (int k = 0; k < n; ++k) {
@@ -206,7 +205,7 @@ BOOST_AUTO_TEST_CASE(the_letter_that_comes_first_matters) {
 
 // As in a table of ten or more digits.
 BOOST_AUTO_TEST_CASE(rounded_tables_keep_their_order) {
-  const auto orders_of_rounded = [](const tabulated& method, double digits) {
+  const auto orders_of_rounded = [](const method& method, double digits) {
     auto coefficients = method.coefficients();
     for (double& c : coefficients) c = std::round(c * digits) / digits;
     return in_words(taylor_order(method.letters(), coefficients));
@@ -253,7 +252,7 @@ BOOST_AUTO_TEST_CASE(traces_are_the_known_ones) {
 BOOST_AUTO_TEST_CASE(the_energy_grows_by_rho_times_the_square_of_a_sine) {
   for (const char* name : {"verlet", "mclachlan2", "mclachlan2v", "bcss3", "bcss4", "omelyan5v", "srkn6b",
                            "chin4a", "chin4a_displaced"}) {
-    const tabulated method = classical_word(name);
+    const nysalt::method method = classical_word(name);
     for (const double z : {0.3, 0.9, 1.5}) {
       const auto m = matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
       const double angle = std::acos(m.half_trace());
@@ -275,7 +274,7 @@ BOOST_AUTO_TEST_CASE(the_energy_grows_by_rho_times_the_square_of_a_sine) {
 BOOST_AUTO_TEST_CASE(slopes_are_those_of_the_value) {
   draws random;
   for (const char* name : {"mclachlan2v", "bcss3", "chin4a", "chin4a_displaced"}) {
-    const tabulated method = classical_word(name);
+    const nysalt::method method = classical_word(name);
     const double z = random.uniform(0.7, 1.3);
     const auto c = method.coefficients();
     const auto at = detail::energy_defect_on_oscillator(method.letters(), c, z);
@@ -293,7 +292,7 @@ BOOST_AUTO_TEST_CASE(slopes_are_those_of_the_value) {
 }
 
 BOOST_AUTO_TEST_CASE(beyond_the_window_it_is_infinite_and_words_that_are_no_plain_step_are_refused) {
-  for (const double beyond : {2.0, 2.01}) BOOST_TEST(std::isinf(rho(tabulated(verlet{}), beyond)));
+  for (const double beyond : {2.0, 2.01}) BOOST_TEST(std::isinf(rho(method(verlet{}), beyond)));
   for (const char* name : {"impulse", "baoab", "takahashi_imada_processed"}) {
     BOOST_TEST(refuses([&] { rho(classical_word(name), 0.5); }, {"no rotation", "no processor"}));
   }
@@ -365,7 +364,7 @@ BOOST_AUTO_TEST_CASE(growth_is_that_of_the_eigenvalues_of_a_step) {
 
 // Sixty-four steps turn by z to within z^3/(24 n^2), 0.3 % at 2 pi.
 BOOST_AUTO_TEST_CASE(near_means_within_a_tenth_of_the_half_turns) {
-  const tabulated method = many_steps(64);
+  const nysalt::method method = many_steps(64);
   for (const int k : {1, 2}) {
     for (const double off : {-0.12, -0.09, -0.05, 0.0, 0.05, 0.09, 0.12}) {
       const double step = (1.0 + off) * k * pi / 50.0;
@@ -379,7 +378,7 @@ BOOST_AUTO_TEST_CASE(near_means_within_a_tenth_of_the_half_turns) {
 // What counts is the phase of the word: Verlet in two steps turns by 3.6 where h omega is pi: the step of
 // another motion, as that of one Verlet step of half the length. Slow motion and rotations have none.
 BOOST_AUTO_TEST_CASE(a_band_is_near_where_one_of_its_frequencies_is) {
-  const tabulated method = many_steps(64);
+  const nysalt::method method = many_steps(64);
   BOOST_TEST(near(method, {{40.0, 50.0}}, 0.95 * pi / 40.0).has_value());
   BOOST_TEST(near(method, {{40.0, 50.0}}, 0.95 * pi / 50.0).has_value());
   BOOST_TEST(!near(method, {{40.0, 50.0}}, 0.85 * pi / 50.0));
@@ -388,7 +387,7 @@ BOOST_AUTO_TEST_CASE(a_band_is_near_where_one_of_its_frequencies_is) {
   BOOST_TEST(!near(method, {{0.0, 30.0}}, pi / 30.0));
   BOOST_TEST(!near(method, {{49.0, 51.0}}, 0.01));
   BOOST_TEST(!near(method, {}, 1.0));
-  BOOST_TEST(!near(tabulated(impulse{}), {{50.0, 50.0}}, pi / 50.0));
+  BOOST_TEST(!near(nysalt::method(impulse{}), {{50.0, 50.0}}, pi / 50.0));
 }
 
 BOOST_AUTO_TEST_CASE(in_words_it_says_which) {

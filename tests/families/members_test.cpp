@@ -9,8 +9,8 @@
 #include "../support/refusal.hpp"
 #include "nysalt/derivatives/properties.hpp"
 #include "nysalt/families/composition.hpp"
+#include "nysalt/families/multiple_time_steps.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/methods/multiple_time_steps.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
 
 using namespace nysalt;
@@ -34,7 +34,7 @@ std::string unsplit(std::string letters) {
 }
 
 /// Coefficients that follow from sums round once for each of them.
-bool is_at(const Eigen::VectorXd& theta, const run_time_family& family, const tabulated& method) {
+bool is_at(const Eigen::VectorXd& theta, const family& family, const method& method) {
   const auto ours = family.coefficients(theta);
   const auto theirs = method.coefficients();
   if (ours.size() != theirs.size()) return false;
@@ -46,7 +46,7 @@ bool is_at(const Eigen::VectorXd& theta, const run_time_family& family, const ta
   return unsplit(family.letters.letters()) == unsplit(method.letters().letters());
 }
 
-double largest_defect(const run_time_family& family, const Eigen::VectorXd& theta, double z) {
+double largest_defect(const family& family, const Eigen::VectorXd& theta, double z) {
   return detail::defect_of_rotation(family.letters, family.coefficients(theta), family.symmetric, z * z)
       .lpNorm<Eigen::Infinity>();
 }
@@ -88,7 +88,7 @@ struct tableau {
 };
 
 /// Two kicks cannot: trace/2 = 1 - x/2 + K x^2 with x = z^2 and K <= 1/32, where cos z has x^2/24.
-bool can_turn(const run_time_family& family) {
+bool can_turn(const family& family) {
   return family.letters.reads == field::whole && family.parameters() >= (family.symmetric ? 2 : 3);
 }
 
@@ -102,10 +102,10 @@ std::string times_of(const std::string& letters) {
   for (const char letter : letters) times += letter == 'k' ? "01" : std::string(1, letter);
   return times;
 }
-run_time_family family_of(const std::string& letters) {
+family family_of(const std::string& letters) {
   return symmetric_word("tried", of_parts.with_letters(letters), times_of(letters));
 }
-std::vector<double> start_of(const run_time_family& family) {
+std::vector<double> start_of(const family& family) {
   return family.coefficients(family.starts.front().theta);
 }
 
@@ -152,14 +152,14 @@ BOOST_AUTO_TEST_CASE(starts_are_in_range_and_classical_members_are_those_methods
 
 // That many equal steps, of drift-kick-drift or of kick-drift-kick.
 BOOST_AUTO_TEST_CASE(compositions_begin_at_steps_of_verlet) {
-  BOOST_TEST(is_at(column_of(bab<2>::start()), run_time_family(bab<2>()), tabulated(verlet_2x())));
+  BOOST_TEST(is_at(column_of(bab<2>::start()), family(bab<2>()), method(verlet_2x())));
   const auto three = aba3_free::coefficients(aba3_free::start());
   const std::array expected{1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
   for (std::size_t k = 0; k < three.size(); ++k) BOOST_TEST(std::abs(three[k] - expected[k]) <= 4.0 * eps);
 }
 
 BOOST_AUTO_TEST_CASE(gradient_families_hold_the_methods_of_chin_and_of_takahashi_and_imada) {
-  BOOST_TEST(is_at(column_of(fg_chin::start()), run_time_family(fg_chin()), tabulated(chin4a())));
+  BOOST_TEST(is_at(column_of(fg_chin::start()), family(fg_chin()), method(chin4a())));
   // fg4 and r_fg4 hold it between two drifts of no length; 1 - 2/6 rounds.
   const auto chin = chin4a().coefficients();
   for (const auto& c : {fg4::coefficients(fg4::start()), r_fg4::coefficients(r_fg4::start())}) {
@@ -197,11 +197,11 @@ BOOST_AUTO_TEST_CASE(what_can_turn_the_oscillator_does) {
 }
 
 BOOST_AUTO_TEST_CASE(it_is_the_phase_fitted_method_of_the_first_classical_member) {
-  const auto found = phase_fitted_start(run_time_family(aba<5>{}), 2.0);
+  const auto found = phase_fitted_start(family(aba<5>{}), 2.0);
   BOOST_REQUIRE(found);
   BOOST_TEST((found->theta == column_of(aba<5>::of(fitted<aba<5>, mclachlan5>::at(2.0)))));
   // Letters of the bath count for nothing.
-  const run_time_family plain(fg4{});
+  const family plain(fg4{});
   const auto expected = phase_fitted_start(plain, 2.0);
   const auto in_bath = phase_fitted_start(thermostatted(plain, placement::symmetric), 2.0);
   BOOST_REQUIRE((expected && in_bath));
@@ -210,7 +210,7 @@ BOOST_AUTO_TEST_CASE(it_is_the_phase_fitted_method_of_the_first_classical_member
 
 BOOST_AUTO_TEST_CASE(impossible_z_are_refused) {
   for (const double z : {0.0, -1.0, not_a_number}) {
-    BOOST_TEST(refuses([&] { phase_fitted_start(run_time_family(fg4{}), z); },
+    BOOST_TEST(refuses([&] { phase_fitted_start(family(fg4{}), z); },
                        {"phase_fitted_start", "positive and finite"}));
   }
 }
@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(members_of_order_four_of_the_word_of_fg4) {
   for (std::size_t k = 0; k < 3; ++k) BOOST_TEST(std::abs(ours[k] - omelyan[k]) <= 4.0 * eps);
   for (const double a : {-0.2, 0.0, 0.1, 0.14, 0.3}) {
     auto theta = fg4::of_order_four(a);
-    const run_time_family family(fg4{});
+    const family family(fg4{});
     // The two conditions of order four are the two of the oscillator: its defects at z = 0.
     BOOST_TEST(largest_defect(family, column_of(theta), 0.0) <= 8.0 * eps);
     theta[2] += 1e-10;
@@ -238,7 +238,7 @@ BOOST_AUTO_TEST_CASE(the_word_of_nystrom_is_the_tableau_of_its_paper) {
   const auto check = [&](const auto& system, double reach) {
     for (int n = 0; n < 20; ++n) {
       const auto [b1, beta1] = random_theta<nystrom>(random);
-      const tabulated method = member(nystrom(), {b1, beta1});
+      const nysalt::method method = member(nystrom(), {b1, beta1});
       const auto off = [&](const tableau& oracle) {
         const auto x = random.state(system, reach);
         const auto at = shears_at(system, {x.q, x.p});

@@ -149,7 +149,7 @@ struct my_kick : exact_flow<'b'> {
   }
 };
 
-tabulated method_of(const word& letters) {
+method method_of(const word& letters) {
   return {letters.letters(), letters, {0.3, 0.5, 0.4, 0.5, 0.3}, {2, true, false}};
 }
 constexpr word own_drifts_first = alternating_word<my_drift, my_kick, 5>();
@@ -431,7 +431,7 @@ BOOST_AUTO_TEST_CASE(letters_written_again_have_the_bits_of_the_library) {
 BOOST_AUTO_TEST_CASE(lanes_change_no_bit) {
   draws random;
   const model system(galaxy);
-  const tabulated method = method_of(own_kicks_first);
+  const nysalt::method method = method_of(own_kicks_first);
   BOOST_TEST((run_of{system, method, 0.2}.lanes_are_alone(specimen_of("henon_heiles"), random)));
 }
 

@@ -13,9 +13,9 @@
 #include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/derivatives/properties.hpp"
 #include "nysalt/ensembles/given_states.hpp"
+#include "nysalt/families/multiple_time_steps.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/methods/multiple_time_steps.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 using namespace nysalt;
@@ -53,11 +53,11 @@ const phase_point<double, 4> start{{0.01, -0.02, 0.0, 0.03}, {0.3, -0.1, 0.2, 0.
 
 constexpr word kicks_of_all = alternating_word<kick_of_parts<0, 1>, drift, 3>();
 /// Velocity Verlet, whose kick is that of all parts.
-const tabulated verlet_of_parts("verlet_of_parts", kicks_of_all, {0.5, 0.5, 1.0, 0.5, 0.5}, {2, true, false});
+const method verlet_of_parts("verlet_of_parts", kicks_of_all, {0.5, 0.5, 1.0, 0.5, 0.5}, {2, true, false});
 /// Each part has a time of its own, other ones at the end.
-const tabulated unequal_parts("unequal_parts", kicks_of_all, {0.3, 0.6, 1.0, 0.7, 0.4}, {1, false, false});
+const method unequal_parts("unequal_parts", kicks_of_all, {0.3, 0.6, 1.0, 0.7, 0.4}, {1, false, false});
 
-phase_point<double, 4> after(const tabulated& method, double step, int steps) {
+phase_point<double, 4> after(const method& method, double step, int steps) {
   return integrate(chain, method, step, start, steps).finish;
 }
 
@@ -101,8 +101,8 @@ std::pair<solar_system<5>, phase_point<double, 15>> with_masses(double factor) {
 }
 
 /// Largest relative error of the energy in 30,000 days.
-double energy_error(const solar_system<5>& system, const phase_point<double, 15>& from,
-                    const tabulated& method, double step) {
+double energy_error(const solar_system<5>& system, const phase_point<double, 15>& from, const method& method,
+                    double step) {
   const double before = energy<double>(system, from);
   return largest_change(system, method, step, from, static_cast<std::int64_t>(30'000.0 / step),
                         [&](const auto& x) { return energy<double>(system, x) / before; });
@@ -173,12 +173,12 @@ BOOST_AUTO_TEST_CASE(kicks_of_all_parts_are_the_kick_of_the_whole) {
 }
 
 BOOST_AUTO_TEST_CASE(kicks_of_several_times_have_the_same_bits_by_the_type_of_a_system_and_its_model) {
-  const auto of_model = [](const tabulated& method) {
+  const auto of_model = [](const method& method) {
     return integrate(model(chain), method, 0.01, dynamic_state{start.q, start.p}, 20).finish;
   };
   const auto by_type = after(unequal_parts, 0.01, 20);
   BOOST_TEST(same_bits(of_model(unequal_parts), dynamic_state{by_type.q, by_type.p}));
-  const tabulated swapped("swapped", kicks_of_all, {0.6, 0.3, 1.0, 0.4, 0.7}, {1, false, false});
+  const nysalt::method swapped("swapped", kicks_of_all, {0.6, 0.3, 1.0, 0.4, 0.7}, {1, false, false});
   BOOST_TEST(!same_bits(of_model(swapped), dynamic_state{by_type.q, by_type.p}));
 }
 
@@ -190,7 +190,7 @@ BOOST_AUTO_TEST_CASE(letters_that_a_system_has_not_are_refused) {
   BOOST_TEST(refuses([&] { make_stepper(in_name_only, verlet_of_parts, 0.1); },
                      {"kAk", "the letter k must serve the system"}));
   // Of H = (p - A(q))^2/2 + V(q) there is no drift.
-  for (const tabulated& method : {tabulated(verlet()), tabulated(verlet_aba())}) {
+  for (const method& method : {nysalt::method(verlet()), nysalt::method(verlet_aba())}) {
     BOOST_TEST(refuses([&] { make_stepper(trap, method, 0.1); },
                        {method.letters().view(), "must be one that the system declares", "K(p) + V(q)"}));
   }

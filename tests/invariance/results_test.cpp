@@ -35,14 +35,13 @@ result statistics(const division& how, std::uint64_t seed, std::int64_t count) {
   options.ranks = how.ranks;
   options.first = 5;
   const model system = in_noise(how);
-  const auto found =
-      ensemble_statistics(make_stepper(system, tabulated(obabo()), unstable, counter_noise(seed)), law,
-                          options, over_lanes([](const auto& x) { return x.q[0]; }),
-                          {.histogram = equal_bins{-1.0, 1.0, 50},
-                           .lags = 12,
-                           .moments = true,
-                           .kinetic_temperature = true,
-                           .half_step_kinetic_temperature = true});
+  const auto found = ensemble_statistics(make_stepper(system, method(obabo()), unstable, counter_noise(seed)),
+                                         law, options, over_lanes([](const auto& x) { return x.q[0]; }),
+                                         {.histogram = equal_bins{-1.0, 1.0, 50},
+                                          .lags = 12,
+                                          .moments = true,
+                                          .kinetic_temperature = true,
+                                          .half_step_kinetic_temperature = true});
   require_some_of_both(found.lost.size(), static_cast<std::size_t>(count));
   result all;
   all.of_all << found.counted << found.samples << found.lost << found.histogram->counts() << found.mean
@@ -63,8 +62,7 @@ trajectory_options options_of(const division& how, std::uint64_t seed, double st
 }
 
 result accepted(const division& how, std::uint64_t seed) {
-  const auto found =
-      acceptance(divided(chain, how), tabulated(verlet()), law, options_of(how, seed, unstable));
+  const auto found = acceptance(divided(chain, how), method(verlet()), law, options_of(how, seed, unstable));
   require_some_of_both(found.diverged_at.size(), found.of_each.size());
   result all;
   all.of_all << found.probability << found.of_each << found.diverged_at;
@@ -73,7 +71,7 @@ result accepted(const division& how, std::uint64_t seed) {
 
 /// With the null model and the predictability, which have runs of their own.
 result errors(const division& how, std::uint64_t seed, const model& system, const auto& reference,
-              const std::vector<tabulated>& methods) {
+              const std::vector<method>& methods) {
   trajectory_options options = options_of(how, seed, unstable);
   options.null_model = true;
   options.perturbation = 1e-3;
@@ -101,10 +99,10 @@ result proposals(const division& how, std::uint64_t seed) {
                                    .seed = seed,
                                    .threads = how.threads,
                                    .ranks = how.ranks};
-    const auto found = acceptance_of_proposals(system, tabulated(bcss3()), 0.03, law, options);
+    const auto found = acceptance_of_proposals(system, method(bcss3()), 0.03, law, options);
     all.of_all << found.probability << found.of_each;
     const auto step = step_at_acceptance(
-        system, [](double) { return tabulated(bcss3()); }, 0.8, 0.02, law, options);
+        system, [](double) { return method(bcss3()); }, 0.8, 0.02, law, options);
     all.of_all << step.step << step.log_step << step.log_of_each;
   }
   return all;
@@ -125,13 +123,13 @@ result draws_of_chains(const division& how, std::uint64_t seed) {
   std::vector<hmc_state> kept;
   options.keep = [&](const hmc_state& state) { kept.push_back(state); };
   result all;
-  if (how.is_cut) hmc(system, tabulated(bcss3()), around_0, options, [](const hmc_draw&) {});
+  if (how.is_cut) hmc(system, method(bcss3()), around_0, options, [](const hmc_draw&) {});
   const hmc_state before = how.is_cut ? kept.front() : hmc_state();
   if (how.is_cut) options.from = &before;
   options.threads = how.threads;
   options.ranks = how.ranks;
   std::vector<numbers> of_each(static_cast<std::size_t>(trajectories));
-  const auto found = hmc(system, tabulated(bcss3()), around_0, options, [&](const hmc_draw& draw) {
+  const auto found = hmc(system, method(bcss3()), around_0, options, [&](const hmc_draw& draw) {
     of_each[static_cast<std::size_t>(draw.chain)] << draw.number << draw.q << draw.potential;
   });
   all.of_all << kept.back().trajectories << kept.back().numbers;
@@ -156,7 +154,7 @@ flow_map_data data_of(const division& how, std::uint64_t seed, const model& syst
 
 /// Of windows of three steps, whatever the residuals.
 result sums_over_windows(const division& how, const model& system, const flow_map_data& data,
-                         const run_time_family& family) {
+                         const family& family) {
   const metric measure(system, data, coordinates::qp);
   result all;
   const auto add = [&]<Scalar R>(R) {
@@ -186,7 +184,7 @@ numbers numbers_of(const fit& learned) {
 
 /// All that a rank does: data, search and judgement.
 result fitted(const division& how, std::uint64_t seed, const model& system, const auto& reference,
-              const run_time_family& family) {
+              const family& family) {
   const auto data = data_of(how, seed, system, reference);
   const auto held_out = data_of(how, seed + 100, system, reference);
   const fit_options options{.random_starts = 1, .planned_steps = 500, .threads = how.threads};
@@ -206,7 +204,7 @@ result learned_by_own_loss(const division& how, std::uint64_t seed) {
     const auto data = data_of(how, seed, system, fine_steps(1e-3));
     const fit_options options{.random_starts = 0, .planned_steps = 500, .threads = how.threads};
     result all;
-    all.of_all = numbers_of(learn(run_time_family(nystrom()), system, data, data, options, of_place));
+    all.of_all = numbers_of(learn(family(nystrom()), system, data, data, options, of_place));
     return all;
   };
   return how.in_lanes ? fit_of(chain) : fit_of(in_lanes<fpu_chain<3>, 1>(chain));
@@ -217,8 +215,8 @@ result learned_by_own_loss(const division& how, std::uint64_t seed) {
 BOOST_AUTO_TEST_CASE(no_result_depends_on_how_it_was_divided) {
   const auto steps = fine_steps(1e-3);
   const auto paths = fine_paths(1e-3);
-  const run_time_family family{nystrom()};
-  const run_time_family with_o = thermostatted(family, placement::symmetric);
+  const nysalt::family family{nystrom()};
+  const nysalt::family with_o = thermostatted(family, placement::symmetric);
   constexpr unsigned by_all_but_cuts = by_threads + by_lanes + by_ranks;
   require_invariance({
       {"statistics", by_all_but_cuts,
@@ -228,11 +226,11 @@ BOOST_AUTO_TEST_CASE(no_result_depends_on_how_it_was_divided) {
       {"acceptance", by_all_but_cuts, accepted},
       {"errors", by_all_but_cuts,
        [&](const auto& how, auto seed) {
-         return errors(how, seed, divided(chain, how), steps, {tabulated(verlet()), tabulated(bcss2())});
+         return errors(how, seed, divided(chain, how), steps, {method(verlet()), method(bcss2())});
        }},
       {"errors in a bath", by_all_but_cuts,
        [&](const auto& how, auto seed) {
-         return errors(how, seed, in_noise(how), paths, {tabulated(baoab()), tabulated(obabo())});
+         return errors(how, seed, in_noise(how), paths, {method(baoab()), method(obabo())});
        }},
       {"acceptance of proposals", by_all_but_cuts, proposals},
       {"draws of chains", by_all_but_cuts + by_cuts, draws_of_chains},

@@ -6,13 +6,13 @@
 #include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/judgement.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/references/fine_steps.hpp"
-#include "nysalt/run_time_family.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -32,7 +32,7 @@ model galaxy_in_noise(const division& how) {
   return divided(henon_heiles(), bath::of_sigma(0.05, 0.05), how);
 }
 auto obabo_of(const model& system, double step, std::uint64_t seed) {
-  return make_stepper(system, tabulated(obabo()), step, counter_noise(seed));
+  return make_stepper(system, method(obabo()), step, counter_noise(seed));
 }
 template <class T>
 const auto read_first = [](const auto& x, std::span<T> first) { first[0] = x.q[0]; };
@@ -167,7 +167,7 @@ result starts_after_a_burn_in(const division& how, std::uint64_t seed) {
   return all;
 }
 
-result judged(const division& how, std::uint64_t seed, const model& system, const tabulated& method) {
+result judged(const division& how, std::uint64_t seed, const model& system, const method& method) {
   phase_points starts;
   for (std::uint64_t m = 0; m < 100; ++m) starts.push_back(law(seed, m));  // more than a block
   const judgement found =
@@ -198,9 +198,9 @@ BOOST_AUTO_TEST_CASE(no_trajectory_depends_on_how_it_was_divided) {
       {"checks of pairs", by_threads + by_lanes + by_ranks, checks_of_pairs},
       {"starts after a burn-in", by_threads + by_lanes, starts_after_a_burn_in},
       {"a judgement", by_threads + by_lanes,
-       [&](const auto& how, auto seed) { return judged(how, seed, quiet(how), tabulated(verlet())); }},
+       [&](const auto& how, auto seed) { return judged(how, seed, quiet(how), method(verlet())); }},
       {"a judgement in a bath", by_threads + by_lanes,
-       [](const auto& how, auto seed) { return judged(how, seed, in_noise(how), tabulated(obabo())); }},
+       [](const auto& how, auto seed) { return judged(how, seed, in_noise(how), method(obabo())); }},
   });
 }
 
@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(a_computation_that_depends_on_its_division_is_found) {
   });
   shows("a cut", by_cuts, [](const auto& how, auto seed) {
     const model system = divided(chain, how);
-    const auto fixed = make_stepper(system, tabulated(verlet()), 0.01);
+    const auto fixed = make_stepper(system, method(verlet()), 0.01);
     auto run = fixed.open(law(seed, 0));
     for (int n = 0; n < 41; ++n) {
       fixed.advance(run, 1);
@@ -253,7 +253,7 @@ namespace {
 
 /// Fowler, Noll and Vo's hash FNV-1a of the bits of the ends of 37 trajectories, whose starts no generator
 /// and no library function has a part in.
-std::uint64_t hash_of_ends(const model& system, const tabulated& method, double step) {
+std::uint64_t hash_of_ends(const model& system, const method& method, double step) {
   const auto fixed = make_stepper(system, method, step, counter_noise(1));
   const auto part = [](std::int64_t k) { return static_cast<double>(k % 101) / 202.0 - 0.25; };
   std::uint64_t hash = 0xcbf29ce484222325U;  // offset basis and prime for 64 bits
@@ -278,9 +278,9 @@ std::uint64_t hash_of_ends(const model& system, const tabulated& method, double 
 // Systems made of + - * / and sqrt; the exponentials of the bath are of one library.
 BOOST_AUTO_TEST_CASE(every_compiler_makes_the_same_bits) {
   BOOST_TEST(hash_of_ends(chain, member(nystrom(), {0.51, 0.4}), 0.03) == 0x72d20a23d494d637U);
-  BOOST_TEST(hash_of_ends(henon_heiles(), tabulated(srkn11b()), 0.1) == 0xbbe778e91101a5f4U);
+  BOOST_TEST(hash_of_ends(henon_heiles(), method(srkn11b()), 0.1) == 0xbbe778e91101a5f4U);
   const in_bath warm(chain, bath::of_sigma(0.01, 0.05));
-  BOOST_TEST(hash_of_ends(warm, tabulated(obabo()), 0.01) == 0x825a4393124ca5b3U);
+  BOOST_TEST(hash_of_ends(warm, method(obabo()), 0.01) == 0x825a4393124ca5b3U);
   // One bit of one number is enough to be seen.
   const fpu_chain<3> other(std::nextafter(50.0, 51.0));
   BOOST_TEST(hash_of_ends(other, member(nystrom(), {0.51, 0.4}), 0.03) != 0x72d20a23d494d637U);

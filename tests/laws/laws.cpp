@@ -66,15 +66,13 @@ Eigen::MatrixXd jacobian_of(const auto& map, const any_state& x) {
 
 /// f(stepper), of double or of slopes.
 template <Scalar C, class Noise>
-auto with_stepper(const model& system, const tabulated& method, double step, const Noise& noise,
-                  const auto& f) {
+auto with_stepper(const model& system, const method& method, double step, const Noise& noise, const auto& f) {
   const auto c = method.coefficients();
   return f(stepper<model, C, Noise>(system, method.letters(), {c.begin(), c.end()}, step, noise));
 }
 
 /// J of a plain step; the noise of its bath, which J does not depend on, is fresh.
-Eigen::MatrixXd jacobian_of_step(const model& system, const tabulated& method, double step,
-                                 const any_state& x) {
+Eigen::MatrixXd jacobian_of_step(const model& system, const method& method, double step, const any_state& x) {
   return with_stepper<slopes>(system, method, step, fresh_noise(1), [&](const auto& fixed) {
     return jacobian_of([&](auto& y) { fixed.step(y); }, x);
   });
@@ -143,7 +141,7 @@ bool has_exact_derivatives(const model& system) {
   return !is_black_box(system) || system.facts().has_own_derivative;
 }
 
-bool suits(const model& system, const tabulated& method, bool over_slopes) {
+bool suits(const model& system, const method& method, bool over_slopes) {
   const auto& facts = system.facts();
   if (method.requires_quadratic_kinetic && !facts.has_quadratic_kinetic) return false;
   if (facts.in.acts() && method.letters().stochastic_letters == 0) return false;
@@ -171,7 +169,7 @@ static void try_each(const std::vector<specimen>& on, int times, const auto& met
     }
   }
 }
-void try_all(const std::vector<specimen>& on, const std::vector<tabulated>& methods, const trial& f) {
+void try_all(const std::vector<specimen>& on, const std::vector<method>& methods, const trial& f) {
   try_each(
       on, 1, [&](draws&) { return methods; }, f);
 }
@@ -181,7 +179,7 @@ void try_all_methods(const std::vector<specimen>& on, int times, const trial& f)
 
 // Steps.
 
-double symplecticity_broken(const model& system, const tabulated& method, double step, const any_state& x) {
+double symplecticity_broken(const model& system, const method& method, double step, const any_state& x) {
   const auto& word = method.letters();
   const auto c = method.coefficients();
   double in_bath = 0.0;
@@ -213,7 +211,7 @@ double symplecticity_broken_by_euler(const model& system, double step, const any
 
 /// Where the entries of J err by d, det J errs by sum_ij |adj J|_ij d: 4 n^2 terms, adj J = J^-1 for det J =
 /// 1, and J^-1 is the Jacobian of the step back.
-double volume_broken(const model& system, const tabulated& method, double step, const any_state& x) {
+double volume_broken(const model& system, const method& method, double step, const any_state& x) {
   const double magnified = transient_growth(method, step, shears_at(system, x));
   const double terms = 4.0 * static_cast<double>(x.size());
   return std::abs(determinant(jacobian_of_step(system, method, step, x)) - 1.0) /
@@ -221,7 +219,7 @@ double volume_broken(const model& system, const tabulated& method, double step, 
 }
 
 /// Two steps, whose letters each round every coordinate twice.
-double reversibility_broken(const model& system, const tabulated& method, double step, const any_state& x) {
+double reversibility_broken(const model& system, const method& method, double step, const any_state& x) {
   const double magnified = transient_growth(method, step, shears_at(system, x));
   const double rounding = 4.0 * roundings(method, x.size()) * eps * size_of(x) * magnified * magnified;
   return reversibility_defect(system, method, step, x) / rounding;

@@ -14,9 +14,9 @@
 #include "../support/draws.hpp"
 #include "../support/noises.hpp"
 #include "../support/rounding.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/run_time_family.hpp"
 
 namespace nysalt::test {
 
@@ -42,22 +42,22 @@ const specimen& specimen_of(const std::string& description);
 bool has_exact_derivatives(const model& system);
 /// The system serves the letters of the method and, where `over_slopes`, with derivatives; its kinetic energy
 /// gives the method its order; and the method has letters O where the system is in a bath that acts.
-bool suits(const model& system, const tabulated& method, bool over_slopes = true);
+bool suits(const model& system, const nysalt::method& method, bool over_slopes = true);
 
 /// Methods for systems without a bath: rows of the classical table, members of the families drawn at random,
 /// adaptive ones at a random z; baoab, too, whose letter O is then deleted.
-std::vector<tabulated> methods_as_data(draws& random);
+std::vector<nysalt::method> methods_as_data(draws& random);
 /// All families. A new one is one name in a list of models.hpp.
-const std::vector<run_time_family>& families_as_data();
+const std::vector<nysalt::family>& families_as_data();
 /// A theta well inside the ranges and near the start, where coefficients are of moderate size.
-Eigen::VectorXd random_theta(const run_time_family& family, draws& random);
+Eigen::VectorXd random_theta(const nysalt::family& family, draws& random);
 /// Methods with letters O in the middle, at either end, at both, several, and next to each other.
-std::vector<tabulated> methods_for_baths(draws& random);
+std::vector<nysalt::method> methods_for_baths(draws& random);
 
-using trial = std::function<void(const model&, const tabulated&, double step, const any_state&)>;
+using trial = std::function<void(const model&, const nysalt::method&, double step, const any_state&)>;
 /// Calls f for each specimen and each method that suits it, at a random state and at a quarter of a radian of
 /// the fastest motion there.
-void try_all(const std::vector<specimen>& on, const std::vector<tabulated>& methods, const trial& f);
+void try_all(const std::vector<specimen>& on, const std::vector<nysalt::method>& methods, const trial& f);
 /// The same for methods_as_data(), repeated with new members of the families and new states.
 void try_all_methods(const std::vector<specimen>& on, int times, const trial& f);
 
@@ -66,11 +66,13 @@ shears shears_at(const model& system, const any_state& x);
 // What one step of a method keeps.
 
 /// J^T Omega J = Omega; in a bath e^{-gamma h} Omega.
-double symplecticity_broken(const model& system, const tabulated& method, double step, const any_state& x);
+double symplecticity_broken(const model& system, const nysalt::method& method, double step,
+                            const any_state& x);
 /// The same of the explicit Euler method, which is not symplectic.
 double symplecticity_broken_by_euler(const model& system, double step, const any_state& x);
-double volume_broken(const model& system, const tabulated& method, double step, const any_state& x);
-double reversibility_broken(const model& system, const tabulated& method, double step, const any_state& x);
+double volume_broken(const model& system, const nysalt::method& method, double step, const any_state& x);
+double reversibility_broken(const model& system, const nysalt::method& method, double step,
+                            const any_state& x);
 
 // Runs.
 
@@ -79,7 +81,7 @@ using any_noise = std::variant<no_noise, fresh_noise, noise_of_a_path>;
 
 struct run_of {
   const model& system;
-  const tabulated& method;
+  const nysalt::method& method;
   double step;
   any_noise noise{};
   std::uint64_t trajectory = 0;
@@ -118,7 +120,7 @@ struct table {
   nysalt::word word;
   std::vector<double> coefficients;
   table(const nysalt::word& letters, const std::vector<double>& c) : word(letters), coefficients(c) {}
-  table(const tabulated& method) : table(method.letters(), method.coefficients()) {}
+  table(const nysalt::method& method) : table(method.letters(), method.coefficients()) {}
 };
 /// Slope of log error against log step, to 0.15 if the first steps are below 1/4 of the fastest motion's time
 /// scale. `at(h)` is the method at the step h.

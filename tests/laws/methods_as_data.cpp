@@ -14,7 +14,7 @@ namespace {
 
 bool has(const std::string& letters, char letter) { return letters.find(letter) != std::string::npos; }
 
-tabulated random_member(const run_time_family& family, draws& random) {
+method random_member(const family& family, draws& random) {
   return {family.name,
           family.letters,
           family.coefficients(random_theta(family, random)),
@@ -22,7 +22,7 @@ tabulated random_member(const run_time_family& family, draws& random) {
 }
 
 /// Any word, with a whole step shared equally by the letters of each kind.
-tabulated shared_equally(const std::string& letters) {
+method shared_equally(const std::string& letters) {
   std::vector<double> c;
   for (const char letter : letters) {
     c.push_back(1.0 / static_cast<double>(std::count(letters.begin(), letters.end(), letter)));
@@ -32,16 +32,16 @@ tabulated shared_equally(const std::string& letters) {
 
 }  // namespace
 
-const std::vector<run_time_family>& families_as_data() {
-  static const std::vector<run_time_family> all = [] {
-    std::vector<run_time_family> result;
+const std::vector<family>& families_as_data() {
+  static const std::vector<family> all = [] {
+    std::vector<family> result;
     for_each<all_families>([&]<class F>() { result.emplace_back(F()); });
     return result;
   }();
   return all;
 }
 
-Eigen::VectorXd random_theta(const run_time_family& family, draws& random) {
+Eigen::VectorXd random_theta(const family& family, draws& random) {
   Eigen::VectorXd theta = family.starts.front().theta;
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
     const auto [low, high, open] = family.ranges[static_cast<std::size_t>(k)];
@@ -51,8 +51,8 @@ Eigen::VectorXd random_theta(const run_time_family& family, draws& random) {
   return theta;
 }
 
-std::vector<tabulated> methods_as_data(draws& random) {
-  std::vector<tabulated> all;
+std::vector<method> methods_as_data(draws& random) {
+  std::vector<method> all;
   for_each<fitted_methods>([&]<class M>() { all.push_back(M::at(random.uniform(0.1, 4.0))); });
   for (const auto& row : classical_table) {
     if (!has(std::string(row.letters), 'O') || row.name == "baoab") all.push_back(as_data(row));
@@ -63,12 +63,12 @@ std::vector<tabulated> methods_as_data(draws& random) {
   return all;
 }
 
-std::vector<tabulated> methods_for_baths(draws& random) {
-  std::vector<tabulated> all;
+std::vector<method> methods_for_baths(draws& random) {
+  std::vector<method> all;
   for (const auto& row : classical_table) {
     if (has(std::string(row.letters), 'O')) all.push_back(as_data(row));
   }
-  const run_time_family family{nystrom()};
+  const nysalt::family family{nystrom()};
   all.push_back(random_member(thermostatted(family, placement::symmetric), random));
   all.push_back(random_member(thermostatted(family, placement::middle), random));
   for (const char* letters : {"BABO", "OBA", "OBOOAO"}) all.push_back(shared_equally(letters));

@@ -47,7 +47,7 @@ template <Family F, class M>
 struct fitted {
   using family = F;
   using classical = M;
-  static tabulated at(double z) { return phase_fitted(F(), M(), z); }
+  static method at(double z) { return phase_fitted(F(), M(), z); }
 };
 using fitted_methods = std::tuple<fitted<fg_chin, chin4a>, fitted<fg4, omelyan_fg4>, fitted<aba<4>, pefrl>,
                                   fitted<bab<4>, vefrl>, fitted<aba<5>, mclachlan5>,
@@ -55,7 +55,7 @@ using fitted_methods = std::tuple<fitted<fg_chin, chin4a>, fitted<fg4, omelyan_f
 
 template <Family F>
 parameters_of<F> random_theta(draws& random) {
-  return array_of<std::size_t{F::parameters}>(random_theta(run_time_family(F()), random));
+  return array_of<std::size_t{F::parameters}>(random_theta(family(F()), random));
 }
 
 /// Calls f.operator()<Model>() for each model in a list.

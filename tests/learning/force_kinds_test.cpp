@@ -46,7 +46,7 @@ struct by_black_box_with_derivative : by_black_box {
 };
 
 const by_force exact;
-const run_time_family two_stages{nystrom()};
+const family two_stages{nystrom()};
 const fit_options quick{.random_starts = 2, .planned_steps = 300};
 
 const data_sets& pendulums() {
@@ -70,7 +70,7 @@ double distance_of(const fit& a, const fit& b) { return (a.theta - b.theta).cwis
 
 /// Learned of data in some units, with a mistake in the first coordinate's force if the factor is not 1.
 template <class S>
-Eigen::VectorXd learned_for(const run_time_family& family, const units& scales, double factor = 1.0) {
+Eigen::VectorXd learned_for(const family& family, const units& scales, double factor = 1.0) {
   S system;
   system.scales = scales;
   S wrong = system;
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused_unless_asked_otherwise) 
 }
 
 BOOST_AUTO_TEST_CASE(of_a_black_box_theta_is_the_same_in_all_units) {
-  const run_time_family family{fg_chin()};
+  const nysalt::family family{fg_chin()};
   const auto expected = learned_for<open_wells<2>>(family, units());
   for (const units& scales : {units{.length = 1e-10}, units{.length = 1e10},
                               units{.length = 1e-10, .time = 1e-15, .mass = 1e-26, .offset = 20.0},

@@ -18,7 +18,7 @@ using namespace nysalt::test;
 namespace {
 
 using galaxy = in_bath<henon_heiles>;
-const run_time_family bathed_stages = two_stages_in(placement::symmetric);
+const family bathed_stages = two_stages_in(placement::symmetric);
 using parameters = parameters_of<nystrom>;
 
 constexpr double h = 0.5;

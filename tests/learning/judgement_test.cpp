@@ -29,17 +29,16 @@ phase_points one_start(double q, double p) {
   return std::vector{phase_point<double, Eigen::Dynamic>{numbers(q).head(1), numbers(p).head(1)}};
 }
 const auto in_well = around_rest<1>(1.5, 1.5);
-const tabulated rotations("rotations", word("RSR"), {0.5, 1.0, 0.5}, {2, true, true});
+const method rotations("rotations", word("RSR"), {0.5, 1.0, 0.5}, {2, true, true});
 
 const fpu_chain<3> small(50.0);
 const fpu_chain<> large(16, 50.0);
-const tabulated verlet_twice =
-    member(nystrom(), {0.5, 0.5});  // two steps of Verlet: stable up to z = 4 a step
-tabulated learned_on(const std::string& system, const std::string& kind, double step) {
+const method verlet_twice = member(nystrom(), {0.5, 0.5});  // two steps of Verlet: stable up to z = 4 a step
+method learned_on(const std::string& system, const std::string& kind, double step) {
   return {"nystrom", verlet_twice.letters(), verlet_twice.coefficients(), verlet_twice,
           method_validity{step, system, kind}};
 }
-tabulated learned_at(double step) { return learned_on(describe(small), kind_of(small), step); }
+method learned_at(double step) { return learned_on(describe(small), kind_of(small), step); }
 
 /// Quartic wells that are the stiffer the more there are: where they rest nothing is stiff.
 struct stiffening_wells {
@@ -66,7 +65,7 @@ auto from_the_bottom(const stiffening_wells& system) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_step_far_below_the_limit_is_good_and_one_above_it_loses_trajectories) {
-  const auto sound = judge(chain, chain_starts, tabulated(mclachlan2{}), 0.2, {.steps = 5000});
+  const auto sound = judge(chain, chain_starts, method(mclachlan2{}), 0.2, {.steps = 5000});
   BOOST_TEST_CONTEXT(sound.in_words() << "\n" << sound.report()) {
     BOOST_TEST((sound.verdict == step_verdict::good));
     BOOST_TEST(sound.reason.empty());
@@ -81,7 +80,7 @@ BOOST_AUTO_TEST_CASE(a_step_far_below_the_limit_is_good_and_one_above_it_loses_t
     BOOST_TEST(*sound.margin > 0.2);
   }
   // z = 2.4 at the frequency that a mass has at rest among others: linearly stable, limit 2.553.
-  const auto lost = judge(chain, chain_starts, tabulated(mclachlan2{}), 0.65, {.steps = 5000});
+  const auto lost = judge(chain, chain_starts, method(mclachlan2{}), 0.65, {.steps = 5000});
   BOOST_TEST_CONTEXT(lost.in_words()) {
     BOOST_TEST(!lost.holds());
     BOOST_REQUIRE(lost.first_lost.has_value());
@@ -96,21 +95,21 @@ BOOST_AUTO_TEST_CASE(a_step_far_below_the_limit_is_good_and_one_above_it_loses_t
 BOOST_AUTO_TEST_CASE(an_energy_error_that_is_large_from_the_first_steps_on_is_no_good_step) {
   const kepler system;
   const auto starts = starts_of(kepler_law(0.6), 64);
-  const auto large = judge(system, starts, tabulated(chin4a{}), 0.3);
+  const auto large = judge(system, starts, method(chin4a{}), 0.3);
   BOOST_TEST_CONTEXT(large.in_words()) {
     BOOST_TEST((large.verdict == step_verdict::unstable));
     BOOST_TEST(large.diverged == 0);
     BOOST_TEST(large.growth < 2.0);
     BOOST_TEST(large.energy_error.median > 1.0);
   }
-  BOOST_TEST((judge(system, starts, tabulated(chin4a{}), 0.1).verdict == step_verdict::good));
+  BOOST_TEST((judge(system, starts, method(chin4a{}), 0.1).verdict == step_verdict::good));
 }
 
 // Between a small step and one at which the energy diffuses (the standard map: beyond h = sqrt(.9716) no
 // invariant circle is left [greene_1979]) the error is bounded and large: the verdict says how large.
 BOOST_AUTO_TEST_CASE(a_large_error_that_does_not_grow_is_an_edge) {
   const auto at_step = [&](double step) {
-    return judge(pendulum{}, starts_of(in_well, 64), tabulated(verlet{}), step);
+    return judge(pendulum{}, starts_of(in_well, 64), method(verlet{}), step);
   };
   BOOST_TEST((at_step(0.15).verdict == step_verdict::good));
   BOOST_TEST(!at_step(1.3).holds());
@@ -131,7 +130,7 @@ BOOST_AUTO_TEST_CASE(what_one_trajectory_in_three_hundred_does_is_no_edge) {
     for (std::size_t k = 0; k < 300; ++k)
       starts.push_back(
           phase_point<double, 1>{vector<double, 1>(k < count ? 5.0 : 1.0), vector<double, 1>(0.0)});
-    return judge(harmonic_oscillator(1.0), starts, tabulated(verlet{}), 0.5, {.steps = 500});
+    return judge(harmonic_oscillator(1.0), starts, method(verlet{}), 0.5, {.steps = 500});
   };
   const auto one = with_energetic(1);
   BOOST_TEST((one.verdict == step_verdict::good), one.in_words());
@@ -153,8 +152,8 @@ BOOST_AUTO_TEST_CASE(a_verdict_has_no_units) {
     };
     // H = p^2/2m + k q^2/2 with mass and stiffness in proportion: the frequency stays.
     const linear_chain one(Eigen::MatrixXd::Constant(1, 1, 4.0 * scale), Eigen::VectorXd::Constant(1, scale));
-    return judge(one, phase_points(std::vector{scaled(1.0, 0.3), scaled(0.2, -1.0)}), tabulated(verlet{}),
-                 step, {.steps = 2000});
+    return judge(one, phase_points(std::vector{scaled(1.0, 0.3), scaled(0.2, -1.0)}), method(verlet{}), step,
+                 {.steps = 2000});
   };
   for (const double step : {0.1, 0.8, 1.01}) {
     const auto large = of(1.0, step);
@@ -180,16 +179,16 @@ BOOST_AUTO_TEST_CASE(rounding_is_no_drift) {
 // blame.
 BOOST_AUTO_TEST_CASE(motion_that_is_not_confined_is_left_out) {
   const phase_points starts(std::vector{at(0.0, 0.3), at(0.0, 0.8)});
-  const auto left = judge(henon_heiles{}, starts, tabulated(verlet{}), 0.05, {.steps = 5000});
+  const auto left = judge(henon_heiles{}, starts, method(verlet{}), 0.05, {.steps = 5000});
   BOOST_TEST(left.unconfined == 1);
   BOOST_TEST(left.holds(), left.in_words());
   // At a step beyond the window the confined one is lost as well, and that counts.
-  const auto lost = judge(henon_heiles{}, starts, tabulated(verlet{}), 2.1, {.steps = 5000});
+  const auto lost = judge(henon_heiles{}, starts, method(verlet{}), 2.1, {.steps = 5000});
   BOOST_TEST(lost.diverged == 1);
   BOOST_TEST(!lost.holds());
   // Where nothing is left nothing was tried.
   const phase_points outside(std::vector{at(3.0, 0.0), at(3.0, 0.0)});
-  const auto none = judge(henon_heiles{}, outside, tabulated(verlet{}), 0.1, {.steps = 5000});
+  const auto none = judge(henon_heiles{}, outside, method(verlet{}), 0.1, {.steps = 5000});
   BOOST_TEST(none.unconfined == 2);
   BOOST_TEST((none.verdict == step_verdict::not_tried));
   BOOST_TEST(!none.holds());
@@ -201,7 +200,7 @@ BOOST_AUTO_TEST_CASE(what_an_accurate_method_cannot_follow_is_not_left_out) {
   const auto law = around_rest<1>(1.0, 1.0);
   for (const double omega : {300.0, 1e5}) {  // in 30 parts, and in too many
     const auto found =
-        judge(harmonic_oscillator(omega), starts_of(law, 8), tabulated(verlet{}), 0.1, {.steps = 400});
+        judge(harmonic_oscillator(omega), starts_of(law, 8), method(verlet{}), 0.1, {.steps = 400});
     BOOST_TEST((found.verdict == step_verdict::unstable), found.in_words());
     BOOST_TEST(found.unconfined == 0);
     BOOST_TEST(found.diverged == 8);
@@ -214,7 +213,7 @@ BOOST_AUTO_TEST_CASE(what_an_accurate_method_cannot_follow_is_not_left_out) {
 BOOST_AUTO_TEST_CASE(the_scale_of_energies_is_that_of_the_motion_however_long_the_step) {
   const normal_around<2> law({{1.0, 0.0}, {0.0, 0.0}}, 0.0, 0.01);
   for (const double step : {0.02, 0.5, 8.0}) {
-    const auto found = judge(kepler{}, starts_of(law, 16), tabulated(mclachlan2{}), step, {.steps = 2000});
+    const auto found = judge(kepler{}, starts_of(law, 16), method(mclachlan2{}), step, {.steps = 2000});
     BOOST_TEST(found.kinetic_energy < 1.0);
     BOOST_TEST(!found.holds(), found.in_words());
   }
@@ -223,13 +222,13 @@ BOOST_AUTO_TEST_CASE(the_scale_of_energies_is_that_of_the_motion_however_long_th
 // At rest there is no scale: what does not diverge was not tried.
 BOOST_AUTO_TEST_CASE(a_step_that_no_accurate_motion_can_follow_from_rest_is_not_good) {
   const linear_chain stiff(Eigen::MatrixXd::Constant(1, 1, 1e12));
-  const auto verdict_of = [&](const tabulated& method) {
+  const auto verdict_of = [&](const method& method) {
     return judge(stiff, one_start(1.0, 0.0), method, 0.1, {.steps = 500});
   };
   const auto found = verdict_of(rotations);
   BOOST_TEST((found.verdict == step_verdict::not_tried), found.in_words());
   BOOST_TEST(found.reason.find("far too long") != std::string::npos, found.reason);
-  BOOST_TEST((verdict_of(tabulated(verlet{})).verdict == step_verdict::unstable));
+  BOOST_TEST((verdict_of(nysalt::method(verlet{})).verdict == step_verdict::unstable));
 }
 
 // Starts are run 64 at a time: the first of the second block is the only one that moves too fast for the
@@ -237,9 +236,9 @@ BOOST_AUTO_TEST_CASE(a_step_that_no_accurate_motion_can_follow_from_rest_is_not_
 BOOST_AUTO_TEST_CASE(starts_beyond_the_first_block_are_tried) {
   const auto point = [](double q) { return phase_point<double, Eigen::Dynamic>{numbers(q), numbers(0.1)}; };
   std::vector<phase_point<double, Eigen::Dynamic>> starts(64, point(0.1));
-  BOOST_TEST(judge(chain, starts, tabulated(mclachlan2{}), 0.2, {.steps = 500}).lost == 0);
+  BOOST_TEST(judge(chain, starts, method(mclachlan2{}), 0.2, {.steps = 500}).lost == 0);
   starts.push_back(point(20.0));  // sqrt(3) 20 h = 7, far beyond 2.553
-  const auto found = judge(chain, starts, tabulated(mclachlan2{}), 0.2, {.steps = 500});
+  const auto found = judge(chain, starts, method(mclachlan2{}), 0.2, {.steps = 500});
   BOOST_TEST(found.trajectories == 65);
   BOOST_TEST(found.diverged == 1);
   BOOST_TEST(found.unconfined == 0);
@@ -252,19 +251,19 @@ BOOST_AUTO_TEST_CASE(starts_beyond_the_first_block_are_tried) {
 BOOST_AUTO_TEST_CASE(in_a_bath_only_divergence_counts) {
   const in_bath warm(harmonic_oscillator(1.0), bath::of_temperature(0.1, 1.0));
   const phase_points starts = one_start(1.0, 0.0);
-  const auto sound = judge(warm, starts, tabulated(baoab{}), 0.5, {.steps = 5000});
+  const auto sound = judge(warm, starts, method(baoab{}), 0.5, {.steps = 5000});
   BOOST_TEST(sound.holds(), sound.in_words());
   BOOST_TEST(!sound.energy_was_watched);
-  BOOST_TEST(!judge(warm, starts, tabulated(baoab{}), 2.2, {.steps = 5000}).holds());
-  const auto unwatched = judge(kepler{}, starts_of(kepler_law(0.6), 64), tabulated(chin4a{}), 0.3,
+  BOOST_TEST(!judge(warm, starts, method(baoab{}), 2.2, {.steps = 5000}).holds());
+  const auto unwatched = judge(kepler{}, starts_of(kepler_law(0.6), 64), method(chin4a{}), 0.3,
                                {.steps = 2000, .watches_energy = false});
   BOOST_TEST((unwatched.holds() && !unwatched.energy_was_watched), unwatched.in_words());
 }
 
 BOOST_AUTO_TEST_CASE(a_judge_gives_equal_judgements_of_equal_coefficients) {
   const step_judge judge_of(chain, chain_starts, 0.3, {.steps = 500});
-  const tabulated by_name(verlet{});
-  const tabulated by_letters("word", word("BAB"), by_name.coefficients(), {2, true, false});
+  const method by_name(verlet{});
+  const method by_letters("word", word("BAB"), by_name.coefficients(), {2, true, false});
   const auto one = judge_of.of(by_name);
   const auto other = judge(chain, chain_starts, by_letters, 0.3, {.steps = 500});
   BOOST_TEST(one.in_words() == other.in_words());
@@ -306,7 +305,7 @@ BOOST_AUTO_TEST_CASE(a_trial_is_as_long_as_its_force_allows) {
   BOOST_TEST(force_cost(in_bath(priced_pendulum{}, bath::of_temperature(0.1, 1.0))) == 1000.0);
   const auto starts = starts_of(in_well, 64);
   const auto steps = [&](const model& system) {
-    return judge(system, starts, tabulated(verlet{}), 0.15, {.work = 640'000}).steps;
+    return judge(system, starts, method(verlet{}), 0.15, {.work = 640'000}).steps;
   };
   BOOST_TEST(steps(pendulum{}) == 10'000);      // 64 trajectories of one evaluation a step
   BOOST_TEST(steps(priced_pendulum{}) == 640);  // one trajectory
@@ -323,7 +322,7 @@ BOOST_AUTO_TEST_CASE(starts_of_an_ensemble_are_the_first_ones_whatever_a_command
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_judged_is_refused) {
   const auto with = [](const phase_points& starts, double step, const judging_options& options) {
-    return [=] { judge(chain, starts, tabulated(verlet{}), step, options); };
+    return [=] { judge(chain, starts, method(verlet{}), step, options); };
   };
   BOOST_TEST(refuses(with(chain_starts, 0.1, {.steps = -1}), {"judge", "-1"}));
   BOOST_TEST(refuses(with(chain_starts, 0.0, {}), {"judge", "step 0"}));
@@ -372,7 +371,7 @@ BOOST_AUTO_TEST_CASE(another_kind_an_unknown_one_and_an_unstable_step_are_refuse
   const fpu_law<Eigen::Dynamic> starts(other);
   BOOST_TEST(refuses([&] { at_size_of(other, learned_at(0.02), starts); },
                      {"fpu_chain(pairs=3, omega=50)", "fpu_chain(pairs=16, omega=51)", "not of one kind"}));
-  const tabulated of_no_kind = learned_on(describe(small), "", 0.02);
+  const method of_no_kind = learned_on(describe(small), "", 0.02);
   BOOST_TEST(refuses([&] { at_size_of(large, of_no_kind, starts); }, {"not of one kind"}));
   // So is a step beyond the window.
   const auto beyond = learned_at(0.082);  // z = 4.1 at the stiff frequency, beyond 4
@@ -383,7 +382,7 @@ BOOST_AUTO_TEST_CASE(another_kind_an_unknown_one_and_an_unstable_step_are_refuse
 // The guard sees no stiffness where trajectories start, and admits the method at both sizes.
 BOOST_AUTO_TEST_CASE(what_only_a_trial_sees_is_refused) {
   const double step = 0.3;
-  const tabulated& method = verlet_twice;
+  const method& method = verlet_twice;
   for (const Eigen::Index wells : {1, 12}) {
     const stiffening_wells system{wells};
     const initial_states starts = from_the_bottom(system);
@@ -399,7 +398,7 @@ BOOST_AUTO_TEST_CASE(what_only_a_trial_sees_is_refused) {
   }
   const stiffening_wells one;
   const stiffening_wells twelve{12};
-  const tabulated learned = learned_on(describe(one), kind_of(one), step);
+  const nysalt::method learned = learned_on(describe(one), kind_of(one), step);
   BOOST_TEST(refuses([&] { at_size_of(twelve, learned, from_the_bottom(twelve), {.steps = 2000}); },
                      {"stiffening_wells(wells=1)", "wells=12", "trajectories are lost"}));
 }

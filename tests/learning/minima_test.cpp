@@ -21,7 +21,7 @@ using namespace nysalt::test;
 
 namespace {
 
-const run_time_family family{aba<2>()};  // one parameter, from -4 to 4
+const nysalt::family family{aba<2>()};  // one parameter, from -4 to 4
 
 Eigen::VectorXd number(double x) { return Eigen::VectorXd::Constant(1, x); }
 
@@ -248,7 +248,7 @@ BOOST_AUTO_TEST_CASE(an_admitted_minimum_far_above_another_is_left_for_the_edge_
 }
 
 BOOST_AUTO_TEST_CASE(random_starts_are_those_of_their_seed_and_stay_in_range) {
-  const run_time_family two{nystrom()};  // b1 in (0, 1), beta1 in [0, .5]
+  const family two{nystrom()};  // b1 in (0, 1), beta1 in [0, .5]
   const Eigen::VectorXd middle = Eigen::Vector2d(0.5, 0.4);
   const auto drawn = [&](std::uint64_t which, std::uint64_t n, const std::vector<Eigen::Index>& free) {
     return random_start(two, middle, free, which, n);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double step = 0.6;
 const pendulum swing;
-const run_time_family two_stages{nystrom()};
+const family two_stages{nystrom()};
 
 const normal_around<1> starts({vector<double, 1>(0.5), vector<double, 1>(0.0)}, 0.5, 0.5);
 

@@ -14,7 +14,7 @@ using namespace nysalt::test;
 namespace {
 
 const henon_heiles galaxy;
-const run_time_family family{nystrom()};
+const nysalt::family family{nystrom()};
 const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
 
 const data_sets& two_sets() {
@@ -225,7 +225,7 @@ class sixty_blocks final : public loss_on_data {
   }
   std::size_t residuals() const override { return 4; }
   bool has_estimated_weights() const override { return false; }
-  std::unique_ptr<const loss_on_data> of_family(const run_time_family&) const override {
+  std::unique_ptr<const loss_on_data> of_family(const family&) const override {
     return std::make_unique<const sixty_blocks>(*this);
   }
   const shard& share() const override { return share_; }

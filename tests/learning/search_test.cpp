@@ -18,8 +18,8 @@ using namespace nysalt::test;
 namespace {
 
 const henon_heiles galaxy;
-const run_time_family two_stages{nystrom()};
-const run_time_family four_kicks{aba<4>()};
+const family two_stages{nystrom()};
+const family four_kicks{aba<4>()};
 
 data_sets made_by(const auto& reference, double step, const normal_around<2>& starts,
                   std::uint64_t seed = 1) {
@@ -44,7 +44,7 @@ fit fit_to(const data_sets& sets, fit_options options = {}) {
 
 /// How far theta can be off where the minimum is zero but for rounding: residuals of some 100 roundings, in
 /// units of increments of `increment` or more, over the least singular value of the Jacobian.
-double recovery_error(const data_sets& sets, const run_time_family& family, const Eigen::VectorXd& theta,
+double recovery_error(const data_sets& sets, const family& family, const Eigen::VectorXd& theta,
                       double increment) {
   const metric measure(galaxy, sets.data, coordinates::qp);
   const after_steps<> loss(family, galaxy, sets.data, state_error(measure));
@@ -67,7 +67,7 @@ template <Family F>
 void check_recovery(double reach) {
   draws random;
   constexpr double step = 0.8;
-  const run_time_family family{F()};
+  const nysalt::family family{F()};
   for (int n = 0; n < 2; ++n) {
     auto theta = F::start();
     for (double& x : theta) x += random.uniform(-reach, reach);
@@ -97,8 +97,7 @@ data_sets sets_at(double step) {
       chain, fpu_law<3>(chain), fine_steps(step / 180.0), {.step = step, .horizon = 8.0, .trajectories = 8}};
 }
 
-fit_summary fitted(const data_sets& sets, const run_time_family& family, const char* loss,
-                   fit_options options = {}) {
+fit_summary fitted(const data_sets& sets, const family& family, const char* loss, fit_options options = {}) {
   options.loss = loss_named(loss);
   options.planned_steps = 2000;
   return sets.learned(family, chain, options).summary;
@@ -121,8 +120,8 @@ BOOST_AUTO_TEST_CASE(a_member_that_made_the_data_is_recovered) {
 }
 
 BOOST_AUTO_TEST_CASE(an_optimum_beyond_the_bound_is_held_there_and_the_other_parameter_fitted_again) {
-  const tabulated maker("beyond the bound", two_stages.letters, two_stages.coefficients(pair(0.55, 0.53)),
-                        {2, true, false});
+  const method maker("beyond the bound", two_stages.letters, two_stages.coefficients(pair(0.55, 0.53)),
+                     {2, true, false});
   const auto sets = made_by(fine_steps(h, maker), h, gentle_starts);
   const auto fit = fit_to(sets);
   BOOST_TEST_CONTEXT(fit.summary.full()) {
@@ -204,8 +203,8 @@ BOOST_AUTO_TEST_CASE(a_flat_direction_is_reported_and_the_rest_is_learned) {
 BOOST_AUTO_TEST_CASE(whole_trajectories_tell_which_errors_add_up) {
   const auto sets = sets_at(0.09);
   const fit_options options{.coordinates = coordinates::energy, .random_starts = 4};
-  const auto by_trajectory = fitted(sets, run_time_family(fg4{}), "trajectory", options);
-  const auto by_step = fitted(sets, run_time_family(fg4{}), "state:1", options);
+  const auto by_trajectory = fitted(sets, family(fg4{}), "trajectory", options);
+  const auto by_step = fitted(sets, family(fg4{}), "state:1", options);
   BOOST_TEST_CONTEXT(by_trajectory.full() << by_step.full()) {
     BOOST_TEST(by_trajectory.usable);
     BOOST_TEST(by_trajectory.trajectory_error < 0.25 * by_step.trajectory_error);
@@ -233,7 +232,7 @@ BOOST_AUTO_TEST_CASE(where_no_member_follows_the_data_the_loss_looks_at_fewer_st
 // .004 where it is .15; that of the slow one, which moves far more, by .001 and less.
 BOOST_AUTO_TEST_CASE(what_follows_a_slow_motion_alone_follows_not) {
   const normal_around<2> starts({{1.0, 0.002}, {0.0, 0.1}}, 1e-3, 1e-3);
-  const run_time_family family{aba<2>{}};
+  const nysalt::family family{aba<2>{}};
   for (const double step : {0.06, 0.003}) {
     const data_options options{.step = step, .horizon = 100.0 * step, .trajectories = 3};
     const data_sets sets(two_speeds{}, starts, fine_steps(step / 60.0), options);
@@ -246,7 +245,7 @@ BOOST_AUTO_TEST_CASE(what_follows_a_slow_motion_alone_follows_not) {
 BOOST_AUTO_TEST_CASE(a_larger_family_begins_at_the_optimum_of_the_one_that_it_contains) {
   const auto sets = sets_at(0.12);
   const fit_options options{.random_starts = 2, .planned_steps = 2000};
-  run_time_family larger{bab6_free{}};
+  family larger{bab6_free{}};
   const auto found = sets.learned(larger, chain, options).summary;
   larger.contained.reset();
   const auto found_alone = sets.learned(larger, chain, options).summary;
@@ -294,7 +293,7 @@ BOOST_AUTO_TEST_CASE(enough_trajectories_tell_what_as_many_tell_at_once) {
 
 BOOST_AUTO_TEST_CASE(the_loss_on_oscillators_is_the_distance_of_the_matrices_and_its_gradient_the_slope) {
   const double z = 1.3;
-  const auto loss = detail::oscillator_loss(run_time_family(bab<2>{}), {{z, z}}, 1.0);
+  const auto loss = detail::oscillator_loss(family(bab<2>{}), {{z, z}}, 1.0);
   // B(1/4) A(1/2) B(1/2) A(1/2) B(1/4) twice half a step of kick-drift-kick, in coordinates (z q, p).
   const double h = 0.5;
   const double turn = 1.0 - 0.5 * h * h * z * z;
@@ -304,7 +303,7 @@ BOOST_AUTO_TEST_CASE(the_loss_on_oscillators_is_the_distance_of_the_matrices_and
   BOOST_TEST(std::abs(loss(Eigen::VectorXd::Constant(1, 0.25)).value - expected) <= 100.0 * eps);
   BOOST_TEST(expected > 1e-3);
 
-  const run_time_family four_kicks{bab<4>{}};
+  const family four_kicks{bab<4>{}};
   const auto of_bands = detail::oscillator_loss(four_kicks, {{0.0, 5.0}, {49.0, 51.0}}, 0.05);
   const Eigen::VectorXd theta = four_kicks.starts.front().theta.array() + 0.03;
   const Eigen::VectorXd ours = of_bands(theta).gradient();
@@ -317,6 +316,6 @@ BOOST_AUTO_TEST_CASE(the_loss_on_oscillators_is_the_distance_of_the_matrices_and
     BOOST_TEST(std::abs(ours[k]) > 1e-3);
   }
   // There is none where rotations are exact or nothing moves.
-  BOOST_TEST(!detail::oscillator_loss(run_time_family(r_aba<2>{}), {{0.0, 5.0}}, 0.05));
-  BOOST_TEST(!detail::oscillator_loss(run_time_family(bab<2>{}), {{0.0, 0.0}}, 0.05));
+  BOOST_TEST(!detail::oscillator_loss(family(r_aba<2>{}), {{0.0, 5.0}}, 0.05));
+  BOOST_TEST(!detail::oscillator_loss(family(bab<2>{}), {{0.0, 0.0}}, 0.05));
 }

@@ -102,7 +102,7 @@ const nysalt::word one_impulse("RSR");
 const std::vector<double> halves{0.5, 1.0, 0.5};
 const double resonance = std::numbers::pi / 50.0;
 
-const run_time_family four_kicks{aba<4>()};
+const family four_kicks{aba<4>()};
 
 /// From equal steps alone: of all that the family would begin with, one finds stable words.
 fit fitted_at(double step, bool guarded) {

@@ -17,7 +17,7 @@ using wrong = std::invalid_argument;
 constexpr int dynamic = Eigen::Dynamic;
 const fpu_chain<3> chain(50.0);
 const linear_chain oscillator(Eigen::MatrixXd::Constant(1, 1, 4.0));  // frequency 2
-const run_time_family two_stages{nystrom()};
+const family two_stages{nystrom()};
 
 data_sets of_chain(const auto& reference, double step) {
   return {chain, fpu_law<3>(chain), reference, {.step = step, .horizon = 20.0 * step, .trajectories = 50}};
@@ -56,9 +56,9 @@ F fit_with(auto member, auto value, auto... more) {
   return fit;
 }
 
-const tabulated& method_named(const std::string& name) {
+const method& method_named(const std::string& name) {
   static const auto all = classical_methods();
-  return *std::ranges::find(all, name, &tabulated::name);
+  return *std::ranges::find(all, name, &method::name);
 }
 
 const henon_heiles galaxy;
@@ -208,8 +208,7 @@ BOOST_AUTO_TEST_CASE(where_learning_gains_nothing_the_classical_method_is_named)
   by_mclachlan.held_out.finer.clear();
   const auto own = by_mclachlan.learned(two_stages, galaxy, options).summary;
   // At a large step learning gains.
-  const auto large =
-      of_galaxy(fine_steps(0.02), 0.8).learned(run_time_family(fg_chin()), galaxy, options).summary;
+  const auto large = of_galaxy(fine_steps(0.02), 0.8).learned(family(fg_chin()), galaxy, options).summary;
   BOOST_TEST_CONTEXT(own.full() << large.full()) {
     BOOST_TEST((own.verdict() == verdict::nothing_gained));
     BOOST_TEST(own.rival == "mclachlan2");
@@ -320,18 +319,19 @@ BOOST_AUTO_TEST_CASE(rivals_of_any_cost_are_compared_at_the_times_that_both_have
                                  {.loss = loss_named("state:1")});
   const Eigen::VectorXd theta = two_stages.starts.front().theta;
   detail::held_out_by_times held_out(problem);
-  const auto rival_of = [&](const tabulated& method) {
+  const auto rival_of = [&](const method& method) {
     return detail::rival_of(problem, held_out, method, theta);
   };
-  const tabulated& method = method_named("forest_ruth");
+  const nysalt::method& method = method_named("forest_ruth");
   const auto rival = rival_of(method);
   BOOST_REQUIRE(rival.has_value());
   BOOST_TEST(rival->name == "forest_ruth");
   BOOST_TEST(std::abs(rival->step - 1.5 * step) < 1e-15);
-  const tabulated member("member", two_stages.letters, two_stages.coefficients(theta), {2, false, false});
+  const nysalt::method member("member", two_stages.letters, two_stages.coefficients(theta),
+                              {2, false, false});
   const metric measure(model(galaxy), sets.data, coordinates::qp);
   // Of the two windows of three steps that seven steps have.
-  const auto by_hand = [&](const tabulated& stepped, double h, int steps) {
+  const auto by_hand = [&](const nysalt::method& stepped, double h, int steps) {
     std::vector<double> result;
     for (std::size_t m = 0; m < 6; ++m) {
       double sum = 0.0;

@@ -18,7 +18,7 @@ namespace {
 const after_steps_options five_steps{.steps = {5}};
 
 const henon_heiles galaxy;
-const run_time_family two_stages{nystrom()};
+const family two_stages{nystrom()};
 const auto starts = around_rest<2>(0.1, 0.2);
 const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
 
@@ -49,7 +49,7 @@ void check_bits(const after_steps_options& options, std::size_t windows) {
   const auto expected = blocks(at);
   auto in_threads = options;
   in_threads.threads = 2;
-  const after_steps<> loss(run_time_family(F()), galaxy, data, state_error(measure), in_threads);
+  const after_steps<> loss(family(F()), galaxy, data, state_error(measure), in_threads);
   BOOST_TEST_CONTEXT(F::name << " over " << options.steps.back() << " steps") {
     BOOST_TEST(blocks.windows() == windows);
     BOOST_TEST(same(loss.at(at), expected));
@@ -66,16 +66,16 @@ void check_bits(const after_steps_options& options, std::size_t windows) {
   }
 }
 
-const run_time_family symmetric = two_stages_in(placement::symmetric);
-const run_time_family at_end = two_stages_in(placement::end);
-const run_time_family in_middle = two_stages_in(placement::middle);
+const family symmetric = two_stages_in(placement::symmetric);
+const family at_end = two_stages_in(placement::end);
+const family in_middle = two_stages_in(placement::middle);
 
 constexpr double h = 0.4;
 const parameters_of<nystrom> maker{0.45, 0.38};
 const parameters_of<nystrom> far{0.55, 0.42};
 const in_bath<henon_heiles> warm(henon_heiles(), bath::of_sigma(0.7, 0.1));
 
-flow_map_data made(const run_time_family& family, int parts) {
+flow_map_data made(const family& family, int parts) {
   return made_by_steps(warm, starts, member(family, {maker.begin(), maker.end()}),
                        {.step = h, .trajectories = 20, .parts = parts});
 }
@@ -95,14 +95,14 @@ flow_map_data in_parts(flow_map_data data, int parts) {
   return data;
 }
 
-double loss_of(const run_time_family& family, const flow_map_data& data, const parameters_of<nystrom>& theta,
+double loss_of(const family& family, const flow_map_data& data, const parameters_of<nystrom>& theta,
                int steps = 1) {
   const metric measure(warm, data, coordinates::qp);
   const after_steps<> loss(family, warm, data, state_error(measure), {.steps = {steps}});
   return loss.value(column_of(theta));
 }
 
-void check_noise(const run_time_family& family, int parts, int steps) {
+void check_noise(const family& family, int parts, int steps) {
   const auto data = made(family, parts);
   // Who made the data has no loss but that of rounding; increments are .03 or more.
   const double rounding = 30.0 * steps * eps / 0.03;
@@ -279,7 +279,7 @@ BOOST_AUTO_TEST_CASE(more_parts_than_the_letters_need_are_put_together) {
 }
 
 BOOST_AUTO_TEST_CASE(data_without_the_noise_that_is_needed_are_refused) {
-  const auto refused = [](const flow_map_data& data, const run_time_family& family, said w) {
+  const auto refused = [](const flow_map_data& data, const family& family, said w) {
     return refuses([&] { loss_of(family, data, maker); }, w);
   };
   auto without = made(symmetric, 2);

@@ -19,7 +19,7 @@ namespace {
 
 template <class F>
 objective loss_of(const F& family, const model& system, double step) {
-  return loss_named("gaussian_acceptance").kind->without_data(system, run_time_family(family), step);
+  return loss_named("gaussian_acceptance").kind->without_data(system, nysalt::family(family), step);
 }
 
 std::vector<std::vector<int>> times(const char* loss, int shortest) {
@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(the_loss_is_the_expected_energy_error) {
     const auto c = method.coefficients();
     return Eigen::VectorXd(Eigen::Vector2d(c[0], c[1]));
   };
-  const double expected = gaussian_energy_error(tabulated(bcss3{}), frequencies, 0.4);
+  const double expected = gaussian_energy_error(nysalt::method(bcss3{}), frequencies, 0.4);
   // Sums of five terms, each right to some hundred roundings over z^2, the least 1.2.
   BOOST_TEST(loss(theta_of(bcss3{})).value == expected, tolerance(1e-12));
   BOOST_TEST(std::abs(loss(theta_of(predescu3{})).value / expected - 1.0) > 1e-2);
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(bands_count_where_there_are_no_modes) {
     for (int k = 0; k < 16; ++k) frequencies.push_back(low + (high - low) * (k + 0.5) / 16.0);
   }
   const double mean =
-      gaussian_energy_error(tabulated(bcss3{}), frequencies, 0.5) / static_cast<double>(frequencies.size());
+      gaussian_energy_error(method(bcss3{}), frequencies, 0.5) / static_cast<double>(frequencies.size());
   const auto c = bcss3().coefficients();
   const auto loss = loss_of(bab<3>{}, pendulum(), 0.5);
   BOOST_TEST(loss(Eigen::Vector2d(c[0], c[1])).value == mean, tolerance(1e-10));
@@ -117,13 +117,14 @@ BOOST_AUTO_TEST_CASE(what_is_learned_takes_larger_steps_than_all_formulas) {
         std::exp(0.02 * std::numbers::sqrt2 * boost::math::erf_inv((k + 0.5) / 20.0 - 1.0)));
   }
   const double acceptance = acceptance_at(energy_error_at(0.9) * 40.0 / dimensions);
-  const auto step_of = [&](const tabulated& method, double from = 0.0) {
+  const auto step_of = [&](const method& method, double from = 0.0) {
     return nysalt::gaussian_step(method, frequencies, acceptance, from) /
            method.letters().evaluations_per_step;
   };
   double best = 0.0;
-  for (const auto& rival : {tabulated(verlet{}), tabulated(mclachlan2v{}), tabulated(bcss3{}),
-                            tabulated(predescu3{}), tabulated(bcss4{}), tabulated(omelyan5v{})}) {
+  for (const auto& rival :
+       {nysalt::method(verlet{}), nysalt::method(mclachlan2v{}), nysalt::method(bcss3{}),
+        nysalt::method(predescu3{}), nysalt::method(bcss4{}), nysalt::method(omelyan5v{})}) {
     best = std::max(best, step_of(rival));
   }
   const Eigen::VectorXd squares = Eigen::Map<const Eigen::VectorXd>(frequencies.data(), 40).cwiseAbs2();
@@ -131,7 +132,7 @@ BOOST_AUTO_TEST_CASE(what_is_learned_takes_larger_steps_than_all_formulas) {
   const double step = 4.0 * 1.25 * best;
   const data_sets sets(target, gibbs_of_modes<Eigen::Dynamic>(target, 1.0), exact_linear(target),
                        {.step = step, .horizon = 2.0 * step, .trajectories = 8});
-  const run_time_family family{bab<4>{}};
+  const nysalt::family family{bab<4>{}};
   const auto [theta, fit, method] = sets.learned(family, target, {.loss = loss_named("gaussian_acceptance")});
   BOOST_TEST(fit.usable, fit.reason);
   BOOST_TEST(fit.loss_name == "gaussian_acceptance");

@@ -22,27 +22,27 @@ namespace {
 
 constexpr damped_oscillator oscillator{3.0, 1.5, 0.8};
 
-const std::vector<tabulated> bathed_methods = langevin_methods();
-const tabulated& baoab_as_data = bathed_methods.front();
-tabulated word_of_letters(const char* letters, const std::vector<double>& c) {
+const std::vector<method> bathed_methods = langevin_methods();
+const method& baoab_as_data = bathed_methods.front();
+method word_of_letters(const char* letters, const std::vector<double>& c) {
   return {letters, nysalt::word(letters), c, {1, false, false}};
 }
 
 template <System S>
-Eigen::VectorXd residuals_of(const S& system, const tabulated& method, double step) {
+Eigen::VectorXd residuals_of(const S& system, const method& method, double step) {
   const auto r = stationary_covariance(system, method.letters(), step).residuals(method.coefficients());
   return Eigen::Map<const Eigen::VectorXd>(r.data(), std::ssize(r));
 }
 
 /// The same from the matrices of the tests.
-Eigen::Vector3d expected_residuals(const damped_oscillator& x, const tabulated& method, double step) {
+Eigen::Vector3d expected_residuals(const damped_oscillator& x, const method& method, double step) {
   const square<2> law = stationary(word_step(x, spell(method), step));
   const double kT = x.sigma * x.sigma / (2.0 * x.gamma);
   return {law(0, 0) * x.omega * x.omega / kT - 1.0, std::numbers::sqrt2 * law(0, 1) * x.omega / kT,
           law(1, 1) / kT - 1.0};
 }
 /// Of either: some hundred roundings of numbers below 10, over the denominator of the Lyapunov equation.
-double rounding_of(const damped_oscillator& x, const tabulated& method, double step) {
+double rounding_of(const damped_oscillator& x, const method& method, double step) {
   const square<2> M = word_step(x, spell(method), step).map;
   const double d = M.determinant();
   return 2000.0 * eps / ((1.0 - d) * (1.0 + d - M.trace()) * (1.0 + d + M.trace()));
@@ -78,7 +78,7 @@ double closed_form(double z) {
 /// Of nystrom on the chain with omega = 50, three stiff modes and three of frequency zero.
 objective law_of(placement where, double gamma, double z) {
   const in_bath chain(fpu_chain<3>(50.0), bath::of_temperature(gamma, 0.125));
-  const run_time_family family = thermostatted(run_time_family(nystrom()), where);
+  const nysalt::family family = thermostatted(family(nystrom()), where);
   return objective_of(stationary_covariance(chain, family.letters, z / 50.0), family);
 }
 
@@ -110,7 +110,7 @@ square<2> sheared_turn(double angle, double shear) {
 
 // Also in other units and at another temperature, and where friction does not matter, of palindromes.
 BOOST_AUTO_TEST_CASE(residuals_are_those_of_the_lyapunov_equation) {
-  for (const tabulated& method : bathed_methods) {
+  for (const method& method : bathed_methods) {
     for (const double step : {0.05, 0.2, 0.4, 0.6}) {
       for (const damped_oscillator& x :
            {damped_oscillator{3.0, 0.01, 0.8}, oscillator, damped_oscillator{3.0, 40.0, 0.8},
@@ -142,13 +142,13 @@ BOOST_AUTO_TEST_CASE(gradient_kicks_and_rotations_are_letters_as_others) {
   const in_bath chain(linear_chain(Eigen::Vector2d(36.0, 8.0).asDiagonal()), bath::of_sigma(1.5, 0.8));
   const auto impulses = word_of_letters("OSRSO", {0.5, 0.5, 1.0, 0.5, 0.5});
   const auto split = word_of_letters("RSORSO", {0.5, 0.5, 0.7, 0.5, 0.5, 0.3});
-  for (const tabulated& method : {impulses, split}) {
+  for (const method& method : {impulses, split}) {
     BOOST_TEST(residuals_of(chain, method, 0.2).norm() <= 100.0 * eps);  // of rotations, to rounding
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_frequency_counts_as_often_as_there_are_modes_and_zero_not_at_all) {
-  const tabulated method = two_stages(placement::symmetric);
+  const nysalt::method method = two_stages(placement::symmetric);
   const bath heat_bath = bath::of_temperature(1.0, 0.125);
   const auto alone = residuals_of(in_bath(harmonic_oscillator(50.0), heat_bath), method, 0.03);
   const auto chain = residuals_of(in_bath(fpu_chain<3>(50.0), heat_bath), method, 0.03);
@@ -174,7 +174,7 @@ BOOST_AUTO_TEST_CASE(a_frequency_counts_as_often_as_there_are_modes_and_zero_not
 BOOST_AUTO_TEST_CASE(the_gradient_is_the_slope_of_the_loss) {
   const Eigen::Vector2d stiffness(36.0, 8.0);
   const in_bath springs(linear_chain(stiffness.asDiagonal()), bath::of_sigma(1.5, 0.8));
-  for (const tabulated& method : bathed_methods) {
+  for (const method& method : bathed_methods) {
     const stationary_covariance loss(springs, method.letters(), 0.2);
     const auto c = method.coefficients();
     const auto here = loss.at(c, by_each(c));

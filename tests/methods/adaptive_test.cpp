@@ -26,7 +26,7 @@ struct comparison {
 /// The step's matrix in (q, z p) against the rotation by z. Each of its letters adds two roundings of a
 /// product that is at most the product of the letters' norms; solving for the coefficients can leave as much
 /// again, and is doubled for the rounding of theta itself.
-comparison against_rotation(const tabulated& method, double z) {
+comparison against_rotation(const method& method, double z) {
   const word& word = method.letters();
   const auto c = method.coefficients();
   const auto m = matrix_on_oscillator(word, c, z * z);
@@ -45,8 +45,8 @@ comparison against_rotation(const tabulated& method, double z) {
 
 /// A fitted method at any z, the classical one that it began with, and how far their parameters are apart.
 struct fitted_example {
-  std::function<tabulated(double)> at;
-  tabulated classical;
+  std::function<method(double)> at;
+  method classical;
   std::function<double(double)> moved;
 };
 std::vector<fitted_example> all_fitted() {
@@ -71,7 +71,7 @@ struct stages {
   const char* letters;
   double (*rho)(double coefficient, double x);  // the closed form
   std::vector<double> (*coefficients)(double coefficient);
-  tabulated (*at)(double z);
+  method (*at)(double z);
   std::pair<double, double> drawn, searched;  // ranges of the coefficient
   double highest_x;                           // stable up to there for all that are drawn
   double (*meeting)(double coefficient);      // the x where the step is -1, next to which it tells nothing
@@ -91,7 +91,7 @@ std::vector<double> as_list(const std::array<double, N>& c) {
 const stages two{"ABABA",
                  detail::energy_error_of_two_stages,
                  [](double a) { return as_list(palindrome<5>({a})); },
-                 [](double z) { return tabulated(s_aia2(z)); },
+                 [](double z) { return method(s_aia2(z)); },
                  {0.15, 0.35},
                  {0.0, 0.5},
                  5.5,  // below 2/(1/2 - a) and 2/a
@@ -102,7 +102,7 @@ const stages three{"BABABAB",
                    [](double b) {
                      return as_list(palindrome<7>({b, (1.0 - 2.0 * b) / (4.0 - 12.0 * b)}));
                    },
-                   [](double z) { return tabulated(s_aia3(z)); },
+                   [](double z) { return method(s_aia3(z)); },
                    {0.105, 0.165},
                    {0.1, 1.0 / 6.0},
                    19.0,  // 20.6 for the least b
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(a_phase_fitted_method_is_the_nearest_member) {
     const auto n = static_cast<Eigen::Index>(theta.size());
     const Eigen::VectorXd here = Eigen::Map<const Eigen::VectorXd>(theta.data(), n);
     const Eigen::VectorXd moved = here - Eigen::Map<const Eigen::VectorXd>(from.data(), n);
-    const run_time_family data(family);
+    const nysalt::family data(family);
     const Eigen::MatrixXd normals = detail::jacobian_of_defect(data, here, z * z).transpose();
     const double beside = (normals * least_squares(normals, moved, 1e-9) - moved).norm();
     BOOST_TEST((beside <= 1e-8 * moved.norm()) == nearest);
@@ -318,7 +318,7 @@ BOOST_AUTO_TEST_CASE(impossible_z_are_refused_with_a_sentence) {
           {"phase_fitted_mclachlan2", "must be symmetric"});
   refused([] { phase_fitted(fg4(), chin4a(), 1.0); }, {"of the word BAGAB", "got fg4"});
   refused([] { phase_fitted(aba<2>(), mclachlan2(), 1.0); }, {"two parameters or more"});
-  const tabulated low("low", bab<4>::letters, vefrl().coefficients(), {2, true, false});
+  const method low("low", bab<4>::letters, vefrl().coefficients(), {2, true, false});
   refused([&] { phase_fitted(bab<4>(), low, 1.0); }, {"a method of order 4 or more", "of order 2"});
   refused([] { phase_fitted(r_aba<4>(), pefrl(), 1.0); }, {"without rotations"});
 }

@@ -23,7 +23,7 @@ namespace {
 std::vector<specimen> differentiable_specimens() { return specimens_with(has_exact_derivatives); }
 
 /// Sum of the first coefficients of letters of these kinds.
-double sum_of(const tabulated& method, const std::string& kinds) {
+double sum_of(const nysalt::method& method, const std::string& kinds) {
   const auto& word = method.letters();
   const auto c = method.coefficients();
   double sum = 0.0;
@@ -53,25 +53,25 @@ double order_on(const std::string& system, const table& method, int declared = 0
   return declared < 6 ? measured_order(problem(system, false), method, 8)
                       : measured_order(problem(system, true), method, 64);
 }
-double order_on(const std::string& system, const tabulated& method) {
+double order_on(const std::string& system, const method& method) {
   return order_on(system, method, method.order);
 }
 
 const std::string split_pendulum = "pendulum() with";
 const std::string galaxy = "henon_heiles";
 
-tabulated row(std::string_view name) {
+method row(std::string_view name) {
   return as_data(*std::ranges::find(classical_table, name, &classical_row::name));
 }
 
 /// The order of those that are fitted to a frequency is that of steps for each of which they are fitted: see
 /// adaptive_test.cpp.
-bool changes_with_step(const tabulated& method) { return method.name().starts_with("phase_fitted_"); }
+bool changes_with_step(const method& method) { return method.name().starts_with("phase_fitted_"); }
 
 constexpr double h = 0.3;
 
-void must_be_row(const tabulated& method) {
-  const tabulated data = row(method.name());
+void must_be_row(const nysalt::method& method) {
+  const nysalt::method data = row(method.name());
   BOOST_TEST((method.letters() == data.letters() && method.coefficients() == data.coefficients()));
   BOOST_TEST(method.order == data.order);
   BOOST_TEST(method.symmetric == data.symmetric);
@@ -86,11 +86,11 @@ std::vector<specimen> bound_specimens() {
   });
 }
 
-std::vector<tabulated> quiet_methods() {
+std::vector<method> quiet_methods() {
   draws random;
   return methods_as_data(random);
 }
-std::vector<tabulated> noisy_methods() {
+std::vector<method> noisy_methods() {
   draws random;
   return methods_for_baths(random);
 }
@@ -109,7 +109,7 @@ phase_point<double, N> finish(const auto& fixed, const phase_point<double, N>& x
 
 BOOST_AUTO_TEST_CASE(steps_are_symplectic) {
   try_all_methods(differentiable_specimens(), 2,
-                  [](const model& system, const tabulated& method, double step, const any_state& x) {
+                  [](const model& system, const method& method, double step, const any_state& x) {
                     if (method.letters().is_symplectic) {
                       BOOST_TEST(symplecticity_broken(system, method, step, x) <= 1.0);
                     } else {
@@ -128,8 +128,8 @@ BOOST_AUTO_TEST_CASE(explicit_euler_is_not_and_a_displaced_kick_is_not) {
     }
   }
   const auto& galaxy = specimen_of("henon_heiles");
-  const tabulated displaced("displaced", nysalt::word("BADAB"), {0.2, 0.5, 0.6, 0.05, 0.5, 0.2},
-                            {2, true, true});
+  const method displaced("displaced", nysalt::word("BADAB"), {0.2, 0.5, 0.6, 0.05, 0.5, 0.2},
+                         {2, true, true});
   const auto x = galaxy.at_random(random);
   BOOST_TEST(!displaced.letters().is_symplectic);
   BOOST_TEST(symplecticity_broken(galaxy.system, displaced, 0.2, x) > 1e3);
@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(explicit_euler_is_not_and_a_displaced_kick_is_not) {
 BOOST_AUTO_TEST_CASE(in_a_bath_steps_are_conformally_symplectic) {
   draws random;
   try_all(specimens_in_baths(), methods_for_baths(random),
-          [](const model& system, const tabulated& method, double step, const any_state& x) {
+          [](const model& system, const method& method, double step, const any_state& x) {
             if (!has_exact_derivatives(system)) return;
             BOOST_TEST(symplecticity_broken(system, method, step, x) <= 1.0);
             const model other = system.in(bath::of_sigma(system.bath().friction() + 1e-3, 0.1));
@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(in_a_bath_steps_are_conformally_symplectic) {
 
 BOOST_AUTO_TEST_CASE(reversible_where_declared_symmetric_and_else_not) {
   try_all_methods(differentiable_specimens(), 2,
-                  [](const model& system, const tabulated& method, double step, const any_state& x) {
+                  [](const model& system, const method& method, double step, const any_state& x) {
                     const double broken = reversibility_broken(system, method, step, x);
                     if (method.symmetric) {
                       BOOST_TEST(broken <= 1.0);
@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(names_are_unique_and_palindromes_are_symmetric) {
   for (const auto& row : classical_table) {
     BOOST_TEST(names.insert(row.name).second, row.name);
     BOOST_TEST(!row.source.empty(), row.name);
-    const tabulated method = as_data(row);
+    const nysalt::method method = as_data(row);
     BOOST_TEST(is_palindrome(method.letters(), method.coefficients()) == row.symmetric, row.name);
   }
 }
@@ -262,14 +262,14 @@ BOOST_AUTO_TEST_CASE(a_repeated_method_is_its_steps_one_after_the_other) {
                  method.name() << " " << times);
     }
   }
-  BOOST_TEST(refuses([] { repeated(tabulated(baoab{}), 2); }, {"BAOAB"}));
+  BOOST_TEST(refuses([] { repeated(nysalt::method(baoab{}), 2); }, {"BAOAB"}));
   BOOST_TEST(refuses([] { repeated(nysalt::classical_methods().front(), 0); }, {"0 steps"}));
 }
 
 BOOST_AUTO_TEST_CASE(tables_that_cannot_be_are_refused) {
   const method_properties nothing{1, false, false};
   const auto made = [&](const std::string& letters, const std::vector<double>& c) {
-    return [=] { tabulated("mine", nysalt::word(letters), c, nothing); };
+    return [=] { method("mine", nysalt::word(letters), c, nothing); };
   };
   BOOST_TEST(refuses(made("ABA", {0.5, 1.0}), {"2 coefficients for the 3 letters ABA"}));
   BOOST_TEST(refuses(made("AGA", {0.5, 1.0, 0.5}), {"3 coefficients", "G and H take two"}));
@@ -281,14 +281,14 @@ BOOST_AUTO_TEST_CASE(tables_that_cannot_be_are_refused) {
   BOOST_CHECK_NO_THROW(make_stepper(fast, srkn6b(), 0.1));
   std::string letters;
   for (int n = 0; n < 65; ++n) letters += "BA";
-  const tabulated too_long("long", nysalt::word(letters), std::vector<double>(130, 1.0 / 65.0), nothing);
+  const method too_long("long", nysalt::word(letters), std::vector<double>(130, 1.0 / 65.0), nothing);
   BOOST_TEST(refuses([&] { stability_windows(too_long); }, {"<= 64"}));
 }
 
 BOOST_AUTO_TEST_CASE(merged_is_unmerged_to_rounding) {
   const auto exact = specimens_with(has_exact_derivatives);
   try_all(exact, quiet_methods(),
-          [](const model& system, const tabulated& method, double step, const any_state& x) {
+          [](const model& system, const method& method, double step, const any_state& x) {
             BOOST_TEST((run_of{system, method, step}.merging_broken(x, 10)) <= 1.0);
           });
 }
@@ -296,7 +296,7 @@ BOOST_AUTO_TEST_CASE(merged_is_unmerged_to_rounding) {
 BOOST_AUTO_TEST_CASE(merged_is_unmerged_with_noise_too) {
   for (const any_noise& noise : std::vector<any_noise>{fresh_noise(7), noise_of_a_path(7)}) {
     try_all(specimens_in_baths(), noisy_methods(),
-            [&](const model& system, const tabulated& method, double step, const any_state& x) {
+            [&](const model& system, const method& method, double step, const any_state& x) {
               const run_of run{system, method, step, noise};
               if (has_exact_derivatives(system)) BOOST_TEST(run.merging_broken(x, 20) <= 1.0);
               const auto merged = run.finish(x, 20);
@@ -322,12 +322,12 @@ BOOST_AUTO_TEST_CASE(observed_and_cut_runs_have_the_bits_of_one_go) {
     BOOST_TEST(!same_bits(run.finish(x, steps + 1), whole));
   };
   try_all(bound_specimens(), quiet_methods(),
-          [&](const model& system, const tabulated& method, double step, const any_state& x) {
+          [&](const model& system, const method& method, double step, const any_state& x) {
             check({system, method, step}, x, 200);
           });
   for (const any_noise& noise : std::vector<any_noise>{fresh_noise(7), noise_of_a_path(7)}) {
     try_all(specimens_in_baths(), noisy_methods(),
-            [&](const model& system, const tabulated& method, double step, const any_state& x) {
+            [&](const model& system, const nysalt::method& method, double step, const any_state& x) {
               check({system, method, step, noise}, x, 100);
               if (system.bath().sigma() == 0.0) return;  // another trajectory, another seed: other noise
               const auto whole = run_of{system, method, step, noise}.finish(x, 100);
@@ -356,7 +356,7 @@ BOOST_AUTO_TEST_CASE(each_lane_has_the_bits_of_one_trajectory) {
 // without noise and with.
 BOOST_AUTO_TEST_CASE(a_system_by_its_type_steps_as_its_model) {
   draws random;
-  const auto check = [&](const auto& system, const tabulated& method, const auto& noise) {
+  const auto check = [&](const auto& system, const method& method, const auto& noise) {
     const model erased(system);
     const auto x = random.state(system, 0.5);
     const any_state same{x.q, x.p};
@@ -377,7 +377,7 @@ BOOST_AUTO_TEST_CASE(a_system_by_its_type_steps_as_its_model) {
       // Another table takes other steps: the comparison can tell.
       auto changed = method.coefficients();
       changed.front() += 1e-9;
-      const tabulated another("another", method.letters(), changed, method);
+      const nysalt::method another("another", method.letters(), changed, method);
       BOOST_TEST(!same_bits(finish(make_stepper(system, another, 0.05, noise), x, 200), whole));
     }
   };
@@ -402,8 +402,8 @@ BOOST_AUTO_TEST_CASE(in_a_quiet_bath_a_step_is_that_of_the_word_without_letters_
     const auto& one = specimen_of(name);
     for (const auto& method : noisy_methods()) {
       const nysalt::word& word = method.letters();
-      const tabulated expected("expected", conservative_part(word),
-                               conservative_part(word, method.coefficients()), method);
+      const nysalt::method expected("expected", conservative_part(word),
+                                    conservative_part(word, method.coefficients()), method);
       const auto x = one.at_random(random);
       const auto alike = [&](const model& system) {
         const run_of found{system, method, 0.02};
@@ -424,7 +424,7 @@ BOOST_AUTO_TEST_CASE(in_a_quiet_bath_a_step_is_that_of_the_word_without_letters_
 
 BOOST_AUTO_TEST_CASE(evaluations_are_those_declared) {
   draws random;
-  const auto check = [&](const auto& system, const std::vector<tabulated>& methods, const auto& noise) {
+  const auto check = [&](const auto& system, const std::vector<method>& methods, const auto& noise) {
     const auto x = random.state(system, 0.5);
     const counted watched(system);
     for (const auto& method : methods) {

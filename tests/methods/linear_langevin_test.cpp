@@ -15,9 +15,9 @@
 #include "../support/statistics.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/families/composition.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/noises/recorded_path.hpp"
-#include "nysalt/run_time_family.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -26,7 +26,7 @@ namespace {
 
 using enum placement;
 
-bool same(const tabulated& one, const tabulated& other) {
+bool same(const method& one, const method& other) {
   return one.letters().letters() == other.letters().letters() && one.coefficients() == other.coefficients() &&
          one.order == other.order && one.symmetric == other.symmetric &&
          one.requires_quadratic_kinetic == other.requires_quadratic_kinetic;
@@ -49,7 +49,7 @@ square<2> closed_map(const damped_oscillator& x, double t) {
 double difference(const auto& a, const auto& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
 /// Error of the map over a time 2 in that many steps of the merged loop, without noise.
-double error_in(std::int64_t steps, const tabulated& method) {
+double error_in(std::int64_t steps, const method& method) {
   const damped_oscillator x{2.0, 0.7, 0.0};
   const auto system = bathed_system(x);
   const auto stepper = make_stepper(system, method, 2.0 / static_cast<double>(steps));
@@ -62,7 +62,7 @@ double error_in(std::int64_t steps, const tabulated& method) {
   map << finish(1.0, 0.0), finish(0.0, 1.0);
   return (map - x.exact(2.0).map).norm();
 }
-double measured_order(const tabulated& method) {
+double measured_order(const method& method) {
   return std::log2(error_in(512, method) / error_in(1024, method));
 }
 
@@ -71,7 +71,7 @@ struct law_kept {
   double q, p, both;
 };
 /// At z = h omega and gamma = g omega.
-law_kept kept_by(const tabulated& method, double z, double g) {
+law_kept kept_by(const method& method, double z, double g) {
   const double omega = 3.0;
   const damped_oscillator x{omega, g * omega, 0.7};
   const double kT = x.invariant()(1, 1);
@@ -80,8 +80,8 @@ law_kept kept_by(const tabulated& method, double z, double g) {
 }
 
 std::vector<spelled> two_stages_at(placement where, double b1, double beta1) {
-  static const std::vector<run_time_family> families = [] {
-    std::vector<run_time_family> all;
+  static const std::vector<family> families = [] {
+    std::vector<family> all;
     for (const auto each : placements) all.push_back(two_stages_in(each));
     return all;
   }();
@@ -217,7 +217,7 @@ struct measured {
   Eigen::Array2d mean, standard_error;
 };
 /// With noise_of(path), the noise that a method takes for that of the path.
-measured errors(const tabulated& method, std::int64_t steps, const auto& noise_of) {
+measured errors(const method& method, std::int64_t steps, const auto& noise_of) {
   const auto system = bathed_system(oscillator);
   Eigen::Array2d sum(0.0, 0.0);
   Eigen::Array2d squares(0.0, 0.0);
@@ -237,14 +237,14 @@ measured errors(const tabulated& method, std::int64_t steps, const auto& noise_o
   return {mean, ((squares / n - mean * mean) / n).sqrt()};
 }
 
-measured errors_on_the_path(const tabulated& method, std::int64_t steps) {
+measured errors_on_the_path(const method& method, std::int64_t steps) {
   return errors(method, steps, [&](const auto& path) {
     return along_path<T, 1>(path, intervals_of_noise(method.letters(), method.coefficients()),
                             horizon / static_cast<double>(steps));
   });
 }
 
-Eigen::Array2d expected_errors(const tabulated& method, std::int64_t steps) {
+Eigen::Array2d expected_errors(const method& method, std::int64_t steps) {
   const auto step = step_with_error(oscillator, spell(method), horizon / static_cast<double>(steps));
   const Eigen::Vector2d x = coordinates_of(start);
   return error_after(step, x * x.transpose(), static_cast<int>(steps)).diagonal();
@@ -273,7 +273,7 @@ double off(const measured& is, const Eigen::Array2d& expected) {
 
 BOOST_AUTO_TEST_CASE(a_method_is_thermostatted) {
   const auto check = [](placement where, const char* letters, int order) {
-    const tabulated method = thermostat(pefrl(), where);
+    const nysalt::method method = thermostat(pefrl(), where);
     BOOST_TEST(method.letters().letters() == letters);
     BOOST_TEST(method.name() == "pefrl");
     BOOST_TEST(method.order == order);
@@ -286,21 +286,21 @@ BOOST_AUTO_TEST_CASE(a_method_is_thermostatted) {
   BOOST_TEST(same(thermostat(verlet(), symmetric), obabo()));
   BOOST_TEST(same(thermostat(verlet_aba(), middle), aboba()));
   BOOST_TEST(!same(thermostat(verlet(), end), baoab()));
-  const tabulated euler("euler", nysalt::word("BA"), {1.0, 1.0}, {1, false, false});
+  const nysalt::method euler("euler", nysalt::word("BA"), {1.0, 1.0}, {1, false, false});
   BOOST_TEST(thermostat(euler, symmetric).order == 1);
   BOOST_TEST(!thermostat(euler, symmetric).symmetric);
   BOOST_TEST(refuses([&] { thermostat(euler, middle); }, {"central letter"}));
   BOOST_TEST(refuses([] { thermostat(baoab(), end); }, {"must have no letters O"}));
-  const tabulated learned("nystrom", word("ABABA"), member(nystrom(), {0.5, 0.41}).coefficients(),
-                          {2, false, false}, method_validity{0.02, "pendulum()"});
+  const nysalt::method learned("nystrom", word("ABABA"), member(nystrom(), {0.5, 0.41}).coefficients(),
+                               {2, false, false}, method_validity{0.02, "pendulum()"});
   BOOST_TEST(refuses([&] { thermostat(learned, end); }, {"nystrom", "anywhere()"}));
   BOOST_CHECK_NO_THROW(thermostat(learned.anywhere(), end));
 }
 
 BOOST_AUTO_TEST_CASE(a_thermostatted_family_is_the_family_with_the_bath_between) {
-  const run_time_family plain{nystrom()};
+  const family plain{nystrom()};
   for (const placement where : placements) {
-    const run_time_family family = two_stages_in(where);
+    const nysalt::family family = two_stages_in(where);
     BOOST_TEST(family.parameter_names == plain.parameter_names, per_element());
     BOOST_TEST((family.starts.front().theta == plain.starts.front().theta));
     for (std::size_t k = 0; k < 2; ++k) {
@@ -313,7 +313,7 @@ BOOST_AUTO_TEST_CASE(a_thermostatted_family_is_the_family_with_the_bath_between)
     BOOST_TEST(!family.symmetric);             // nor is every nystrom
     BOOST_TEST(refuses([&] { member(family, {1.5, 0.4}); }, {"nystrom", "b1"}));
   }
-  const run_time_family two{aba<2>()};
+  const nysalt::family two{aba<2>()};
   BOOST_TEST(thermostatted(two, middle).order == 2);
   BOOST_TEST(thermostatted(two, middle).symmetric);
   BOOST_TEST(!thermostatted(two, end).symmetric);
@@ -346,7 +346,7 @@ BOOST_AUTO_TEST_CASE(the_solution_has_closed_form) {
 
 BOOST_AUTO_TEST_CASE(a_step_is_the_word_spelled_out) {
   draws random;
-  for (const tabulated& method : langevin_methods()) {
+  for (const method& method : langevin_methods()) {
     for (int n = 0; n < 10; ++n) {
       const damped_oscillator x{random.uniform(0.5, 3.0), random.uniform(0.0, 5.0), random.uniform(0.1, 2.0)};
       const double h = random.uniform(0.05, 1.0);
@@ -367,7 +367,7 @@ BOOST_AUTO_TEST_CASE(a_step_is_the_word_spelled_out) {
 // The slope over the last halving is off by a term of the next order, some h = 2/1024 of it. A family
 // declares what all its members have; that at b1 = 1/2 is symmetric, and has order 2 in the middle too.
 BOOST_AUTO_TEST_CASE(without_noise_a_method_has_its_order) {
-  for (const tabulated& method : langevin_methods()) {
+  for (const method& method : langevin_methods()) {
     const int order = method.letters().letters() == "ABAOABA" ? 2 : method.order;
     BOOST_TEST(std::abs(measured_order(method) - order) <= 0.02, method.name());
   }
@@ -384,7 +384,7 @@ BOOST_AUTO_TEST_CASE(the_middle_of_a_word_that_is_not_symmetric) {
 // (omega q)^2 n + p^2 x, which makes S, and so every word of S and O, keep a normal law. BAOAB and ABOBA are
 // such words seen from elsewhere; for them q has the exact law, for OBABO p has.
 BOOST_AUTO_TEST_CASE(the_law_that_is_kept) {
-  const auto check = [](const tabulated& method, double z, double g, double of_q, double of_p) {
+  const auto check = [](const method& method, double z, double g, double of_q, double of_p) {
     const law_kept is = kept_by(method, z, g);
     // Rounding of a step, some 10 eps, over what it forgets: g z, or z/g of a strongly damped position; it
     // grows towards the edge of stability.
@@ -576,7 +576,7 @@ BOOST_AUTO_TEST_CASE(the_noise_of_the_placements) {
 // of first order.
 BOOST_AUTO_TEST_CASE(the_strong_order_is_one) {
   constexpr double each = false_alarms / (8 * 12);  // eight methods, q and p at five levels and over them
-  for (const tabulated& method : langevin_methods()) {
+  for (const method& method : langevin_methods()) {
     BOOST_TEST_CONTEXT(method.name()) {
       std::vector<Eigen::Array2d> known;
       std::vector<Eigen::Array2d> found;
@@ -599,7 +599,7 @@ BOOST_AUTO_TEST_CASE(on_another_path_nothing_converges) {
   std::vector<Eigen::Array2d> on_another;
   for (const std::int64_t n : levels) {
     on_another.push_back(
-        errors(tabulated(baoab()), n, [](const auto&) { return counter_noise(seed(20260721)); }).mean);
+        errors(method(baoab()), n, [](const auto&) { return counter_noise(seed(20260721)); }).mean);
   }
   BOOST_TEST(order(on_another).abs().maxCoeff() <=
              standard_errors(false_alarms / 2) * 0.023 / std::sqrt(10.0));

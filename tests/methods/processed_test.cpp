@@ -3,19 +3,19 @@
 #include "../laws/laws.hpp"
 #include "../support/refusal.hpp"
 #include "nysalt/analysis/cost_against_error.hpp"
-#include "nysalt/core/lockstep.hpp"
 #include "nysalt/derivatives/taylor_order.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/gradient_composition.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
+#include "nysalt/stepping/lockstep.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
 
 namespace {
 
-tabulated random_member(const run_time_family& family, draws& random) {
+method random_member(const family& family, draws& random) {
   Eigen::VectorXd theta = family.starts.front().theta;
   for (Eigen::Index k = theta.size() - std::ssize(family.letters.processor()) + 2; k < theta.size(); ++k) {
     theta[k] = random.uniform(-0.3, 0.3);
@@ -27,10 +27,10 @@ tabulated random_member(const run_time_family& family, draws& random) {
 }
 
 /// Members of families with processors, and the classical ones.
-std::vector<tabulated> processed_methods(draws& random) {
-  std::vector<tabulated> all{random_member(processed(run_time_family(fg4()), 3), random),
-                             random_member(processed(run_time_family(bab<4>()), 2), random),
-                             random_member(processed(run_time_family(fg_chin()), 5), random)};
+std::vector<method> processed_methods(draws& random) {
+  std::vector<method> all{random_member(processed(family(fg4()), 3), random),
+                          random_member(processed(family(bab<4>()), 2), random),
+                          random_member(processed(family(fg_chin()), 5), random)};
   for (const auto& row : processed_table) all.push_back(as_data(row));
   return all;
 }
@@ -44,7 +44,7 @@ void try_processed(const trial& f) {
 /// Steps of a part of a word.
 any_state after_part(const run_of& whole, const nysalt::word& letters, const std::vector<double>& all,
                      const any_state& x, std::int64_t steps = 1) {
-  const tabulated part("part", letters, all, whole.method);
+  const method part("part", letters, all, whole.method);
   const run_of run{whole.system, part, whole.step};
   return steps == 1 ? run.plain(x, 1) : run.finish(x, steps);
 }
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(the_letters_of_kernel_and_processor) {
 }
 
 BOOST_AUTO_TEST_CASE(steps_are_symplectic) {
-  try_processed([](const model& system, const tabulated& method, double step, const any_state& x) {
+  try_processed([](const model& system, const method& method, double step, const any_state& x) {
     BOOST_TEST(symplecticity_broken(system, method, step, x) <= 1.0);
   });
 }
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(steps_are_symplectic) {
 // n steps forth, momenta turned, n steps forth, and momenta turned: the start. Rounding is that of 200 steps
 // of some 20 letters at a quarter of a radian, magnified by less than 100: 1e-12 of the state.
 BOOST_AUTO_TEST_CASE(there_and_back_returns_to_rounding) {
-  try_processed([](const model& system, const tabulated& method, double step, const any_state& x) {
+  try_processed([](const model& system, const method& method, double step, const any_state& x) {
     const auto turned = [](any_state y) {
       y.p = -y.p;
       return y;
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(the_same_processor_before_and_after_is_not_reversible) {
 }
 
 BOOST_AUTO_TEST_CASE(a_run_is_its_parts_however_it_is_cut_and_observed) {
-  try_processed([](const model& system, const tabulated& method, double step, const any_state& x) {
+  try_processed([](const model& system, const method& method, double step, const any_state& x) {
     const nysalt::word& word = method.letters();
     const auto c = method.coefficients();
     const run_of run{system, method, step};
@@ -200,7 +200,7 @@ BOOST_AUTO_TEST_CASE(processors_reach_their_order) {
 }
 
 BOOST_AUTO_TEST_CASE(families_with_a_processor) {
-  const auto family = processed(run_time_family(fg4()), 3);
+  const auto family = processed(nysalt::family(fg4()), 3);
   BOOST_TEST(family.name == "fg4+p3");
   BOOST_TEST(family.letters.letters() == "ABAGABA|BABABA");
   BOOST_TEST(family.parameters() == 3 + 4);
@@ -234,11 +234,11 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_processed_is_refused) {
                                       {"RSR|BA", "do not mix"}}) {
     none([&, letters = letters] { nysalt::word{letters}; }, what);
   }
-  const run_time_family family{fg4()};
+  const nysalt::family family{fg4()};
   const auto with_three = processed(family, 3);
   none([&] { processed(family, 1); }, "from 2 to 8 pairs");
   none([&] { processed(family, 9); }, "from 2 to 8 pairs");
-  none([&] { processed(run_time_family(bab6_free()), 3); }, "must be symmetric");
+  none([&] { processed(nysalt::family(bab6_free()), 3); }, "must be symmetric");
   none([&] { processed(with_three, 3); }, "in turn");
   draws random;
   const auto method = processed_methods(random).front();

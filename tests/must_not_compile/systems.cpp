@@ -2,22 +2,22 @@
 // Systems that offer too little, or not in the required form, losses of one's own, systems declared for the
 // program, and sentences. The comments are explained in check.py.
 #include "common.hpp"
-#include "nysalt/core/lockstep.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/derivatives/properties.hpp"
 #include "nysalt/ensembles/given_states.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/flows/exact_flow.hpp"
+#include "nysalt/flows/sum_of_parts.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/plugin.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/references/fine_steps.hpp"
-#include "nysalt/run_time_family.hpp"
+#include "nysalt/stepping/lockstep.hpp"
 #include "nysalt/systems/lennard_jones.hpp"
-#include "nysalt/systems/sum_of_parts.hpp"
 #include "nysalt/systems/textbook.hpp"
 
 // expect: nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a
@@ -319,7 +319,7 @@ inline void everything(const nysalt::pendulum& system, const either<nysalt::pend
                        const either<nysalt::listed<1>, nothing>& starts,
                        const either<nysalt::reference, nothing>& accurate) {
   nysalt::make_stepper(any_system, nysalt::verlet(), 0.1);
-  const nysalt::run_time_family erased(family);
+  const nysalt::family erased(family);
   nysalt::make_stepper(system, nysalt::verlet(), 0.1, noise);
   nysalt::sound_start(system, starts, 1, 0);
   nysalt::reference{accurate};

@@ -248,7 +248,7 @@ mutant(62, "noise of a letter O on a model has no mass", HEADERS + "flows/ornste
        ("flow.deviation * system.root_mass(i)", "flow.deviation * (MUTANT ? 1.0 : system.root_mass(i))"))
 mutant(63, "the temperature of a bath is sigma^2/gamma", HEADERS + "bath.hpp", "core flows ensembles",
        ("sigma * sigma / (2.0 * friction)", "sigma * sigma / ((MUTANT ? 1.0 : 2.0) * friction)"))
-mutant(64, "one half of a merged letter O is taken twice", HEADERS + "core/merged_half_steps.hpp",
+mutant(64, "one half of a merged letter O is taken twice", HEADERS + "stepping/merged_half_steps.hpp",
        "core methods",
        ("both_.decay = begin.decay * end.decay;",
         "both_.decay = begin.decay * end.decay * (MUTANT ? begin.decay : C(1.0));"))
@@ -263,9 +263,9 @@ mutant(66, "the force of a run that is taken up again is lost", HEADERS + "ensem
         "          ++next_number;\n"
         "        }"))
 mutant(67, "before an observation the force is not kept that the first letter is taken back with",
-       HEADERS + "core/take_steps.hpp", "methods core",
+       HEADERS + "stepping/take_steps.hpp", "methods core",
        ("n < steps ? letters.loop : letters.last", "MUTANT || n < steps ? letters.loop : letters.last"))
-mutant(68, "the last trajectory of a block that is not full is lost", HEADERS + "core/lockstep.hpp",
+mutant(68, "the last trajectory of a block that is not full is lost", HEADERS + "stepping/lockstep.hpp",
        "invariance core data",
        ("    for (int k = 0; k < count; ++k) {\n      if (!lane(live, k)) continue;",
         "    for (int k = 0; k < count - (MUTANT && 1 < count && count < lanes_in<T> ? 1 : 0); ++k) {\n"

@@ -79,8 +79,8 @@ const state start{{0.1, 0.05}, {-0.05, 0.1}};
 const auto symmetric = thermostat(mclachlan2(), placement::symmetric);
 const auto end = thermostat(mclachlan2(), placement::end);
 const auto middle = thermostat(mclachlan2(), placement::middle);
-const tabulated thirds("thirds", word("OABOBAO"),
-                       std::vector<double>{1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0}, {});
+const method thirds("thirds", word("OABOBAO"),
+                    std::vector<double>{1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0, 0.5, 0.5, 1.0 / 3.0}, {});
 
 template <class T = double>
 recorded_path<T, 2> path_of(std::uint64_t trajectory, std::int64_t intervals) {
@@ -93,17 +93,17 @@ recorded_path<T, 2> path_of(std::uint64_t trajectory, std::int64_t intervals) {
   return path;
 }
 template <class T>
-along_path<T, 2> noise_of(const recorded_path<T, 2>& path, const tabulated& method, double h = step) {
+along_path<T, 2> noise_of(const recorded_path<T, 2>& path, const method& method, double h = step) {
   return {path, intervals_of_noise(method.letters(), method.coefficients()), h};
 }
 template <class T>
-auto stepper_of(const recorded_path<T, 2>& path, const tabulated& method, double h = step) {
+auto stepper_of(const recorded_path<T, 2>& path, const method& method, double h = step) {
   return make_stepper(galaxy, method, h, noise_of(path, method, h));
 }
 
 /// A number of steps letter by letter, with the noise of letters O taken from the path: the momentum uses one
 /// interval of the path after the other.
-state by_hand(const recorded_path<double, 2>& path, const tabulated& method, int steps, state x) {
+state by_hand(const recorded_path<double, 2>& path, const method& method, int steps, state x) {
   const auto c = method.coefficients();
   const std::string_view letters = method.letters().view();
   std::int64_t interval = 0;
@@ -124,7 +124,7 @@ state by_hand(const recorded_path<double, 2>& path, const tabulated& method, int
   return x;
 }
 
-void check_by_hand(const tabulated& method) {
+void check_by_hand(const method& method) {
   const auto path = path_of(3, 60);
   const auto along = stepper_of(path, method);
   auto run = along.open(start, 3);

@@ -20,11 +20,11 @@ namespace {
 using wrong = std::invalid_argument;
 using state = phase_point<double, Eigen::Dynamic>;
 /// That begin with either letter, merge or not, and keep their last force or not.
-const std::vector<tabulated> words{tabulated(verlet()), tabulated(verlet_aba()), euler("AB"), euler("BA")};
+const std::vector<method> words{method(verlet()), method(verlet_aba()), euler("AB"), euler("BA")};
 constexpr double h = 0.01;
 
 /// Whether a run of the model, watched every that many steps, shows the states of a plain loop.
-bool moves_as_in_a_loop(const auto& system, const tabulated& method, std::int64_t steps, std::int64_t every,
+bool moves_as_in_a_loop(const auto& system, const method& method, std::int64_t steps, std::int64_t every,
                         int threads) {
   draws random;
   const state start = random.state(system, 0.5);
@@ -54,7 +54,7 @@ struct shared_end {
 };
 
 /// Steps of all ranks together, with a stop in between where the run is saved.
-shared_end on_ranks(const model& system, Eigen::Index components, const tabulated& method, const state& start,
+shared_end on_ranks(const model& system, Eigen::Index components, const method& method, const state& start,
                     int before, int after) {
   state open = start;
   std::int64_t step = 0;
@@ -164,10 +164,10 @@ springs_as_told sites_of(Eigen::Index points, const told_sites& as) { return {po
 BOOST_AUTO_TEST_CASE(a_reach_that_is_too_short_has_other_bits) {
   // Under AddressSanitizer the system would be found to read beyond a tile, and beyond its memory.
   if (!under_address_sanitizer) {
-    BOOST_TEST(!moves_as_in_a_loop(sites_of(3000, {.far = 2}), tabulated(verlet()), 100, 100, 1));
+    BOOST_TEST(!moves_as_in_a_loop(sites_of(3000, {.far = 2}), method(verlet()), 100, 100, 1));
   }
-  BOOST_TEST(moves_as_in_a_loop(sites_of(3000, {}), tabulated(verlet()), 100, 100, 1));
-  BOOST_TEST(moves_as_in_a_loop(sites_of(3000, {.far = 0, .alone = true}), tabulated(verlet()), 100, 100, 1));
+  BOOST_TEST(moves_as_in_a_loop(sites_of(3000, {}), method(verlet()), 100, 100, 1));
+  BOOST_TEST(moves_as_in_a_loop(sites_of(3000, {.far = 0, .alone = true}), method(verlet()), 100, 100, 1));
 }
 
 BOOST_AUTO_TEST_CASE(threads_take_systems_that_are_worth_them) {
@@ -210,7 +210,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_shared_is_refused) {
   const state rest{Eigen::VectorXd::Zero(4000), Eigen::VectorXd::Zero(4000)};
   state bad = rest;
   bad.q[3999] = std::numeric_limits<double>::infinity();
-  const auto refused = [](const model& system, const tabulated& method, const state& start, int ranks,
+  const auto refused = [](const model& system, const method& method, const state& start, int ranks,
                           bool is_foreseen, std::initializer_list<std::string_view> said) {
     int thrown = 0;
     std::mutex guard;  // Boost.Test takes one thread at a time
@@ -230,15 +230,16 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_shared_is_refused) {
     });
     return thrown == ranks;
   };
-  const tabulated by_verlet{verlet()};
+  const nysalt::method by_verlet{verlet()};
   BOOST_TEST(refused(chain, by_verlet, rest, 3, true, {"at least 1 sites a rank", "3 ranks"}));
   BOOST_TEST(refused(henon_heiles(), by_verlet, rest, 2, true, {"LocalSystem", "henon"}));
-  BOOST_TEST(refused(chain, tabulated(takahashi_imada()), rest, 2, true, {"drifts A and kicks B in turn"}));
+  BOOST_TEST(
+      refused(chain, nysalt::method(takahashi_imada()), rest, 2, true, {"drifts A and kicks B in turn"}));
   const in_bath warm(fpu_chain<>(2000, 50.0), bath::of_sigma(0.1, 0.05));
   BOOST_TEST(refused(warm, by_verlet, rest, 2, true, {"bath"}));
   BOOST_TEST(refused(chain, by_verlet, bad, 2, false, {"start must be finite"}));
   run_ranks(3, [](const communicator& among) {
-    if (!detail::can_be_distributed(fpu_chain<>(4000, 50.0), tabulated(verlet()), among))
+    if (!detail::can_be_distributed(fpu_chain<>(4000, 50.0), nysalt::method(verlet()), among))
       throw std::logic_error("enough sites are refused");
   });
   distributed_run alone(chain, by_verlet, h, from(rest, 2));

@@ -94,7 +94,7 @@ const normal_around<Eigen::Dynamic> around_rest({zero, zero}, 1.0, 1.0);
 // their own; so does each block of a run.
 BOOST_AUTO_TEST_CASE(a_black_box_with_memory_is_used_by_one_thread_at_a_time) {
   const model system{black_box_with_memory()};
-  const tabulated method{verlet{}};
+  const nysalt::method method{verlet{}};
   phase_points starts;
   for (std::uint64_t n = 0; n < 64; ++n) starts.push_back(around_rest(1, n));
   const judgement found = judge(system, starts, method, 0.1, {.steps = 700, .threads = 4});

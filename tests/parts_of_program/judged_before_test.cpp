@@ -62,7 +62,7 @@ trajectories_plan run_of(std::int64_t count, std::int64_t steps, int threads = 1
 
 std::int64_t evaluations(const judgement& found) { return found.trajectories * found.steps; }
 
-const tabulated method(verlet{});
+const method method(verlet{});
 
 }  // namespace
 

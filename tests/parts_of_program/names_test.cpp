@@ -18,24 +18,24 @@ std::vector<std::string> all_names() {
 
 std::vector<double> as_vector(const Eigen::VectorXd& theta) { return {theta.begin(), theta.end()}; }
 
-tabulated method_named(const std::string& name) {
+method method_named(const std::string& name) {
   for (const auto& known : program::classical_methods()) {
     if (known.method.name() == name) return known.method;
   }
   throw std::invalid_argument(name);
 }
 
-tabulated table_of(const std::string& letters, std::vector<double> coefficients) {
+method table_of(const std::string& letters, std::vector<double> coefficients) {
   return {"mine", word(letters), std::move(coefficients), {2, true, false}};
 }
 
 /// kA...k with three times in each k, as a table.
-tabulated of_three_parts(const std::string& letters, std::vector<double> coefficients) {
+method of_three_parts(const std::string& letters, std::vector<double> coefficients) {
   constexpr word kicks = word_of<kick_of_parts<0, 1, 2>, drift>();
   return {"mine", kicks.with_letters(letters), std::move(coefficients), {2, true, false}};
 }
 
-std::string known(const tabulated& method, const std::vector<tabulated>& among) {
+std::string known(const method& method, const std::vector<nysalt::method>& among) {
   return known_as(method, among).value_or("nothing");
 }
 
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(what_differs_is_not_known) {
 BOOST_AUTO_TEST_CASE(every_classical_method_is_known_by_its_name) {
   for (const auto& one : program::classical_methods()) {
     BOOST_TEST(known(one.method, {one.method}) == one.method.name());
-    std::vector<tabulated> others;
+    std::vector<method> others;
     for (const auto& other : program::classical_methods()) {
       if (other.method.name() != one.method.name()) others.push_back(other.method);
     }
@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(every_classical_method_is_known_by_its_name) {
 }
 
 BOOST_AUTO_TEST_CASE(equal_steps_are_counted) {
-  const std::vector<tabulated> verlets{method_named("verlet"), method_named("verlet_aba")};
+  const std::vector<method> verlets{method_named("verlet"), method_named("verlet_aba")};
   BOOST_TEST(known(method_named("verlet_2x"), verlets) == "verlet, 2 steps in one");
   BOOST_TEST(known(table_of("ABABABA", {1 / 6., 1 / 3., 1 / 3., 1 / 3., 1 / 3., 1 / 3., 1 / 6.}), verlets) ==
              "verlet_aba, 3 steps in one");
@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(equal_steps_are_counted) {
              "nothing");
   BOOST_TEST(known(method_named("baoab_2x"), {method_named("baoab")}) == "baoab, 2 steps in one");
   // A gradient part goes with h^3: an eighth for half a step.
-  const tabulated ti = method_named("takahashi_imada");
+  const method ti = method_named("takahashi_imada");
   const double c = ti.coefficients()[2];
   const auto twice = [&](double part) { return table_of("AGAGA", {0.25, 0.5, part, 0.5, 0.5, part, 0.25}); };
   BOOST_TEST(known(twice(c / 8.0), {ti}) == "takahashi_imada, 2 steps in one");
@@ -148,7 +148,7 @@ BOOST_AUTO_TEST_CASE(equal_steps_are_counted) {
 
 // However it is written.
 BOOST_AUTO_TEST_CASE(letters_that_do_nothing_and_letters_cut_in_two_change_nothing) {
-  const std::vector<tabulated> verlet{method_named("verlet")};
+  const std::vector<method> verlet{method_named("verlet")};
   BOOST_TEST(known(table_of("BAB", {0.5, 1.0, 0.5}), verlet) == "verlet");
   BOOST_TEST(known(table_of("ABAB", {0.0, 0.5, 1.0, 0.5}), verlet) == "verlet");
   BOOST_TEST(known(table_of("BAAB", {0.5, 0.25, 0.75, 0.5}), verlet) == "verlet");

@@ -8,8 +8,8 @@
 #include "../../src/comparison/prepared_problem.hpp"
 #include "../../src/comparison/refusal.hpp"
 #include "../support/systems.hpp"
-#include "nysalt/core/ensemble_loop.hpp"
 #include "nysalt/flows/exact_flow.hpp"
+#include "nysalt/parallel/ensemble_loop.hpp"
 #include "nysalt/plugin.hpp"
 
 using namespace nysalt;

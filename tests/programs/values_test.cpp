@@ -48,7 +48,7 @@ const fpu_law<3> law(chain);
 constexpr std::uint64_t seed = 5;  // the user's
 
 /// What the library says of a method on the chain at the step 0.02, for the row that the program printed.
-void must_be(const json& row, const tabulated& method, const error_measure& measure) {
+void must_be(const json& row, const method& method, const error_measure& measure) {
   const trajectory_options options{
       .step = .02, .steps = 25, .trajectories = 20, .seed = seed_for(role::test, seed), .horizon = .5};
   const auto expected = trajectory_errors(chain, fine_steps(.02 / 20), law, method, measure, options);
@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(run_tells_where_the_library_sees_divergence) {
 }
 
 BOOST_AUTO_TEST_CASE(stability_gives_the_windows_of_the_library) {
-  const auto must_have = [](const std::string& arguments, const tabulated& method) {
+  const auto must_have = [](const std::string& arguments, const method& method) {
     const auto all = document("stability " + arguments);
     json expected = json::array();
     for (const auto& [low, high] : stability_windows(method)) expected.push_back({low, high});
@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(acceptances_are_those_of_the_library) {
         std::string("--seed 5 --horizon 2") + (temperature == 1.0 ? "" : " --hmc-temperature 0.2"));
     const auto& theta = all["fits"][0]["parameters"];
     const auto is_of = [&](const auto& row, const auto& method) {
-      const auto expected = acceptance(chain, tabulated(method), law, options, temperature);
+      const auto expected = acceptance(chain, nysalt::method(method), law, options, temperature);
       BOOST_TEST(row["acceptance"] == expected.probability.mean);
       BOOST_TEST(row["standard_error"] == expected.probability.standard_error);
       BOOST_TEST(row["evaluations_per_time"] == expected.evaluations_per_time);

@@ -195,7 +195,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_followed_is_refused) {
     return refuses<wrong>([&] { follow(fine_paths(step), t, 1, parts); }, words);
   };
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const tabulated& method : {tabulated(obabo()), tabulated(verlet())}) {
+  for (const method& method : {nysalt::method(obabo()), nysalt::method(verlet())}) {
     BOOST_TEST(refuses([&] { fine_paths(0.1, method); }, {"one letter O", method.name()}));
   }
   BOOST_TEST(refused(0.0, 0.1, 0, {"positive and finite", "got 0"}));

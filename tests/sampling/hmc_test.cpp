@@ -26,7 +26,7 @@ vector<double, 1> number(double x) { return vector<double, 1>(x); }
 normal_around<1> around_zero(double deviation) { return {{number(0.0), number(0.0)}, deviation, 1.0}; }
 const normal_around<1> at_zero = around_zero(1.0);
 
-const tabulated by_verlet{verlet{}};
+const method by_verlet{verlet{}};
 const auto ignored = [](const hmc_draw&) {};
 
 hmc_options changed(hmc_options options, auto member, auto value) {
@@ -120,7 +120,7 @@ course run_from(hmc_options options, const hmc_state* from = nullptr) {
   all.draws.resize(static_cast<std::size_t>(options.chains * options.draws));
   options.from = from;
   options.keep = [&](const hmc_state& state) { all.kept.push_back(state); };
-  all.result = hmc(wells, tabulated(bcss3{}), around_wells, options, [&](const hmc_draw& draw) {
+  all.result = hmc(wells, method(bcss3{}), around_wells, options, [&](const hmc_draw& draw) {
     all.draws[static_cast<std::size_t>(draw.chain * options.draws + draw.number)] = draw.q[0];
   });
   return all;
@@ -362,7 +362,7 @@ BOOST_AUTO_TEST_CASE(diagonal_masses_are_found_and_the_law_stays) {
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_sampled_is_refused) {
   const hmc_options sound{.step = 0.1, .length = 1.0, .chains = 2, .burn_in = 100, .draws = 2};
-  const auto refused = [](const char* words, const hmc_options& options, const tabulated& method = by_verlet,
+  const auto refused = [](const char* words, const hmc_options& options, const method& method = by_verlet,
                           const initial_states& starts = at_zero) {
     return refuses([&] { hmc(harmonic_oscillator(1.0), method, starts, options, ignored); }, {words});
   };
@@ -371,7 +371,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_sampled_is_refused) {
   BOOST_TEST(refused("draws must be at least 1", changed(sound, &hmc_options::draws, 0)));
   BOOST_TEST(refused("acceptance must be between", changed(sound, &hmc_options::acceptance, 1.5)));
   BOOST_TEST(refused("ask for an acceptance", changed(sound, &hmc_options::diagonal_masses, true)));
-  const tabulated one_way("one way", word("AB"), {1.0, 1.0}, {1, false, false});
+  const nysalt::method one_way("one way", word("AB"), {1.0, 1.0}, {1, false, false});
   BOOST_TEST(refused("must be reversible", sound, one_way));
   // Beyond the first block of lanes, whose width depends on the machine.
   std::vector<phase_point<double, 1>> starts(40, {number(1.0), number(0.0)});

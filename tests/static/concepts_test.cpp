@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "../laws/models.hpp"
-#include "nysalt/core/requirements.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/ensembles/given_states.hpp"
+#include "nysalt/flows/sum_of_parts.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/reference.hpp"
 #include "nysalt/references/odeint.hpp"
 #include "nysalt/scalars/series.hpp"
-#include "nysalt/systems/sum_of_parts.hpp"
+#include "nysalt/systems/requirements.hpp"
 
 using namespace nysalt;
 using namespace nysalt::test;
@@ -97,7 +97,7 @@ struct not_differentiable : nystrom {
 };
 static_assert(!Family<not_differentiable> && !Family<without_start>);
 static_assert(!Family<verlet> && !Family<kick>);
-static_assert(!std::is_convertible_v<nystrom, tabulated> && !std::is_convertible_v<kick, tabulated>);
+static_assert(!std::is_convertible_v<nystrom, method> && !std::is_convertible_v<kick, method>);
 
 // Ensembles and references.
 struct unsaid {  // an ensemble without a description

@@ -4,13 +4,13 @@
 // that they do their work.
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/core.hpp"
-#include "nysalt/core/requirements.hpp"
 #include "nysalt/ensemble.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/reference.hpp"
-#include "nysalt/run_time_family.hpp"
+#include "nysalt/systems/requirements.hpp"
 
 namespace {
 
@@ -195,10 +195,8 @@ static_assert(nysalt::Family<equal_kicks>);
 // [/family]
 
 // [method]
-const nysalt::tabulated symplectic_euler("symplectic_euler", nysalt::word("BA"), {1.0, 1.0},
-                                         {.order = 1,
-                                          .symmetric = false,
-                                          .requires_quadratic_kinetic = false});
+const nysalt::method symplectic_euler("symplectic_euler", nysalt::word("BA"), {1.0, 1.0},
+                                      {.order = 1, .symmetric = false, .requires_quadratic_kinetic = false});
 // [/method]
 
 // [reference]
@@ -366,7 +364,7 @@ BOOST_AUTO_TEST_CASE(families_and_methods_of_ones_own_are_symplectic) {
   const auto x = at(0.7, 0.3);
   // Seven roundings of entries below 2.
   BOOST_TEST(nysalt::symplecticity_defect(system, symplectic_euler, 0.1, x) <= 64 * eps);
-  const nysalt::tabulated some = nysalt::member(equal_kicks(), {0.2});
+  const nysalt::method some = nysalt::member(equal_kicks(), {0.2});
   BOOST_TEST(nysalt::symplecticity_defect(system, some, 0.1, x) <= 64 * eps);
   auto euler = at(1.0, 0.0);
   nysalt::make_stepper(system, symplectic_euler, 0.5).step(euler);

@@ -15,11 +15,11 @@
 #include "dense.hpp"
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/reference.hpp"
-#include "nysalt/run_time_family.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "nysalt/systems/textbook.hpp"
 
@@ -200,10 +200,10 @@ inline square<2> error_after(const gaussian_step<4>& step, const square<2>& star
 }
 
 /// Two stages in a bath, at a member that is near the optimum and not quite Verlet.
-inline tabulated two_stages(placement where) { return thermostat(member(nystrom(), {0.5, 0.41}), where); }
+inline method two_stages(placement where) { return thermostat(member(nystrom(), {0.5, 0.41}), where); }
 
 /// Verlet in a symmetric placement is obabo, and with O in the middle baoab.
-inline std::vector<tabulated> langevin_methods() {
+inline std::vector<method> langevin_methods() {
   return {baoab(),
           obabo(),
           aboba(),
@@ -219,7 +219,7 @@ using bathed_oscillator = in_bath<harmonic_oscillator>;
 inline bathed_oscillator bathed_system(const damped_oscillator& x) {
   return {harmonic_oscillator(x.omega), bath::of_sigma(x.gamma, x.sigma)};
 }
-inline std::vector<spelled> spell(const tabulated& method) {
+inline std::vector<spelled> spell(const method& method) {
   return spell(method.letters().view(), method.coefficients());
 }
 
@@ -239,7 +239,7 @@ struct one_at {
 };
 
 /// A step of the library's as it is: what it makes of unit states and of unit numbers, as it is linear.
-inline gaussian_step<2> library_step(const damped_oscillator& x, const tabulated& method, double h) {
+inline gaussian_step<2> library_step(const damped_oscillator& x, const method& method, double h) {
   const auto system = bathed_system(x);
   gaussian_step<2> result;
   const auto stepped = [&](phase_point<double, 1> state, int flow) {

@@ -30,7 +30,7 @@ struct data_sets {
 
   /// What learn() makes of them.
   template <SeparableSystem S, class... Own>
-  fit learned(const run_time_family& family, const S& system, const fit_options& options = {},
+  fit learned(const nysalt::family& family, const S& system, const fit_options& options = {},
               const own_loss<Own>&... own) const {
     return learn(family, system, data, held_out, options, own...);
   }

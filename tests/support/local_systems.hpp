@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/local_system.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
-#include "nysalt/run_time_family.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/phi4.hpp"
 
@@ -86,12 +86,12 @@ struct deaf_to_the_left : phi4_chain<> {
 };
 
 /// Symplectic Euler, of order 1: its two letters do not merge.
-inline tabulated euler(const std::string& letters) {
-  return tabulated("symplectic Euler " + letters, word(letters), {1.0, 1.0}, {1, false, false});
+inline method euler(const std::string& letters) {
+  return method("symplectic Euler " + letters, word(letters), {1.0, 1.0}, {1, false, false});
 }
 
 /// Drifts and kicks in turn, which begin with either, merge or not, and keep their last force or not.
-inline std::vector<tabulated> words_in_turn() {
+inline std::vector<method> words_in_turn() {
   return {
       verlet(), verlet_aba(), euler("AB"), euler("BA"), srkn6b(), srkn11b(), member(nystrom(), {0.5, 0.4})};
 }

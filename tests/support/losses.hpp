@@ -70,7 +70,7 @@ struct steps_options {
 
 /// Noise `parts` times a step, and with it a plain step of the method from each state to the next.
 template <class S, Ensemble<S> E>
-flow_map_data made_by_steps(const S& system, const E& ensemble, const tabulated& method,
+flow_map_data made_by_steps(const S& system, const E& ensemble, const method& method,
                             const steps_options& options) {
   using numbers = vector<double, S::dimension>;
   flow_map_data data;

@@ -3,25 +3,23 @@
 #pragma once
 
 #include "nysalt/families/nystrom.hpp"
-#include "nysalt/run_time_family.hpp"
+#include "nysalt/family.hpp"
 
 namespace nysalt::test {
 
 /// The member of a family at theta.
 template <Family F>
-tabulated member_at(const F& family, const parameters_of<F>& theta) {
+method member_at(const F& family, const parameters_of<F>& theta) {
   return member(family, {theta.begin(), theta.end()});
 }
 
 /// The member of a family at its start.
 template <Family F>
-tabulated start_of() {
+method start_of() {
   return member_at(F(), F::start());
 }
 
 /// Two stages [li_lu_tao_ye_2023] in a bath.
-inline run_time_family two_stages_in(placement where) {
-  return thermostatted(run_time_family(nystrom()), where);
-}
+inline family two_stages_in(placement where) { return thermostatted(family(nystrom()), where); }
 
 }  // namespace nysalt::test

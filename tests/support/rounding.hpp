@@ -74,7 +74,7 @@ struct shears {
 /// How much the letters of one step can magnify a perturbation: the product of 1 + |c h| |shear| over
 /// them, with shears twice as large as at the start, since the state moves. A rotation is a shear of both
 /// kinds at most. Those of the bath do not magnify.
-inline double transient_growth(const tabulated& method, double step, const shears& at) {
+inline double transient_growth(const method& method, double step, const shears& at) {
   double product = 1.0;
   const word& letters = method.letters();
   const auto& c = method.coefficients();
@@ -123,7 +123,7 @@ inline double roundings(std::string_view letters, Eigen::Index n) {
   }
   return sum;
 }
-inline double roundings(const tabulated& method, Eigen::Index n) {
+inline double roundings(const method& method, Eigen::Index n) {
   const word& letters = method.letters();
   return roundings(letters.view(), n) +
          roundings(letters.processor(), n);  // a processor acts before and after

@@ -3,8 +3,8 @@
 // own kick is that of its force, and is used where the force is not needed again.
 #include "../laws/models.hpp"
 #include "../support/local_systems.hpp"
-#include "nysalt/core/kernels.hpp"
 #include "nysalt/derivatives/check_force.hpp"
+#include "nysalt/kernels/kernels.hpp"
 #include "nysalt/systems/gaussian.hpp"
 #include "nysalt/systems/lennard_jones.hpp"
 
@@ -243,7 +243,7 @@ void check_kick(const S& system) {
 }
 
 /// What a kick of its own could change: a run, stopped and continued, and a plain step.
-bool runs_alike(const model& system, const model& other, const tabulated& method, double step,
+bool runs_alike(const model& system, const model& other, const method& method, double step,
                 const any_state& x) {
   const run_of one{system, method, step};
   const run_of another{other, method, step};
@@ -359,7 +359,7 @@ BOOST_AUTO_TEST_CASE(a_wrong_kick_is_found) {
   const wrong_kick system;
   const auto x = random.state(system, 1.0);
   BOOST_TEST(!kick_is_force(system, x, 0.3));
-  BOOST_TEST(!runs_alike(system, without_kick(system), tabulated(verlet()), 0.1, {x.q, x.p}));
+  BOOST_TEST(!runs_alike(system, without_kick(system), method(verlet()), 0.1, {x.q, x.p}));
 }
 
 BOOST_AUTO_TEST_CASE(runs_do_not_depend_on_a_kick_of_ones_own) {
@@ -367,7 +367,7 @@ BOOST_AUTO_TEST_CASE(runs_do_not_depend_on_a_kick_of_ones_own) {
   const model other{without_kick(chain)};
   draws random;
   try_all({specimen_of(describe(chain))}, methods_as_data(random),
-          [&](const model& system, const tabulated& method, double, const any_state& x) {
+          [&](const model& system, const method& method, double, const any_state& x) {
             BOOST_TEST(runs_alike(system, other, method, 0.01, x));
           });
 }

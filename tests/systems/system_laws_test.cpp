@@ -188,7 +188,7 @@ BOOST_AUTO_TEST_CASE(velocity_is_the_gradient_of_the_kinetic_energy) {
 
 BOOST_AUTO_TEST_CASE(references_conserve_energy) {
   draws random;
-  const tabulated srkn{srkn11b()};
+  const method srkn{srkn11b()};
   for (const auto& one : specimens_with([](const model& s) { return has_energy(s); })) {
     const auto x = one.at_random(random);
     BOOST_TEST_CONTEXT(describe(one.system)) {
@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(references_conserve_energy) {
       BOOST_TEST(energy_defect(one.system, x, fine, static_cast<std::int64_t>(11.0 * steps) + 1, rounding) <=
                  1.0);
       const auto coarse =
-          run_of{one.system, tabulated(verlet()), 100.0 / steps}.finish(x, 4);  // an honest failure
+          run_of{one.system, method(verlet()), 100.0 / steps}.finish(x, 4);  // an honest failure
       BOOST_TEST(energy_defect(one.system, x, coarse, 5, rounding) > 1e3);
     }
   }

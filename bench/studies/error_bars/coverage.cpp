@@ -28,13 +28,13 @@ std::vector<asked_metric> metrics_of(const prepared_problem& system) {
   return result;
 }
 
-tabulated method_of(const std::string& name) {
+method method_of(const std::string& name) {
   const auto& all = classical_methods();
   return std::ranges::find(all, name, [](const auto& entry) { return entry.method.name(); })->method;
 }
 
 /// Errors of one method at one step by all metrics, over trajectories of a seed.
-std::vector<method_error> errors(const prepared_problem& system, const tabulated& method, double step,
+std::vector<method_error> errors(const prepared_problem& system, const method& method, double step,
                                  double horizon, std::int64_t count, std::uint64_t seed, int threads) {
   const errors_plan plan{.trajectories = {step, steps_beyond("horizon", horizon, step), count,
                                           seed_for(role::test, seed), threads, horizon},

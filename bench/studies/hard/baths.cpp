@@ -120,7 +120,7 @@ verdict no_temperature(extent how) {
   for (const double gamma : {0.2, 1.0}) {
     const oscillator_in_bath system(harmonic_oscillator(omega), bath::of_sigma(gamma, 0.0));
     const auto exact = damped(omega, gamma, time);
-    const auto order_of = [&](const tabulated& method, std::string label) {
+    const auto order_of = [&](const method& method, std::string label) {
       curve errors{.label = fmt::format("{}, gamma = {}", label, gamma), .x = {}, .y = {}};
       const int finest = how == extent::quick ? 8 : 11;
       for (int k = 4; k <= finest; ++k) {

@@ -72,7 +72,7 @@ class energy_watch {
 
 /// Follows a trajectory by integrate(), and looks at the energy every so many steps.
 template <HasEnergy S>
-energy_story follow(const S& system, const tabulated& method, double step,
+energy_story follow(const S& system, const method& method, double step,
                     const phase_point<double, S::dimension>& start, std::int64_t steps, std::string label,
                     bool learned = false, std::int64_t every = 1) {
   energy_watch watch(energy<double>(system, start), static_cast<double>(steps) * step);
@@ -86,7 +86,7 @@ energy_story follow(const S& system, const tabulated& method, double step,
 /// The first step whose state is not finite or has |H - H_0| > 1e3 max(|H_0|, 1): what integrate() must name,
 /// looked for one step after the other.
 template <HasEnergy S>
-std::optional<std::int64_t> first_bad_step(const S& system, const tabulated& method, double step,
+std::optional<std::int64_t> first_bad_step(const S& system, const method& method, double step,
                                            const phase_point<double, S::dimension>& start,
                                            std::int64_t steps) {
   const auto stepper = make_stepper(system, method, step);
@@ -104,7 +104,7 @@ std::optional<std::int64_t> first_bad_step(const S& system, const tabulated& met
 /// A method with its step. At equal cost all steps are one number times the evaluations of a step.
 struct contender {
   std::string label;
-  tabulated method;
+  nysalt::method method;
   bool learned = false;
 
   double step(double per_evaluation) const {

@@ -18,11 +18,11 @@
 #include "../../../examples/systems/bonded_chain.hpp"
 #include "../../../src/nysalt/learning/data_of_problem.hpp"
 #include "nysalt/ensembles/given_states.hpp"
+#include "nysalt/families/multiple_time_steps.hpp"
 #include "nysalt/judgement.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "nysalt/method.hpp"
-#include "nysalt/methods/multiple_time_steps.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 namespace nysalt::hard {
@@ -88,7 +88,7 @@ constexpr std::int64_t long_steps = 100'000;
 constexpr std::int64_t long_work = 40 * judging_options{}.work;
 
 /// Judged by what a guard does not use: whether the energy error of a long run is large, or grows.
-outcome what_came_of(const model& system, const tabulated& method, double step, const phase_points& starts) {
+outcome what_came_of(const model& system, const method& method, double step, const phase_points& starts) {
   const auto found = judge(system, starts, method, step, {.steps = long_steps, .work = long_work});
   constexpr double trend = 1.4;  // a drift doubles the largest error, a random walk multiplies it by sqrt(2)
   constexpr double seen = 0.01;  // a hundredth of a temperature
@@ -154,7 +154,7 @@ struct found_on_class {
 };
 
 /// r-RESPA with `inner` fast kicks.
-tabulated r_respa_of(int inner) {
+method r_respa_of(int inner) {
   std::string letters = "k";
   std::vector<double> coefficients{0.5 / inner, 0.5};
   for (int i = 0; i < inner; ++i) {
@@ -195,7 +195,7 @@ found_on_class try_all(const std::string& name, const S& system, const Law& law,
   };
   const auto along = data_at(range.low, 1);
   const auto held_out_along = data_at(range.low, 2);
-  const auto try_one = [&](counts& into, const tabulated& method, const stability_guard& guard, double step) {
+  const auto try_one = [&](counts& into, const method& method, const stability_guard& guard, double step) {
     const std::string objection = guard.objection(method.letters(), method.coefficients(), step);
     const outcome what = what_came_of(erased, method, step, starts);
     const bool grows = what == outcome::grows;
@@ -211,7 +211,7 @@ found_on_class try_all(const std::string& name, const S& system, const Law& law,
     return count == 1 ? range.low : range.low + (range.high - range.low) * k / (count - 1);
   };
   for (const int n : inner) {
-    const tabulated respa = r_respa_of(n);
+    const nysalt::method respa = r_respa_of(n);
     const stability_guard guard = guard_of_learn(erased, along, held_out_along, respa.letters());
     for (int k = 0; k < range.of_r_respa; ++k) {
       try_one(found.of_r_respa, respa, guard, spread(k, range.of_r_respa));

@@ -27,7 +27,7 @@ const harmonic_oscillator& oscillator() {
 phase_point<double, 1> at(double q, double p) { return {vector<double, 1>(q), vector<double, 1>(p)}; }
 
 /// It reads the same from both ends: words of families do so to rounding.
-bool is_symmetric(const tabulated& method) {
+bool is_symmetric(const method& method) {
   const auto c = method.coefficients();
   const auto& letters = method.letters().letters();
   if (!std::equal(letters.begin(), letters.end(), letters.rbegin())) return false;
@@ -36,7 +36,7 @@ bool is_symmetric(const tabulated& method) {
                     [](double a, double b) { return std::abs(a - b) < 1e-14; });
 }
 
-double forth_and_back(const tabulated& method, double step, std::int64_t steps) {
+double forth_and_back(const method& method, double step, std::int64_t steps) {
   const auto start = at(1.0, 0.3);
   const auto there = integrate(oscillator(), method, step, start, steps).finish;
   const auto back = integrate(oscillator(), method, -step, there, steps).finish;

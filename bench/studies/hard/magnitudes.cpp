@@ -28,13 +28,13 @@ verdict scales(extent how) {
   verdict result;
   std::vector<std::string> not_exact;
   double worst_quanta = 0.0;
-  const auto finish_from = [&](const tabulated& method, const phase_point<double, 1>& start) {
+  const auto finish_from = [&](const method& method, const phase_point<double, 1>& start) {
     const auto stepper = make_stepper(system, method, step);
     auto run = stepper.open(start);
     stepper.advance(run, steps);
     return stepper.synchronous(run);
   };
-  const auto finish = [&](const tabulated& method, int exponent) {
+  const auto finish = [&](const nysalt::method& method, int exponent) {
     return finish_from(method, scaled(exponent));
   };
   const auto methods = classical_words();

@@ -113,7 +113,7 @@ verdict pericentre_missed(extent) {
   const double step = 0.01;
   const double rate = std::pow(1.0 - eccentricity, -1.5);
   verdict result;
-  const auto try_it = [&](const tabulated& method) {
+  const auto try_it = [&](const method& method) {
     const std::int64_t steps = 10'000;
     const auto story = follow(system, method, step, at_apocentre, steps, "");
     const auto expected = first_bad_step(system, method, step, at_apocentre, steps);

@@ -80,7 +80,7 @@ double power_of(const curve& points) {
 
 /// Falls from rest at about 1, past the kink at t = 1.4 and no further: the worst energy error of starts that
 /// meet it at all phases of a step.
-double error_of_crossing(const tabulated& method, double step) {
+double error_of_crossing(const method& method, double step) {
   const kink system;
   constexpr int phases = 64;
   double worst = 0.0;

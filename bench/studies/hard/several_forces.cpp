@@ -11,10 +11,10 @@
 #include "guard_of_parts.hpp"
 #include "hard_case.hpp"
 #include "nysalt/ensembles/given_states.hpp"
+#include "nysalt/families/multiple_time_steps.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/learn.hpp"
 #include "nysalt/learning/stability_guard.hpp"
-#include "nysalt/methods/multiple_time_steps.hpp"
 #include "nysalt/references/fine_steps.hpp"
 
 namespace nysalt::hard {
@@ -31,7 +31,7 @@ const normal_around<masses> starts({vector<double, masses>::Zero(), vector<doubl
 using learned_word = nested_kicks<0, 1, 4, 2>;
 
 /// Largest |H - H_0| of four trajectories, those that diverge being infinite.
-double largest_error(const tabulated& method, double step, double time) {
+double largest_error(const method& method, double step, double time) {
   double largest = 0.0;
   for (std::uint64_t n = 0; n < 4; ++n) {
     const auto start = starts(7, n);

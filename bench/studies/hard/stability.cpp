@@ -24,7 +24,7 @@ struct step_matrix {
   long double qq = 1.0L, qp = 0.0L, pq = 0.0L, pp = 1.0L;
   long double letters = 1.0L;  // product of the letters' sizes: how much they may magnify rounding
 
-  step_matrix(const tabulated& method, long double z) {
+  step_matrix(const nysalt::method& method, long double z) {
     const auto& word = method.letters();
     const auto c = method.coefficients();
     for (std::size_t i = 0; i < word.length; ++i) {
@@ -81,7 +81,7 @@ struct tally {
 };
 
 /// Energy over that of the start, at most, whatever integrate() would say.
-double largest_energy(const tabulated& method, double z, std::int64_t steps) {
+double largest_energy(const method& method, double z, std::int64_t steps) {
   const auto stepper = make_stepper(oscillator(), method, z);
   auto run = stepper.open(at_one());
   double largest = 1.0;
@@ -94,7 +94,7 @@ double largest_energy(const tabulated& method, double z, std::int64_t steps) {
 /// Inside: bounded by the exact swing. Each letter of n steps rounds by eps; the rest of its step magnifies
 /// that by the product of the letters at most, further steps by the root of the swing, and a square doubles
 /// it. Nor is it taken for divergence, where the swing stays below the criterion, a factor of 1001.
-void try_inside(const tabulated& method, double z, std::int64_t steps, tally& count) {
+void try_inside(const method& method, double z, std::int64_t steps, tally& count) {
   const step_matrix exact(method, z);
   const double letters = static_cast<double>(method.letters().length);
   const double rounding = 2.0 * static_cast<double>(steps) * letters * 2.2e-16 *
@@ -110,7 +110,7 @@ void try_inside(const tabulated& method, double z, std::int64_t steps, tally& co
 }
 
 /// Outside: diverged, at the step that the matrix says.
-void try_outside(const tabulated& method, double z, std::int64_t expected, std::int64_t steps, tally& count) {
+void try_outside(const method& method, double z, std::int64_t expected, std::int64_t steps, tally& count) {
   const auto named = integrate(oscillator(), method, z, at_one(), steps).diverged_at;
   ++count.outside;
   if (named) {
@@ -125,7 +125,7 @@ void try_outside(const tabulated& method, double z, std::int64_t expected, std::
 constexpr double part_outside = 1e-3;  // of the narrowest width or gap beside an end
 constexpr double part_inside = 1e-2;
 
-void try_windows(const tabulated& method, std::int64_t steps, tally& count) {
+void try_windows(const method& method, std::int64_t steps, tally& count) {
   const auto windows = stability_windows(method);
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const auto [low, high] = windows[i];
@@ -156,7 +156,7 @@ void try_windows(const tabulated& method, std::int64_t steps, tally& count) {
   }
 }
 
-verdict judge_windows(const std::vector<tabulated>& methods, extent how) {
+verdict judge_windows(const std::vector<method>& methods, extent how) {
   const std::int64_t steps = how == extent::quick ? 10'000 : 200'000;
   tally count;
   for (const auto& method : methods) try_windows(method, steps, count);
@@ -181,7 +181,7 @@ verdict judge_windows(const std::vector<tabulated>& methods, extent how) {
   return result;
 }
 
-panel ends_of_window(const tabulated& method, const stability_window& window, std::int64_t steps) {
+panel ends_of_window(const method& method, const stability_window& window, std::int64_t steps) {
   const double width = window.high - window.low;
   std::vector<curve> curves;
   const auto add = [&](double z, const char* where, bool inside) {
@@ -200,7 +200,7 @@ panel ends_of_window(const tabulated& method, const stability_window& window, st
 verdict windows_of_classical_methods(extent how) {
   verdict result = judge_windows(classical_words(), how);
   const std::int64_t steps = how == extent::quick ? 1'000 : 100'000;
-  const tabulated two_windows = nystrom_with_two_windows();
+  const method two_windows = nystrom_with_two_windows();
   const auto windows = stability_windows(two_windows);
   result.show(
       {ends_of_window(verlet{}, stability_windows(verlet{}).front(), steps),

@@ -18,8 +18,8 @@ namespace {
 using chain = fpu_chain<3>;
 
 /// Largest |I - I_0|/I_0 of the stiff energy, an adiabatic invariant.
-double exchanged(const chain& system, const tabulated& method, double step,
-                 const phase_point<double, 6>& start, double time) {
+double exchanged(const chain& system, const method& method, double step, const phase_point<double, 6>& start,
+                 double time) {
   const double initial = system.stiff_energy(start);
   double largest = 0.0;
   const auto look = [&](std::int64_t, double, const auto& x) {
@@ -30,7 +30,7 @@ double exchanged(const chain& system, const tabulated& method, double step,
 }
 
 /// How much one stiff mode is magnified at most, if soft springs add k to its stiffness.
-double largest_magnification(const tabulated& method, double theta, double h, std::int64_t steps) {
+double largest_magnification(const method& method, double theta, double h, std::int64_t steps) {
   double largest = 1.0;
   for (const double k : {1.0, 3.0, 10.0, 30.0}) {
     largest =

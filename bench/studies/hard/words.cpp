@@ -6,44 +6,44 @@
 #include "nysalt/families/composition.hpp"
 #include "nysalt/families/gradient_composition.hpp"
 #include "nysalt/families/nystrom.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/methods/s_aia.hpp"
-#include "nysalt/run_time_family.hpp"
 
 namespace nysalt::hard {
 
 namespace {
 
 template <Family F>
-tabulated at(const std::vector<double>& theta) {
+method at(const std::vector<double>& theta) {
   return member(F(), theta);
 }
 
 }  // namespace
 
-std::vector<tabulated> classical_words() {
+std::vector<method> classical_words() {
   return {verlet{}, verlet_aba{},  verlet_2x{}, mclachlan2{},       bcss2{},      s_aia2(2.0),
           bcss3{},  forest_ruth{}, pefrl{},     mclachlan_atela4{}, mclachlan5{}, blanes_moan_s6{},
           srkn6b{}, srkn11b{},     srkn14a{},   takahashi_imada{},  chin4a{}};
 }
 
-tabulated nystrom_with_two_windows() { return at<nystrom>({0.5, 0.4}); }
+method nystrom_with_two_windows() { return at<nystrom>({0.5, 0.4}); }
 
 // nysalt learn --system fpu --omega 50 --family fg4 --step 0.04 --horizon 1
-tabulated learned_fg4_for_fpu() {
+method learned_fg4_for_fpu() {
   return at<fg4>({0.08477993577793687, 0.24182139245615147, 0.006850153862931222});
 }
 // nysalt learn --system kepler --eccentricity 0.6 --family fg4 --step 0.04 --horizon 6.4
-tabulated learned_fg4_for_kepler() {
+method learned_fg4_for_kepler() {
   return at<fg4>({0.12524779420575805, 0.29677301660722233, 0.005141281528300977});
 }
 // nysalt learn --system henon_heiles --family fg4 --step 0.16 --horizon 8
-tabulated learned_fg4_for_henon_heiles() {
+method learned_fg4_for_henon_heiles() {
   return at<fg4>({0.09097585561966703, 0.249041410902533, 0.0068315121820252});
 }
 
 // nysalt learn --system fpu --omega 50 --family r_aba4 --step k pi/50 --horizon 2
-tabulated learned_r_aba4_at_resonance(int k) {
+method learned_r_aba4_at_resonance(int k) {
   switch (k) {
     case 1:
       return at<r_aba<4>>({0.09636575218850416, 0.22714522603811674, 0.27389636996967061});
@@ -56,7 +56,7 @@ tabulated learned_r_aba4_at_resonance(int k) {
   }
 }
 
-std::vector<tabulated> learned_words() {
+std::vector<method> learned_words() {
   return {nystrom_with_two_windows(),
           at<nystrom>({0.5118648628270795, 0.407489150143317}),  // --family nystrom --step 0.02 --horizon 0.5
           learned_fg4_for_fpu(), learned_fg4_for_kepler(),
@@ -68,7 +68,7 @@ std::vector<tabulated> learned_words() {
                          0.8088532376065679})};
 }
 
-std::vector<contender> side_by_side(const tabulated& learned) {
+std::vector<contender> side_by_side(const method& learned) {
   return {{"verlet", verlet{}},
           {"mclachlan2", mclachlan2{}},
           {"srkn6b", srkn6b{}},

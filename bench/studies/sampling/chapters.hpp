@@ -20,7 +20,7 @@ struct extent {
 
 /// A word in a race over one target.
 struct contender {
-  tabulated word;
+  method word;
   double step = 0.0;      // at an acceptance of 0.9
   double foretold = 0.0;  // on the small target; 0: it was not asked for
   outcome run{};

@@ -27,14 +27,14 @@ hmc_options options_of(double step, const contest_options& options) {
           .threads = options.threads};
 }
 
-double energy_error(const target& of, const tabulated& word, double step, const contest_options& options) {
+double energy_error(const target& of, const method& word, double step, const contest_options& options) {
   const auto found = hmc(of.system, word, of.starts, options_of(step, options), [](const hmc_draw&) {});
   return found.diverged > 0 ? std::numeric_limits<double>::infinity()
                             : std::sqrt(found.square_of_energy_error.mean);
 }
 
 template <int Drifts>
-std::pair<tabulated, bool> fitted(const small_target& small, double step, const contest_options& options) {
+std::pair<method, bool> fitted(const small_target& small, double step, const contest_options& options) {
   const double whole = std::max(1.0, std::round(2.0 * options.length / step));
   data_options training{.step = step,
                         .horizon = (whole + 0.5) * step,  // that many steps
@@ -52,8 +52,8 @@ std::pair<tabulated, bool> fitted(const small_target& small, double step, const 
   return {found.method.anywhere(), found.summary.usable};
 }
 
-std::pair<tabulated, bool> fitted(int drifts, const small_target& small, double step,
-                                  const contest_options& options) {
+std::pair<method, bool> fitted(int drifts, const small_target& small, double step,
+                               const contest_options& options) {
   switch (drifts) {
     case 2:
       return fitted<2>(small, step, options);
@@ -72,7 +72,7 @@ std::pair<tabulated, bool> fitted(int drifts, const small_target& small, double 
 
 double energy_error_at(double acceptance) { return std::sqrt(8.0) * boost::math::erfc_inv(acceptance); }
 
-double step_with_error(const target& of, const tabulated& word, double guess, double wanted,
+double step_with_error(const target& of, const method& word, double guess, double wanted,
                        const contest_options& options) {
   const auto is_below = [&](double step) { return energy_error(of, word, step, options) < wanted; };
   // The error of a word need not rise with the step: from above, the first step that is small enough.
@@ -88,7 +88,7 @@ double step_with_error(const target& of, const tabulated& word, double guess, do
   return std::sqrt(step * above);
 }
 
-double foretold_step(const small_target& small, const tabulated& word, double guess,
+double foretold_step(const small_target& small, const method& word, double guess,
                      const contest_options& options) {
   contest_options many = options;
   many.pilot = 400;
@@ -109,7 +109,7 @@ learned_word learned_bab(int drifts, const small_target& small, double guess,
     if (!is_below && best) break;  // the one before was good enough
     if (is_below || n == 7) {
       const std::string name = fmt::format("learned bab{}{}", drifts, usable ? "" : " (not usable)");
-      best = {tabulated(name, word.letters(), word.coefficients(), word), step};
+      best = {method(name, word.letters(), word.coefficients(), word), step};
     }
     if (is_below && step < guess) break;  // the one before was not
     step = is_below ? step * ratio : step / ratio;
@@ -117,7 +117,7 @@ learned_word learned_bab(int drifts, const small_target& small, double guess,
   return *best;
 }
 
-outcome run_chains(const target& of, const tabulated& word, double step, const statistic& measured,
+outcome run_chains(const target& of, const method& word, double step, const statistic& measured,
                    std::int64_t draws, const contest_options& options) {
   hmc_options chains = options_of(step, options);
   chains.burn_in = 20;
@@ -141,7 +141,7 @@ outcome run_chains(const target& of, const tabulated& word, double step, const s
           .mean_errors = median_curve(errors.curves(), &error_curve::mean)};
 }
 
-initial_states reached_by(const target& of, const tabulated& word, double step, std::int64_t chains,
+initial_states reached_by(const target& of, const method& word, double step, std::int64_t chains,
                           std::int64_t burn_in, std::int64_t draws, const contest_options& options) {
   hmc_options how = options_of(step, options);
   how.chains = chains;

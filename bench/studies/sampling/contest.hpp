@@ -30,7 +30,7 @@ double energy_error_at(double acceptance);
 
 /// The largest step near a guess at which the root mean square of H' - H is below `wanted`: from above by
 /// steps of 6 %, then by halves to 1 %.
-double step_with_error(const target& of, const tabulated& word, double guess, double wanted,
+double step_with_error(const target& of, const method& word, double guess, double wanted,
                        const contest_options& options);
 
 /// A target that is fitted on, and how many times as large the one is that will be sampled.
@@ -40,12 +40,12 @@ struct small_target {
 };
 
 /// The step for a large target, foretold on the small one, as the variance of H' - H is extensive.
-double foretold_step(const small_target& small, const tabulated& word, double guess,
+double foretold_step(const small_target& small, const method& word, double guess,
                      const contest_options& options);
 
 /// A word and the step that it was learned at.
 struct learned_word {
-  tabulated word;
+  method word;
   double step;
 };
 
@@ -65,11 +65,11 @@ struct outcome {
 };
 
 /// Four chains with a step.
-outcome run_chains(const target& of, const tabulated& word, double step, const statistic& measured,
+outcome run_chains(const target& of, const method& word, double step, const statistic& measured,
                    std::int64_t draws, const contest_options& options);
 
 /// The final positions of chains, as starts of the law that they have reached.
-initial_states reached_by(const target& of, const tabulated& word, double step, std::int64_t chains,
+initial_states reached_by(const target& of, const method& word, double step, std::int64_t chains,
                           std::int64_t burn_in, std::int64_t draws, const contest_options& options);
 
 }  // namespace nysalt::sampling_benchmark

@@ -39,8 +39,9 @@ struct acceptance_result {
 /// K(-p) is not K(p) at some start of the first 16, H cannot be evaluated, the system is in a bath that acts
 /// (H is not its own then), kT is not positive and finite, there is not one step or trajectory, or a start
 /// does not fit.
-acceptance_result acceptance(const model& system, const tabulated& method, const initial_states& ensemble,
-                             const trajectory_options& options, double temperature = 1.0);
+acceptance_result acceptance(const model& system, const nysalt::method& method,
+                             const initial_states& ensemble, const trajectory_options& options,
+                             double temperature = 1.0);
 
 // The step at which proposals of Hybrid Monte Carlo are accepted with a given probability.
 
@@ -72,7 +73,7 @@ struct proposal_acceptance {
 /// potential or a kinetic energy that is not quadratic, an option is out of range, or a trajectory has more
 /// than 100,000 steps. Memory: 8 bytes for each step of each state. Cost: for each step of 2 length/step
 /// steps of each state one step of the word, and one potential.
-proposal_acceptance acceptance_of_proposals(const model& system, const tabulated& method, double step,
+proposal_acceptance acceptance_of_proposals(const model& system, const nysalt::method& method, double step,
                                             const initial_states& states, const proposal_options& options);
 
 /// A step with a standard error.
@@ -89,9 +90,8 @@ struct acceptance_step {
 /// is none. With the same options all methods see the same states, so that differences of log_of_each are of
 /// pairs. Throws what acceptance_of_proposals() throws, std::invalid_argument unless 0 < acceptance < 1, and
 /// std::runtime_error if no step down to a thousandth of the guess is accepted so often.
-acceptance_step step_at_acceptance(const model& system,
-                                   const std::function<tabulated(double step)>& method_at, double acceptance,
-                                   double guess, const initial_states& states,
+acceptance_step step_at_acceptance(const model& system, const std::function<method(double step)>& method_at,
+                                   double acceptance, double guess, const initial_states& states,
                                    const proposal_options& options);
 
 // Acceptance of Hybrid Monte Carlo where forces are linear, in closed form.
@@ -111,7 +111,7 @@ double energy_error_at(double acceptance);
 /// average. It is exact as trajectories become long. Infinite where the method is not stable on one of them.
 /// Throws std::invalid_argument if the method is not symmetric, and what energy_error_on_oscillator() throws.
 /// Cost: one energy_error_on_oscillator() for each frequency.
-double gaussian_energy_error(const tabulated& method, std::span<const double> frequencies, double step);
+double gaussian_energy_error(const method& method, std::span<const double> frequencies, double step);
 
 /// The step up to which proposals are accepted with this probability: from `from` it grows by 2 % at a time
 /// until the acceptance falls below it, or shrinks until it does not, and what lies between is halved. Where
@@ -119,7 +119,7 @@ double gaussian_energy_error(const tabulated& method, std::span<const double> fr
 /// step may be accepted less often at smaller ones: begin at theirs. Throws what gaussian_energy_error()
 /// throws, and std::invalid_argument if no frequency is positive, or no step down to that hundredth is
 /// accepted so often. Cost: some hundred calls of gaussian_energy_error().
-double gaussian_step(const tabulated& method, std::span<const double> frequencies, double acceptance,
+double gaussian_step(const nysalt::method& method, std::span<const double> frequencies, double acceptance,
                      double from = 0.0);
 
 }  // namespace nysalt

@@ -29,7 +29,7 @@ struct order_measurement {
 /// system: on linear ones methods converge too well.
 /// Throws std::invalid_argument if fewest_steps < 1, halvings < 0 or the horizon is not finite or 0.
 template <SeparableSystem S>
-order_measurement convergence_order(const S& system, const tabulated& method, const reference& reference,
+order_measurement convergence_order(const S& system, const method& method, const reference& reference,
                                     const phase_point<double, S::dimension>& start, double horizon,
                                     std::int64_t fewest_steps, int halvings) {
   if (fewest_steps < 1 || halvings < 0 || !std::isfinite(horizon) || horizon == 0.0) {

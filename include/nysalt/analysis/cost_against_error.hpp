@@ -18,7 +18,7 @@
 namespace nysalt {
 
 namespace detail {
-std::int64_t evaluations_of_run(const model& system, const tabulated& method, double step, std::int64_t steps,
+std::int64_t evaluations_of_run(const model& system, const method& method, double step, std::int64_t steps,
                                 const phase_point<double, Eigen::Dynamic>& start);
 }  // namespace detail
 
@@ -26,7 +26,7 @@ std::int64_t evaluations_of_run(const model& system, const tabulated& method, do
 /// included: those that follow from the word; of a black box counted over the first two steps, as every step
 /// after them costs the same.
 template <SeparableSystem S>
-std::int64_t evaluations_of_run(const S& system, const tabulated& method, double step, std::int64_t steps,
+std::int64_t evaluations_of_run(const S& system, const method& method, double step, std::int64_t steps,
                                 const phase_point<double, S::dimension>& start) {
   return detail::evaluations_of_run(system, method, step, steps, {start.q, start.p});
 }

@@ -20,7 +20,7 @@ struct energy_record {
 /// Runs `steps` steps and reads the energy every `every` of them. |H_0| below 1e-300 counts as 1.
 /// Memory: none that grows with the steps.
 template <HasEnergy S>
-energy_record energy_drift(const S& system, const tabulated& method, double step,
+energy_record energy_drift(const S& system, const method& method, double step,
                            const phase_point<double, S::dimension>& start, std::int64_t steps,
                            std::int64_t every = 1) {
   const double initial = energy<double>(system, start);

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/core/kernels.hpp"
+#include "nysalt/kernels/kernels.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/system.hpp"
 

@@ -17,13 +17,13 @@
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/core/divergence.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/reference.hpp"
+#include "nysalt/stepping/divergence.hpp"
 
 namespace nysalt {
 
@@ -135,16 +135,16 @@ void require_room(const trajectory_options& options, std::size_t methods, std::s
 /// A vector, array or span of methods of one type.
 template <class C>
 concept Methods =
-    std::ranges::contiguous_range<C> && std::convertible_to<std::ranges::range_value_t<C>, tabulated>;
+    std::ranges::contiguous_range<C> && std::convertible_to<std::ranges::range_value_t<C>, nysalt::method>;
 
 namespace detail {
 
 /// In how many parts of a step methods need the noise of a path: 0 if the system is in no noisy bath.
-int parts_of_noise(const model& system, std::span<const tabulated> methods);
+int parts_of_noise(const model& system, std::span<const nysalt::method> methods);
 
 std::vector<trajectory_errors_result> trajectory_errors(const model& system, const reference& reference,
                                                         const initial_states& ensemble,
-                                                        std::span<const tabulated> methods,
+                                                        std::span<const nysalt::method> methods,
                                                         std::span<const error_measure> measures,
                                                         const trajectory_options& options);
 
@@ -177,7 +177,7 @@ std::vector<trajectory_errors_result> trajectory_errors(const S& system, const r
                                                         const E& ensemble, const Given& methods,
                                                         std::span<const error_measure> measures,
                                                         const trajectory_options& options) {
-  std::vector<tabulated> tables;
+  std::vector<nysalt::method> tables;
   for (const auto& method : methods) tables.push_back(method);
   return detail::trajectory_errors(system, reference, ensemble, tables, measures, options);
 }
@@ -194,8 +194,9 @@ trajectory_errors_result trajectory_errors(const S& system, const reference& ref
 /// Errors of one method, by one measure or several.
 template <SeparableSystem S, Ensemble<S> E>
 auto trajectory_errors(const S& system, const reference& reference, const E& ensemble,
-                       const tabulated& method, const auto& measures, const trajectory_options& options) {
-  return trajectory_errors(system, reference, ensemble, std::span<const tabulated>(&method, 1), measures,
+                       const nysalt::method& method, const auto& measures,
+                       const trajectory_options& options) {
+  return trajectory_errors(system, reference, ensemble, std::span<const nysalt::method>(&method, 1), measures,
                            options);
 }
 

@@ -60,12 +60,12 @@ stability_chart chart_stability(const word& letters, const std::vector<double>& 
 std::vector<stability_window> stability_windows(const word& letters, const std::vector<double>& coefficients);
 
 /// The windows of a method, at its own coefficients.
-inline std::vector<stability_window> stability_windows(const tabulated& method) {
+inline std::vector<stability_window> stability_windows(const nysalt::method& method) {
   return stability_windows(method.letters(), method.coefficients());
 }
 
 /// End of the window that begins at z = 0; 0 where there is none.
-inline double stability_limit(const tabulated& method) {
+inline double stability_limit(const method& method) {
   const auto windows = stability_windows(method);
   return windows.empty() || windows.front().low > 0.0 ? 0.0 : windows.front().high;
 }

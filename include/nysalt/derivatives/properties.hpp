@@ -33,11 +33,11 @@ Eigen::MatrixXd jacobian(const auto& map, const phase_point<double, N>& x) {
 
 /// One plain step of a method as a map of phase space, over any scalar.
 template <System S>
-auto step_map(const S& system, const tabulated& method, double step) {
+auto step_map(const S& system, const method& method, double step) {
   return [stepper = make_stepper(system, method, step)](auto& x) { stepper.step(x); };
 }
 template <System S>
-void step_map(const S&& system, const tabulated& method,
+void step_map(const S&& system, const method& method,
               double step) = delete;  // it would refer to a temporary
 
 /// Omega of the symplectic form in (q, p), of 2 n rows.
@@ -59,7 +59,7 @@ double symplecticity_defect(const auto& map, const phase_point<double, N>& x) {
 
 /// Symplecticity defect of one step of a method.
 template <System S>
-double symplecticity_defect(const S& system, const tabulated& method, double step,
+double symplecticity_defect(const S& system, const method& method, double step,
                             const phase_point<double, S::dimension>& x) {
   return symplecticity_defect(step_map(system, method, step), x);
 }
@@ -78,7 +78,7 @@ double reversibility_defect(const auto& map, const phase_point<double, N>& x) {
 
 /// Reversibility defect of one step of a method.
 template <System S>
-double reversibility_defect(const S& system, const tabulated& method, double step,
+double reversibility_defect(const S& system, const method& method, double step,
                             const phase_point<double, S::dimension>& x) {
   return reversibility_defect(step_map(system, method, step), x);
 }

@@ -115,7 +115,7 @@ taylor_orders taylor_order_of(const std::vector<double>& coefficients, const com
 taylor_orders taylor_order(const nysalt::word& word, const std::vector<double>& coefficients);
 
 /// The orders of a method, at its own coefficients.
-inline taylor_orders taylor_order(const tabulated& method) {
+inline taylor_orders taylor_order(const nysalt::method& method) {
   return taylor_order(method.letters(), method.coefficients());
 }
 

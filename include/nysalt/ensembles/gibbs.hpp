@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/ensemble.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
+#include "nysalt/systems/modal_coordinates.hpp"
 
 namespace nysalt {
 

@@ -89,7 +89,7 @@ struct symmetric_composition : composition<(static_cast<int>(Length) - 3) / 2> {
   }
 
   /// The parameters that a classical method of this word has.
-  static std::array<double, free> of(const tabulated& method) {
+  static std::array<double, free> of(const nysalt::method& method) {
     std::array<double, free> all;
     const auto& c = method.coefficients();
     for (std::size_t k = 0; k < free; ++k) all[k] = c[k];

@@ -47,7 +47,7 @@ struct gradient_composition : composition<3> {
   }
 
   /// The parameters that a method of this word has. Rotations may replace the drifts.
-  static std::array<double, 3> of(const tabulated& method) {
+  static std::array<double, 3> of(const nysalt::method& method) {
     const auto& c = method.coefficients();
     return {c[0], c[1], c[4]};
   }
@@ -100,7 +100,7 @@ struct fg_chin : chin_composition<gradient_kick> {
   static std::array<double, 2> start() { return {1.0 / 6.0, 1.0 / 72.0}; }
 
   /// Parameters of a method of this word.
-  static std::array<double, 2> of(const tabulated& method) {
+  static std::array<double, 2> of(const nysalt::method& method) {
     const auto& c = method.coefficients();
     return {c[0], c[3]};
   }

@@ -50,7 +50,7 @@ struct exact_flow {
 // Kicks with the forces of parts of V.
 
 /// A system that is a sum of parts: part<I>() is a system with the force of V_i, see
-/// systems/sum_of_parts.hpp.
+/// flows/sum_of_parts.hpp.
 template <class S>
 concept HasParts = System<S> && requires(const S& s) {
   { S::parts } -> std::convertible_to<std::size_t>;

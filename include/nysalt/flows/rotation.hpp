@@ -7,9 +7,9 @@
 #include <memory>
 #include <type_traits>
 
-#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/flow.hpp"
 #include "nysalt/flows/drift_kick.hpp"
+#include "nysalt/systems/modal_coordinates.hpp"
 
 namespace nysalt {
 

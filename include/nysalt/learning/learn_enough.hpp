@@ -58,8 +58,8 @@ struct learned_enough : fit {
 
 /// learn() with as many trajectories as necessary, see until_enough(): each time data are made for as many
 /// more. What comes out is what learn() gives for that number. Throws what these do.
-learned_enough learn_enough(const run_time_family& family, const model& system,
-                            const initial_states& ensemble, const reference& reference,
-                            const growing_data& growing, const fit_options& options = {});
+learned_enough learn_enough(const family& family, const model& system, const initial_states& ensemble,
+                            const reference& reference, const growing_data& growing,
+                            const fit_options& options = {});
 
 }  // namespace nysalt

@@ -75,8 +75,8 @@ inline energies_outside count_outside(const energy_range& seen, std::size_t traj
 /// A method that was learned for one size of a kind of system, as a method for this size, if it holds there
 /// by judge(). Throws std::invalid_argument if the systems are not of one kind, see kind_of(), or the method
 /// does not hold. Cost: one judge(); none where the method was learned for this very system.
-tabulated at_size_of(const model& system, const tabulated& learned, const initial_states& starts,
-                     const judging_options& options = {});
+method at_size_of(const model& system, const method& learned, const initial_states& starts,
+                  const judging_options& options = {});
 
 // Parameters that were learned at several steps, and between them.
 

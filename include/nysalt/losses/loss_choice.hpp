@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "nysalt/bath.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/window_error.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/run_time_family.hpp"
 
 namespace nysalt {
 
@@ -28,12 +28,12 @@ struct after_steps_options {
 
 /// From what a loss over data is made. The loss copies the data, and refers to the metric.
 struct loss_inputs {
-  const run_time_family& family;  ///< family to fit
-  const model& system;            ///< system that the data are of
-  const flow_map_data& data;      ///< data to sum over
-  const metric& measure;          ///< weights of an error of the state
-  after_steps_options how;        ///< steps after which an error counts
-  bool in_lanes;                  ///< whether windows are in lanes
+  const nysalt::family& family;  ///< family to fit
+  const model& system;           ///< system that the data are of
+  const flow_map_data& data;     ///< data to sum over
+  const metric& measure;         ///< weights of an error of the state
+  after_steps_options how;       ///< steps after which an error counts
+  bool in_lanes;                 ///< whether windows are in lanes
 };
 
 /// The criterion that is least for the best of several minima: the loss on held-out data; the state's error
@@ -62,7 +62,7 @@ struct loss_kind {
   /// data.
   std::function<std::unique_ptr<const loss_on_data>(const loss_inputs& from)> over_data;
   /// The loss of a step, if it asks no data; else nullptr.
-  objective (*without_data)(const model& system, const run_time_family& family, double step) = nullptr;
+  objective (*without_data)(const model& system, const nysalt::family& family, double step) = nullptr;
 
   bool asks_data() const { return without_data == nullptr; }  ///< whether the loss is minimised over data
 };

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "nysalt/run_time_family.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/shard.hpp"
 
 namespace nysalt {
@@ -51,7 +51,7 @@ class loss_on_data {
   virtual bool has_estimated_weights() const = 0;
   /// The same loss, over the same data, of another family. The letters O of both words are at the same
   /// places.
-  virtual std::unique_ptr<const loss_on_data> of_family(const run_time_family& family) const = 0;
+  virtual std::unique_ptr<const loss_on_data> of_family(const nysalt::family& family) const = 0;
   virtual const shard& share() const = 0;        ///< distribution of the trajectories over ranks
   virtual std::int64_t evaluations() const = 0;  ///< force evaluations of all passes so far at this rank
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "nysalt/bath.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/run_time_family.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {
@@ -73,6 +73,6 @@ class stationary_covariance {
 };
 
 /// The loss as a function of theta only, for a family with the letters of the loss.
-objective objective_of(const stationary_covariance& loss, const run_time_family& family);
+objective objective_of(const stationary_covariance& loss, const family& family);
 
 }  // namespace nysalt

@@ -18,9 +18,9 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/core/kernels.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/flow_map_data.hpp"
+#include "nysalt/kernels/kernels.hpp"
 #include "nysalt/lanes.hpp"
 
 namespace nysalt {

@@ -177,10 +177,10 @@ inline constexpr classical_row processed_table[] = {
 // clang-format on
 
 /// A row of the table as a method.
-tabulated as_data(const classical_row& row);
+method as_data(const classical_row& row);
 
 /// Rows without letters O that are not several steps of another: what a learned method is compared with.
-std::vector<tabulated> classical_methods();
+std::vector<method> classical_methods();
 
 namespace detail {
 
@@ -204,12 +204,12 @@ constexpr std::size_t row_of(std::string_view name) {
 /// The method of that name in the table: `classical<"pefrl">()`, which is also pefrl(). A name that the table
 /// does not have does not compile.
 template <detail::method_name Name>
-struct classical : tabulated {
+struct classical : nysalt::method {
   static constexpr std::size_t row = detail::row_of(Name.view());  ///< number of the row
   static_assert(row < std::size(classical_table),
                 "nysalt: no classical method has this name; nysalt/methods/classical.hpp has those that "
                 "there are");
-  classical() : tabulated(as_data(classical_table[row])) {}
+  classical() : nysalt::method(as_data(classical_table[row])) {}
 };
 
 /// B(1/2) A B(1/2): velocity Verlet, order 2, one evaluation a step

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "nysalt/family.hpp"
 #include "nysalt/model.hpp"
-#include "nysalt/run_time_family.hpp"
 
 // The equations of phase fitting, and their solution.
 
@@ -24,7 +24,7 @@ Eigen::VectorXd defect_of_rotation(const word& letters, const std::vector<double
 
 /// d defect_i / d theta_k. The matrix of a word is affine in each coefficient (but not in coefficients of
 /// rotations), so that a difference over a step of 1 is the derivative.
-Eigen::MatrixXd jacobian_of_defect(const run_time_family& family, const Eigen::VectorXd& theta, double x);
+Eigen::MatrixXd jacobian_of_defect(const nysalt::family& family, const Eigen::VectorXd& theta, double x);
 
 /// Result of a continuation.
 struct phase_fitting {
@@ -35,7 +35,7 @@ struct phase_fitting {
 /// The parameters that turn the oscillator exactly by z in a step, nearest to `nearest`: the solution at z
 /// that continues those for smaller z. Nothing where there are fewer parameters than equations, or where a
 /// quadratic part is split off.
-phase_fitting fit_phase(const run_time_family& family, const Eigen::VectorXd& nearest, double z);
+phase_fitting fit_phase(const family& family, const Eigen::VectorXd& nearest, double z);
 
 }  // namespace nysalt::detail
 
@@ -48,7 +48,7 @@ namespace nysalt {
 /// for nothing. Nothing where the word rotates by itself, has fewer parameters than the rotation has
 /// equations (two if it is symmetric, else three), or no start leads to a member in the ranges. Throws
 /// std::invalid_argument unless z is positive and finite. Cost: some milliseconds.
-std::optional<named_parameters> phase_fitted_start(const run_time_family& family, double z);
+std::optional<named_parameters> phase_fitted_start(const nysalt::family& family, double z);
 
 /// A classical method with its coefficients changed, within a family of its word, such that its step is
 /// the exact rotation on the oscillator at z = h omega: trace/2 = cos z and M_qp = sin z/z. Such methods are
@@ -66,7 +66,7 @@ std::optional<named_parameters> phase_fitted_start(const run_time_family& family
 /// Throws std::invalid_argument unless the family is symmetric, with two parameters or more and without
 /// rotations, and the method one of its starts, of order 4 or more; unless z is positive and finite, and
 /// below the end of the coefficients. Cost: a millisecond; they are right to rounding.
-tabulated phase_fitted(const run_time_family& family, const tabulated& classical, double z);
+method phase_fitted(const nysalt::family& family, const method& classical, double z);
 
 /// Source of phase_fitted() in docs/bibliography.bib.
 inline constexpr std::string_view phase_fitted_source = "van_de_vyver_2007";

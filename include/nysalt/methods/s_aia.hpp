@@ -31,7 +31,7 @@ double energy_error_of_three_stages(double b, double x);
 ///
 /// a grows from (3 - sqrt 5)/4 at highest_z = 0 over BCSS' 0.211781 at 2 to 1/4 at sqrt 8. From there to 4 it
 /// stays 1/4, which is two half steps of position Verlet: all others are unstable before sqrt 8.
-class s_aia2 : public tabulated {
+class s_aia2 : public method {
  public:
   static constexpr std::string_view source = "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024";
   static constexpr word letters_of_all{"ABABA"};                ///< letters at every z
@@ -54,7 +54,7 @@ class s_aia2 : public tabulated {
 ///
 /// b grows from the b of predescu3 at highest_z = 0 over BCSS' 0.11888 at 3 to 1/6 at sqrt 27. From there to
 /// 6 it stays 1/6, which is three equal steps of velocity Verlet: all others are unstable before sqrt 27.
-class s_aia3 : public tabulated {
+class s_aia3 : public method {
  public:
   static constexpr std::string_view source = "nagar_fernandez_pendas_sanz_serna_akhmatskaya_2024";
   static constexpr word letters_of_all{"BABABAB"};              ///< letters at every z

@@ -12,13 +12,13 @@ namespace nysalt {
 /// far smaller step, or what is learned is its error. Each interval must be a positive multiple of the step,
 /// to 1e-9 relative. Throws std::invalid_argument unless the step is positive and finite.
 reference fine_steps(double step);
-reference fine_steps(double step, const tabulated& method);
+reference fine_steps(double step, const nysalt::method& method);
 
 /// A reference by paths of a system in a bath in small steps, with their noise in larger ones; BAOAB is the
 /// default. Its error is the difference from a finer one along the same path. Each part of an interval whose
 /// noise is kept must be a positive multiple of the step, to 1e-9 relative. Throws std::invalid_argument
 /// unless the step is positive and finite, and the method has one letter O.
 reference fine_paths(double step);
-reference fine_paths(double step, const tabulated& method);
+reference fine_paths(double step, const nysalt::method& method);
 
 }  // namespace nysalt

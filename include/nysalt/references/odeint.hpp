@@ -108,7 +108,7 @@ class odeint_stepper {
   using stepper_category = boost::numeric::odeint::stepper_tag;  ///< stepper category, as Odeint requires
 
   /// A stepper with a copy of the method.
-  explicit odeint_stepper(tabulated method) : method_(std::move(method)) {}
+  explicit odeint_stepper(nysalt::method method) : method_(std::move(method)) {}
 
   order_type order() const { return static_cast<order_type>(method_.order); }  ///< order of the method
 
@@ -119,7 +119,7 @@ class odeint_stepper {
   }
 
  private:
-  tabulated method_;
+  nysalt::method method_;
 };
 
 }  // namespace nysalt

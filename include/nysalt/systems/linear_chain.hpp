@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "nysalt/core/fingerprint.hpp"
-#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/core/sentence.hpp"
+#include "nysalt/systems/modal_coordinates.hpp"
 
 namespace nysalt {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
-#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/force.hpp"
+#include "nysalt/systems/modal_coordinates.hpp"
 
 namespace nysalt {
 

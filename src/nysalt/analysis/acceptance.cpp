@@ -48,7 +48,7 @@ void require_even_kinetic(const model& system, const Eigen::VectorXd& p, std::in
 
 }  // namespace
 
-acceptance_result acceptance(const model& system, const tabulated& method, const initial_states& ensemble,
+acceptance_result acceptance(const model& system, const method& method, const initial_states& ensemble,
                              const trajectory_options& options, double temperature) {
   detail::require_metropolis_applies("acceptance", system, method, temperature);
   if (!has_energy(system)) {
@@ -97,7 +97,7 @@ double energy_error_at(double acceptance) {
   return root * root;
 }
 
-double gaussian_energy_error(const tabulated& method, std::span<const double> frequencies, double step) {
+double gaussian_energy_error(const method& method, std::span<const double> frequencies, double step) {
   if (!method.symmetric) {
     throw std::invalid_argument(
         sentence("gaussian_energy_error: the method must be reversible, got {}; take a symmetric method",
@@ -112,7 +112,7 @@ double gaussian_energy_error(const tabulated& method, std::span<const double> fr
   return sum;
 }
 
-double gaussian_step(const tabulated& method, std::span<const double> frequencies, double acceptance,
+double gaussian_step(const method& method, std::span<const double> frequencies, double acceptance,
                      double from) {
   const double most = energy_error_at(acceptance);
   const double fastest = frequencies.empty() ? 0.0 : *std::ranges::max_element(frequencies);

@@ -20,7 +20,7 @@
 
 namespace nysalt::detail {
 
-std::int64_t evaluations_of_run(const model& system, const tabulated& method, double step, std::int64_t steps,
+std::int64_t evaluations_of_run(const model& system, const method& method, double step, std::int64_t steps,
                                 const phase_point<double, Eigen::Dynamic>& start) {
   if (steps < 0)
     throw std::invalid_argument(fmt::format("evaluations_of_run: steps must not be negative, got {}", steps));

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "nysalt/core/modal_coordinates.hpp"
+#include "nysalt/systems/modal_coordinates.hpp"
 
 namespace nysalt {
 

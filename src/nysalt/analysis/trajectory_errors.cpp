@@ -14,10 +14,10 @@
 
 #include "nysalt/analysis/cost_against_error.hpp"
 #include "nysalt/communicator.hpp"
-#include "nysalt/core/divergence.hpp"
-#include "nysalt/core/ensemble_loop.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/langevin.hpp"
+#include "nysalt/parallel/ensemble_loop.hpp"
+#include "nysalt/stepping/divergence.hpp"
 #include "trajectory_runs.hpp"
 
 namespace nysalt {
@@ -103,7 +103,7 @@ trajectory_errors_result summary(const measured_errors& found, const error_measu
 
 constexpr std::int64_t most_checks = 16;  // enough for the size of an error
 
-void require_comparable(const model& system, const reference& reference, std::span<const tabulated> methods,
+void require_comparable(const model& system, const reference& reference, std::span<const method> methods,
                         int parts, const trajectory_options& options) {
   if (parts > 0 && !reference.gives_noise()) {
     throw std::invalid_argument(
@@ -115,7 +115,7 @@ void require_comparable(const model& system, const reference& reference, std::sp
     throw std::invalid_argument(fmt::format(
         "trajectory_errors: the perturbation of starts must be positive and finite, got {}", perturbation));
   }
-  for (const tabulated& method : methods) make_stepper(system, method, options.step, counter_noise(0));
+  for (const method& method : methods) make_stepper(system, method, options.step, counter_noise(0));
 }
 
 void require_measurable(const model& system, std::span<const error_measure> measures) {
@@ -130,10 +130,10 @@ void require_measurable(const model& system, std::span<const error_measure> meas
 
 }  // namespace
 
-int parts_of_noise(const model& system, std::span<const tabulated> methods) {
+int parts_of_noise(const model& system, std::span<const method> methods) {
   if (system.bath().sigma() == 0.0) return 0;
   int parts = 0;
-  for (const tabulated& method : methods) {
+  for (const method& method : methods) {
     const int of_method = intervals_of_noise(method.letters(), method.coefficients()).parts;
     parts = parts == 0 ? of_method : std::lcm(parts, std::max(of_method, 1));
   }
@@ -142,7 +142,7 @@ int parts_of_noise(const model& system, std::span<const tabulated> methods) {
 
 std::vector<trajectory_errors_result> trajectory_errors(const model& system, const reference& reference,
                                                         const initial_states& ensemble,
-                                                        std::span<const tabulated> methods,
+                                                        std::span<const method> methods,
                                                         std::span<const error_measure> measures,
                                                         const trajectory_options& options) {
   if (measures.empty())

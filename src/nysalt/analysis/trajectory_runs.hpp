@@ -17,12 +17,12 @@
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
-#include "nysalt/core/lockstep.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/noises/recorded_path.hpp"
 #include "nysalt/reference.hpp"
+#include "nysalt/stepping/lockstep.hpp"
 
 namespace nysalt::detail {
 
@@ -45,7 +45,7 @@ struct measured_errors {
 /// What is compared: methods with a reference, by measures whose numbers lie one after the other.
 struct comparison {
   const nysalt::reference& reference;
-  std::span<const tabulated> methods;
+  std::span<const method> methods;
   std::span<const error_measure> measures;
   const trajectory_options& options;
   std::int64_t checked;    // number of trajectories on which the reference is compared with a finer one
@@ -218,7 +218,7 @@ class compared_block {
     }
     open_references();
     methods_.reserve(compared.methods.size());
-    for (const tabulated& method : compared.methods) {
+    for (const nysalt::method& method : compared.methods) {
       const auto covered = compared.parts == 0 ? noise_intervals()
                                                : intervals_of_noise(method.letters(), method.coefficients());
       methods_.push_back({make_stepper(block.system, method, compared.options.step,

@@ -12,10 +12,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/core/rounding.hpp"
-#include "nysalt/core/site_kernels.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
+#include "nysalt/kernels/site_kernels.hpp"
+#include "nysalt/systems/modal_coordinates.hpp"
 
 namespace nysalt {
 

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "nysalt/core/served_letters.hpp"
 #include "nysalt/derivatives/properties.hpp"
 #include "nysalt/stepper.hpp"
+#include "nysalt/stepping/served_letters.hpp"
 
 namespace nysalt {
 

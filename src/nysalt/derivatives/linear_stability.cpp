@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/core/served_letters.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/scalars/dual.hpp"
 #include "nysalt/scalars/polynomial.hpp"
 #include "nysalt/scalars/series.hpp"
+#include "nysalt/stepping/served_letters.hpp"
 
 namespace nysalt {
 

@@ -10,10 +10,10 @@
 #include <stdexcept>
 
 #include "nysalt/core/sentence.hpp"
-#include "nysalt/core/served_letters.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/stepper.hpp"
+#include "nysalt/stepping/served_letters.hpp"
 
 namespace nysalt {
 

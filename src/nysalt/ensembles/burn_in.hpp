@@ -16,9 +16,6 @@
 #include <string>
 #include <vector>
 
-#include "nysalt/core/ensemble_loop.hpp"
-#include "nysalt/core/lockstep.hpp"
-#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/ensembles/gibbs.hpp"
 #include "nysalt/initial_states.hpp"
@@ -26,6 +23,9 @@
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/parallel/ensemble_loop.hpp"
+#include "nysalt/stepping/lockstep.hpp"
+#include "nysalt/systems/modal_coordinates.hpp"
 #include "step_of_motion.hpp"
 
 namespace nysalt {
@@ -81,8 +81,7 @@ class burn_in_chains {
   /// Chains of a system that comes without its bath; temperature is kT, an energy.
   burn_in_chains(const model& base, double temperature, double friction, double step, std::uint64_t seed)
       : system_(detail::own_copy(base).in(bath::of_temperature(friction, temperature))),
-        stepper_(
-            make_stepper(system_, tabulated(baoab{}), step, counter_noise(seed, noise_purpose::burn_in))) {}
+        stepper_(make_stepper(system_, method(baoab{}), step, counter_noise(seed, noise_purpose::burn_in))) {}
   burn_in_chains(const burn_in_chains&) = delete;  // the stepper refers to the system
   burn_in_chains& operator=(const burn_in_chains&) = delete;
 

@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "burn_in.hpp"
-#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/methods/classical.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/references/exact_linear.hpp"
+#include "nysalt/systems/modal_coordinates.hpp"
 #include "step_of_motion.hpp"
 
 namespace nysalt::detail {
@@ -149,7 +149,7 @@ long_trajectory::long_trajectory(const model& in_bath, const initial_states& fro
     if (n >= first) kept.push_back(x);
   };
   const auto stepper =
-      make_stepper(in_bath, tabulated(baoab{}), step_, counter_noise(options.seed, noise_purpose::burn_in));
+      make_stepper(in_bath, method(baoab{}), step_, counter_noise(options.seed, noise_purpose::burn_in));
   const auto end = integrate(stepper, sound_start(in_bath, from, options.seed, 0), steps, keep, every);
   if (end.diverged_at) {
     throw std::runtime_error(fmt::format(

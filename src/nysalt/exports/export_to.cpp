@@ -150,8 +150,7 @@ std::string identifier_of(std::string_view name) {
   return result.substr(0, 40);  // Fortran takes 63, with what is added to it
 }
 
-std::string exported_text(const export_template& host, const tabulated& method,
-                          const export_options& options) {
+std::string exported_text(const export_template& host, const method& method, const export_options& options) {
   const template_text pieces = text_of_template(host);
   const std::string& name = options.name.empty() ? method.name() : options.name;
   exported_method exported{method, identifier_of(name), options.about};
@@ -179,7 +178,7 @@ std::vector<export_host> export_hosts() {
   return result;
 }
 
-std::string export_to(std::string_view host, const tabulated& method, const export_options& options) {
+std::string export_to(std::string_view host, const method& method, const export_options& options) {
   const auto& all = detail::all_hosts();
   const auto found = std::ranges::find(all, host, detail::name_of);
   if (found == all.end()) {
@@ -190,7 +189,7 @@ std::string export_to(std::string_view host, const tabulated& method, const expo
   return detail::exported_text(*found, method, options);
 }
 
-std::string export_by_template(std::string_view text, std::string_view file, const tabulated& method,
+std::string export_by_template(std::string_view text, std::string_view file, const method& method,
                                const export_options& options) {
   return detail::exported_text(detail::head_of_template(text, file), method, options);
 }

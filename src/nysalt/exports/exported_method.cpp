@@ -157,7 +157,7 @@ exported_method with_displaced_kicks(const exported_method& method) {
   exported_method result = method;
   method_properties promised = method.method;
   promised.order = std::min(promised.order, 4);  // D agrees with G up to h^5 in a step
-  result.method = tabulated(method.method.name(), nysalt::word(letters), c, promised);
+  result.method = nysalt::method(method.method.name(), nysalt::word(letters), c, promised);
   result.about.push_back(
       "The gradient kicks G(b, c) are displaced kicks D(b, 2 c/b) here, which agree with them up "
       "to h^5: the map keeps volume and is reversible, but is not symplectic.");

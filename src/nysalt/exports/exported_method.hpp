@@ -20,7 +20,7 @@ template <class... A>
 
 /// A method for export, and what the header of the exported text says about the method.
 struct exported_method {
-  tabulated method;
+  nysalt::method method;
   std::string name;                ///< an identifier in all hosts
   std::vector<std::string> about;  ///< lines of the header: what it is, what it was learned for, how to cite
 };

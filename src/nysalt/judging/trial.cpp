@@ -55,7 +55,7 @@ accurate_motion follow_at(double step, const model& system, const states& starts
   constexpr std::int64_t coordinates = 1'000'000;  // of all trajectories: a large system needs few
   constexpr std::int64_t samples = 8;              // states of each trajectory
   constexpr double share = 0.03;                   // of the work of a trial
-  const tabulated accurate(blanes_moan_s6{});
+  const method accurate(blanes_moan_s6{});
   const double affordable = share * static_cast<double>(evaluations);
   const int of_step = accurate.letters().evaluations_per_step;
   std::int64_t trajectories =
@@ -167,7 +167,7 @@ std::vector<bool> are_unconfined(const model& system, const states& at, double s
   std::vector<bool> result(at.size(), true);
   if (at.empty()) return result;
   for (const std::int64_t finer : {parts, 4 * parts}) {
-    const auto accurate = make_stepper(system, tabulated(blanes_moan_s6{}), step / static_cast<double>(finer),
+    const auto accurate = make_stepper(system, method(blanes_moan_s6{}), step / static_cast<double>(finer),
                                        counter_noise(options.seed));
     const auto diverged_at = integrate_ensemble<T>(
         accurate, listed<Eigen::Dynamic>(at),
@@ -233,7 +233,7 @@ bool are_clear(const std::vector<course>& courses, double kinetic_energy) {
 }
 
 template <class T>
-std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
+std::vector<course> run_trial(const model& system, const method& method, double step, const states& starts,
                               const trial_plan& plan, const accurate_motion& motion, bool watches,
                               const judging_options& options, unconfined_starts& unconfined) {
   constexpr std::int64_t block = 64;
@@ -292,7 +292,7 @@ std::vector<course> run_trial(const model& system, const tabulated& method, doub
 
 }  // namespace
 
-std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
+std::vector<course> run_trial(const model& system, const method& method, double step, const states& starts,
                               const trial_plan& plan, const accurate_motion& motion, bool watches,
                               const judging_options& options, unconfined_starts& unconfined) {
   return in_lanes_if_filled(system, plan.trajectories, [&]<class T>(T) {

@@ -89,7 +89,7 @@ using unconfined_starts = std::map<std::pair<std::size_t, std::int64_t>, bool>;
 /// these are clear: of the share lost more is not known then than that it is small.
 /// The kinetic energy of the motion is the scale of energies; unless energies are watched only divergence
 /// counts.
-std::vector<course> run_trial(const model& system, const tabulated& method, double step, const states& starts,
+std::vector<course> run_trial(const model& system, const method& method, double step, const states& starts,
                               const trial_plan& plan, const accurate_motion& motion, bool watches,
                               const judging_options& options, unconfined_starts& unconfined);
 

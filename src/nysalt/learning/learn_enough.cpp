@@ -40,9 +40,9 @@ enough_course until_enough(std::int64_t first, const enough_options& options,
   }
 }
 
-learned_enough learn_enough(const run_time_family& family, const model& system,
-                            const initial_states& ensemble, const reference& reference,
-                            const growing_data& growing, const fit_options& options) {
+learned_enough learn_enough(const family& family, const model& system, const initial_states& ensemble,
+                            const reference& reference, const growing_data& growing,
+                            const fit_options& options) {
   flow_map_data data;
   flow_map_data held_out;
   std::optional<fit> found;

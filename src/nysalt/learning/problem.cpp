@@ -12,11 +12,11 @@
 #include <utility>
 
 #include "data_of_problem.hpp"
-#include "nysalt/core/modal_coordinates.hpp"
-#include "nysalt/core/served_letters.hpp"
 #include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/methods/phase_fitted.hpp"
+#include "nysalt/stepping/served_letters.hpp"
+#include "nysalt/systems/modal_coordinates.hpp"
 
 namespace nysalt {
 
@@ -37,7 +37,7 @@ coordinates coordinates_of(const model& system, const fit_options& options, cons
 }
 
 /// The loss of the options, or the usual one, where the family and the data can be fitted by it.
-loss_choice sound_choice(const run_time_family& family, const model& system, const flow_map_data& data,
+loss_choice sound_choice(const family& family, const model& system, const flow_map_data& data,
                          const flow_map_data& held_out, const fit_options& options) {
   require_valid(data, system);
   require_valid(held_out, system);
@@ -111,7 +111,7 @@ struct learning_problem::judges {
   std::vector<std::unique_ptr<const known>> said{};
 };
 
-learning_problem::learning_problem(const run_time_family& to_fit, const model& of_system,
+learning_problem::learning_problem(const nysalt::family& to_fit, const model& of_system,
                                    const flow_map_data& to_learn_from, const flow_map_data& to_judge_by,
                                    const fit_options& how)
     : family(to_fit),
@@ -258,11 +258,11 @@ bool learning_problem::follows(const Eigen::VectorXd& theta) const {
   return relative <= lost * static_cast<double>(motion_.size());
 }
 
-tabulated learning_problem::member(const Eigen::VectorXd& theta) const {
+method learning_problem::member(const Eigen::VectorXd& theta) const {
   return {family.name, family.letters, family.coefficients(theta), {1, false, false}};
 }
 
-const judgement& learning_problem::judged(const tabulated& method, double step) const {
+const judgement& learning_problem::judged(const method& method, double step) const {
   const std::string& letters = method.letters().letters();
   const auto coefficients = method.coefficients();
   for (const auto& known : judges_->said) {
@@ -317,8 +317,8 @@ void require_sound_letters_on(const model& system, const word& letters, const fl
 
 }  // namespace
 
-fit learn(const run_time_family& family, const model& system, const flow_map_data& data,
-          const flow_map_data& held_out, const fit_options& options) {
+fit learn(const family& family, const model& system, const flow_map_data& data, const flow_map_data& held_out,
+          const fit_options& options) {
   require_valid(data, system);
   if (options.check_force) {
     require_sound_force(system, data);

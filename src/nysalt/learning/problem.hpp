@@ -27,10 +27,10 @@ using shared_loss = std::shared_ptr<const loss_on_data>;
 class learning_problem {
  public:
   /// The problem over all steps of the trajectories. Throws what learn() does.
-  learning_problem(const run_time_family& to_fit, const model& of_system, const flow_map_data& to_learn_from,
+  learning_problem(const nysalt::family& to_fit, const model& of_system, const flow_map_data& to_learn_from,
                    const flow_map_data& to_judge_by, const fit_options& how);
 
-  run_time_family family;                 ///< family to fit
+  nysalt::family family;                  ///< family to fit
   model system;                           ///< system that the data are of
   const flow_map_data& data;              ///< data to learn from
   const flow_map_data& held_out;          ///< data to judge by
@@ -66,9 +66,9 @@ class learning_problem {
   /// loss is not one of trajectories.
   bool follows(const Eigen::VectorXd& theta) const;
   /// The word with the coefficients of a member, as a method.
-  tabulated member(const Eigen::VectorXd& theta) const;
+  nysalt::method member(const Eigen::VectorXd& theta) const;
   /// The judgement of a method at a step. What was judged once is known.
-  const judgement& judged(const tabulated& method, double step) const;
+  const judgement& judged(const nysalt::method& method, double step) const;
   /// Force evaluations of all ranks so far, data included.
   std::int64_t evaluations() const;
   /// Whether windows are in lanes.

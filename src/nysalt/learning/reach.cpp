@@ -105,8 +105,8 @@ Eigen::VectorXd theta_curve::at(double step) const {
   return result;
 }
 
-tabulated at_size_of(const model& system, const tabulated& learned, const initial_states& starts,
-                     const judging_options& options) {
+method at_size_of(const model& system, const method& learned, const initial_states& starts,
+                  const judging_options& options) {
   const auto& validity = learned.validity();
   if (!validity || describe(system) == validity->system) return learned;
   const auto refuse = [&](const std::string& why) {

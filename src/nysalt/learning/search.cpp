@@ -83,7 +83,7 @@ std::optional<candidate> first_to_withstand(const search_task& task, const std::
 
 }  // namespace
 
-Eigen::VectorXd random_start(const run_time_family& family, Eigen::VectorXd theta,
+Eigen::VectorXd random_start(const family& family, Eigen::VectorXd theta,
                              const std::vector<Eigen::Index>& free, std::uint64_t seed, std::uint64_t n) {
   const double deviation = 0.6 * std::exp2(-static_cast<double>(n % 4));
   Eigen::VectorXd normals(theta.size());
@@ -96,7 +96,7 @@ Eigen::VectorXd random_start(const run_time_family& family, Eigen::VectorXd thet
   return theta;
 }
 
-Eigen::VectorXd inside(const run_time_family& family, Eigen::VectorXd theta) {
+Eigen::VectorXd inside(const family& family, Eigen::VectorXd theta) {
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
     const auto& [low, high, open] = family.ranges[static_cast<std::size_t>(k)];
     const double inset = open ? 1e-3 * (high - low) : 0.0;

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/family.hpp"
 #include "nysalt/losses/squares.hpp"
-#include "nysalt/run_time_family.hpp"
 
 namespace nysalt {
 
@@ -42,7 +42,7 @@ struct search_stage {
 
 /// Inputs of a search.
 struct search_task {
-  const run_time_family* family;         ///< family, with ranges and domain of the parameters
+  const nysalt::family* family;          ///< family, with ranges and domain of the parameters
   objective loss;                        ///< loss to minimise
   std::vector<search_stage> stages{};    ///< losses that are minimised roughly before
   objective one_step_loss{};             ///< one-step loss, whose least minimum is a start, too; empty: none
@@ -59,11 +59,11 @@ struct search_task {
 
 /// Theta normal around a start, with a deviation of .6, .3, .15 or .075 in turn, as coefficients are of order
 /// one and shorter in long words: number n of a seed.
-Eigen::VectorXd random_start(const run_time_family& family, Eigen::VectorXd theta,
+Eigen::VectorXd random_start(const nysalt::family& family, Eigen::VectorXd theta,
                              const std::vector<Eigen::Index>& free, std::uint64_t seed, std::uint64_t n);
 
 /// The theta nearest to this one that lies in all ranges.
-Eigen::VectorXd inside(const run_time_family& family, Eigen::VectorXd theta);
+Eigen::VectorXd inside(const nysalt::family& family, Eigen::VectorXd theta);
 
 /// Result of all starts. `unguarded` is the best of all where the guard did not admit it.
 struct search_result {

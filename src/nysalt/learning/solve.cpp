@@ -43,8 +43,8 @@ std::optional<named_parameters> best_contained(search_task task, const learning_
 
 /// The member at theta, for the step and the system of the data. A covariance loss asks no data, and has seen
 /// no energies.
-tabulated learned_method(const learning_problem& problem, const Eigen::VectorXd& theta, bool is_of_data) {
-  const run_time_family& family = problem.family;
+method learned_method(const learning_problem& problem, const Eigen::VectorXd& theta, bool is_of_data) {
+  const family& family = problem.family;
   return {family.name,
           family.letters,
           family.coefficients(theta),
@@ -97,7 +97,7 @@ class solution {
   std::string objection_to_unguarded() const;
 
   const learning_problem& problem_;
-  const run_time_family& family_;
+  const family& family_;
   const fit_options& options_;
   const shard share_;
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();

@@ -11,10 +11,10 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "nysalt/core/served_letters.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/derivatives/oscillator.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
+#include "nysalt/stepping/served_letters.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {

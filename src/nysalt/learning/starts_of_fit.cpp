@@ -31,8 +31,7 @@ Eigen::VectorXd weights_of_defects(Eigen::Index count, double z, bool is_kernel)
 
 }  // namespace
 
-objective oscillator_loss(const run_time_family& family, const std::vector<frequency_band>& bands,
-                          double step) {
+objective oscillator_loss(const family& family, const std::vector<frequency_band>& bands, double step) {
   constexpr int points_of_band = 4;
   std::vector<double> angles;
   for (const auto& [low, high] : bands) {
@@ -66,7 +65,7 @@ void fix(const fit_options& options, Eigen::VectorXd& theta) {
   }
 }
 
-std::vector<Eigen::Index> free_parameters(const run_time_family& family, const fit_options& options) {
+std::vector<Eigen::Index> free_parameters(const family& family, const fit_options& options) {
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < family.parameters(); ++k) {
     if (options.fixed.empty() || !options.fixed[static_cast<std::size_t>(k)]) free.push_back(k);
@@ -87,7 +86,7 @@ int usual_random_starts(const learning_problem& problem, effort how_much, std::s
 
 }  // namespace
 
-std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
+std::vector<named_parameters> starts_of(const family& family, const fit_options& options,
                                         const learning_problem& problem,
                                         const std::vector<Eigen::Index>& free) {
   std::vector<named_parameters> starts = family.starts;
@@ -175,7 +174,7 @@ void require_same(const communicator& ranks, const Eigen::VectorXd& theta) {
   });
 }
 
-void require_sound(const run_time_family& family, const fit_options& options) {
+void require_sound(const family& family, const fit_options& options) {
   if (options.planned_steps < 1) {
     throw std::invalid_argument(
         fmt::format("learn: planned_steps must be at least 1, got {}", options.planned_steps));

@@ -7,7 +7,7 @@
 
 #include "nysalt/communicator.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
-#include "nysalt/run_time_family.hpp"
+#include "nysalt/family.hpp"
 #include "problem.hpp"
 #include "search.hpp"
 
@@ -17,18 +17,17 @@ namespace nysalt::detail {
 /// and R that of the exact flow; nothing for words with rotations, which are exact on their modes. Its minima
 /// are starts of a search where the step is so large that no trajectory from elsewhere stays finite. Cost:
 /// some microseconds.
-objective oscillator_loss(const run_time_family& family, const std::vector<frequency_band>& bands,
-                          double step);
+objective oscillator_loss(const family& family, const std::vector<frequency_band>& bands, double step);
 
 /// Puts in the values of parameters that are not to be learned.
 void fix(const fit_options& options, Eigen::VectorXd& theta);
 
 /// The numbers of the parameters that are to be learned.
-std::vector<Eigen::Index> free_parameters(const run_time_family& family, const fit_options& options);
+std::vector<Eigen::Index> free_parameters(const nysalt::family& family, const fit_options& options);
 
 /// The starts of the family or the start that was asked for, further starts, and random ones. Of `problem`
 /// only what is known of the system and the data counts.
-std::vector<named_parameters> starts_of(const run_time_family& family, const fit_options& options,
+std::vector<named_parameters> starts_of(const nysalt::family& family, const fit_options& options,
                                         const learning_problem& problem,
                                         const std::vector<Eigen::Index>& free);
 
@@ -45,6 +44,6 @@ search_task within(const contained_family& inner, search_task task);
 void require_same(const communicator& ranks, const Eigen::VectorXd& theta);
 
 /// Throws std::invalid_argument for options that the family cannot take.
-void require_sound(const run_time_family& family, const fit_options& options);
+void require_sound(const nysalt::family& family, const fit_options& options);
 
 }  // namespace nysalt::detail

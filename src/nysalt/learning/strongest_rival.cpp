@@ -52,7 +52,7 @@ std::optional<placement> placement_in(const nysalt::word& word) {
 }
 
 /// The method with letters O where the family has its own; nothing where it cannot have them.
-std::optional<tabulated> placed(const tabulated& method, const nysalt::word& family) {
+std::optional<method> placed(const method& method, const nysalt::word& family) {
   if (family.stochastic_letters == 0) return method;
   const auto place = placement_in(family);
   if (!place || method.letters().is_processed()) return std::nullopt;
@@ -69,8 +69,8 @@ bool is_served(const nysalt::word& word, const learning_problem& problem) {
   return true;
 }
 
-std::vector<double> losses_of(const tabulated& method, const loss_on_data& loss) {
-  const run_time_family as_family(method.name(), method.letters(), method.coefficients());
+std::vector<double> losses_of(const method& method, const loss_on_data& loss) {
+  const family as_family(method.name(), method.letters(), method.coefficients());
   return loss.of_family(as_family)->by_trajectory({});
 }
 
@@ -92,7 +92,7 @@ const shared_loss& held_out_by_times::at_every(int times) {
 }
 
 std::optional<contender> rival_of(const learning_problem& problem, held_out_by_times& held_out,
-                                  const tabulated& method, const Eigen::VectorXd& theta) {
+                                  const method& method, const Eigen::VectorXd& theta) {
   if (method.requires_quadratic_kinetic && !has_quadratic_kinetic(problem.system)) return std::nullopt;
   const nysalt::word& family = problem.family.letters;
   const int ours = family.evaluations_per_step;

@@ -20,7 +20,7 @@ struct contender {
   std::string name;
   std::vector<double> losses;  // of each held-out trajectory of this rank
   double loss = 0.0;           // of all
-  tabulated method;            // word and coefficients that are judged
+  nysalt::method method;       // word and coefficients that are judged
   double judged_step = 0.0;    // step at which they are; in a bath that of several steps as one
   Eigen::VectorXd theta{};     // of members of the family
   double step = 0.0;           // of a method that is no member; 0: that of the data
@@ -48,7 +48,7 @@ class held_out_by_times {
 /// are multiples of both steps. Nothing if the system does not serve its letters, if there are no such
 /// times, or if the word has letters O or a processor and the step does not divide.
 std::optional<contender> rival_of(const learning_problem& problem, held_out_by_times& held_out,
-                                  const tabulated& method, const Eigen::VectorXd& theta);
+                                  const method& method, const Eigen::VectorXd& theta);
 
 /// The classical methods of any number of evaluations a step, at equal cost, that the system serves.
 std::vector<contender> classical_rivals(const learning_problem& problem, const Eigen::VectorXd& theta);

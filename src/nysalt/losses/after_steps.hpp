@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "nysalt/communicator.hpp"
-#include "nysalt/core/ensemble_loop.hpp"
 #include "nysalt/core/sentence.hpp"
+#include "nysalt/family.hpp"
 #include "nysalt/losses/loss_choice.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/window_error.hpp"
-#include "nysalt/run_time_family.hpp"
+#include "nysalt/parallel/ensemble_loop.hpp"
 #include "nysalt/stepper.hpp"
 #include "windows.hpp"
 
@@ -55,7 +55,7 @@ class after_steps : public loss_on_data {
   /// Refers to what the error refers to, and copies the data. Throws std::invalid_argument
   /// if no trajectory is as long, if R is a pack and the system is stepped over double only, or if the
   /// system is in a noisy bath and the data do not hold the noise that the letters O of the word need.
-  after_steps(const run_time_family& family, const model& system, const flow_map_data& data,
+  after_steps(const nysalt::family& family, const model& system, const flow_map_data& data,
               window_error<R> error, const after_steps_options& options = {})
       : family_(family),
         system_(system),
@@ -85,7 +85,7 @@ class after_steps : public loss_on_data {
 
   /// The loss of another family over the same windows, which both share. The other word must have its
   /// letters O where this one has.
-  after_steps(const after_steps& same, const run_time_family& family)
+  after_steps(const after_steps& same, const nysalt::family& family)
       : family_(family),
         system_(same.system_),
         error_(same.error_),
@@ -101,7 +101,7 @@ class after_steps : public loss_on_data {
   Eigen::VectorXd by_residual(const Eigen::VectorXd& theta) const override;
   std::vector<Eigen::MatrixXd> gradients(const Eigen::VectorXd& theta) const override;
   bool has_estimated_weights() const override { return error_.weight_deviations != nullptr; }
-  std::unique_ptr<const loss_on_data> of_family(const run_time_family& family) const override {
+  std::unique_ptr<const loss_on_data> of_family(const nysalt::family& family) const override {
     return std::make_unique<const after_steps>(*this, family);
   }
   const shard& share() const override { return share_; }
@@ -275,7 +275,7 @@ class after_steps : public loss_on_data {
     return {needed.in_parts(data.noise_parts), in.friction() * data.step / data.noise_parts};
   }
 
-  run_time_family family_;
+  nysalt::family family_;
   model system_;
   window_error<R> error_;
   double step_;

@@ -98,7 +98,7 @@ std::vector<after_steps_options> stages_of_trajectory(int, int shortest) {
 
 // covariance, the loss of the stationary distribution of a thermostatted word: no data are needed.
 
-objective of_law(const model& system, const run_time_family& family, double step) {
+objective of_law(const model& system, const family& family, double step) {
   return objective_of(stationary_covariance(system, family.letters, step), family);
 }
 // acceptance, the energy's error at several times of whole trajectories: what Metropolis' rule rejects by.
@@ -154,7 +154,7 @@ std::map<double, double> spectrum_of(const model& system) {
 }
 
 /// The argument of acceptance_at(): half of rho at h omega for each oscillator.
-objective of_spectrum(const model& system, const run_time_family& family, double step) {
+objective of_spectrum(const model& system, const family& family, double step) {
   if (!family.symmetric || family.letters.rotates() || family.letters.is_processed()) {
     throw std::invalid_argument(
         fmt::format("gaussian_acceptance: the family must be symmetric, without rotations and "

@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "after_steps.hpp"
-#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/window_error.hpp"
+#include "nysalt/systems/modal_coordinates.hpp"
 
 namespace nysalt {
 

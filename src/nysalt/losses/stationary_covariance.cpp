@@ -10,8 +10,8 @@
 #include <string>
 
 #include "lyapunov.hpp"
-#include "nysalt/core/served_letters.hpp"
 #include "nysalt/stepper.hpp"
+#include "nysalt/stepping/served_letters.hpp"
 
 namespace nysalt {
 
@@ -153,7 +153,7 @@ void stationary_covariance::split_at_bath() {
   }
 }
 
-objective objective_of(const stationary_covariance& loss, const run_time_family& family) {
+objective objective_of(const stationary_covariance& loss, const family& family) {
   return [=](const Eigen::VectorXd& theta) {
     return loss.at(family.coefficients(theta), family.jacobian(theta));
   };

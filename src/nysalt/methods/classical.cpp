@@ -5,15 +5,15 @@
 
 namespace nysalt {
 
-tabulated as_data(const classical_row& row) {
+method as_data(const classical_row& row) {
   return {std::string(row.name),
           word(row.letters),
           {row.coefficients.begin(), row.coefficients.end()},
           {row.order, row.symmetric, row.requires_quadratic_kinetic}};
 }
 
-std::vector<tabulated> classical_methods() {
-  std::vector<tabulated> result;
+std::vector<method> classical_methods() {
+  std::vector<method> result;
   for (const auto& row : classical_table) {
     const bool is_for_baths = row.letters.find(ornstein_uhlenbeck::letter) != std::string_view::npos;
     if (!is_for_baths && !row.repeats) result.push_back(as_data(row));

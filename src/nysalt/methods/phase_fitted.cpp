@@ -49,7 +49,7 @@ Eigen::VectorXd defect_of_rotation(const word& letters, const std::vector<double
   return defects;
 }
 
-Eigen::MatrixXd jacobian_of_defect(const run_time_family& family, const Eigen::VectorXd& theta, double x) {
+Eigen::MatrixXd jacobian_of_defect(const family& family, const Eigen::VectorXd& theta, double x) {
   auto coefficients = family.coefficients(theta);
   const auto defect = [&] { return defect_of_rotation(family.letters, coefficients, family.symmetric, x); };
   const Eigen::VectorXd here = defect();
@@ -67,9 +67,8 @@ namespace {
 
 /// The solution nearest to `nearest`, from a guess close to it: each iteration solves the linearised
 /// equations with the least distance. Nothing where that does not converge.
-std::optional<Eigen::VectorXd> nearest_phase_fitted(const run_time_family& family,
-                                                    const Eigen::VectorXd& nearest, Eigen::VectorXd theta,
-                                                    double x) {
+std::optional<Eigen::VectorXd> nearest_phase_fitted(const family& family, const Eigen::VectorXd& nearest,
+                                                    Eigen::VectorXd theta, double x) {
   constexpr int most = 100;
   constexpr double small = 1e-10;     // from here on a change that no longer falls is rounding
   constexpr double solved = 1e-10;    // else it is the least of the defects, and not zero
@@ -96,7 +95,7 @@ std::optional<Eigen::VectorXd> nearest_phase_fitted(const run_time_family& famil
 
 }  // namespace
 
-phase_fitting fit_phase(const run_time_family& family, const Eigen::VectorXd& nearest, double z) {
+phase_fitting fit_phase(const family& family, const Eigen::VectorXd& nearest, double z) {
   constexpr double longest = 0.5;
   constexpr double shortest = 1e-4;
   constexpr double farthest_move = 0.25;  // a solution that jumps belongs to another branch
@@ -127,7 +126,7 @@ phase_fitting fit_phase(const run_time_family& family, const Eigen::VectorXd& ne
 
 namespace nysalt {
 
-std::optional<named_parameters> phase_fitted_start(const run_time_family& family, double z) {
+std::optional<named_parameters> phase_fitted_start(const family& family, double z) {
   if (!(z > 0.0) || !std::isfinite(z)) {
     throw std::invalid_argument(sentence(
         "phase_fitted_start: z = step * frequency must be positive and finite, got {}; fit to a mode that "
@@ -151,7 +150,7 @@ std::optional<named_parameters> phase_fitted_start(const run_time_family& family
 namespace {
 
 /// The start of the family that has the coefficients of the method; nothing if there is none.
-std::optional<Eigen::VectorXd> parameters_of_method(const run_time_family& family, const tabulated& method) {
+std::optional<Eigen::VectorXd> parameters_of_method(const family& family, const nysalt::method& method) {
   constexpr double rounding = 1e-14;  // sums of some coefficients of order one
   const auto& wanted = method.coefficients();
   for (const auto& one : family.starts) {
@@ -165,7 +164,7 @@ std::optional<Eigen::VectorXd> parameters_of_method(const run_time_family& famil
 
 }  // namespace
 
-tabulated phase_fitted(const run_time_family& family, const tabulated& classical, double z) {
+method phase_fitted(const family& family, const method& classical, double z) {
   const std::string name = "phase_fitted_" + classical.name();
   if (!(family.letters == classical.letters()) || !family.symmetric || family.parameters() < 2 ||
       family.letters.reads != field::whole || classical.order < 4) {

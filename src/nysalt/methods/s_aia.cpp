@@ -130,11 +130,11 @@ std::vector<double> of_three_stages(double b) {
 }  // namespace
 
 s_aia2::s_aia2(double highest_z)
-    : tabulated("s_aia2", letters_of_all, of_two_stages(coefficient_of_two_stages(highest_z)), promises),
+    : method("s_aia2", letters_of_all, of_two_stages(coefficient_of_two_stages(highest_z)), promises),
       highest_z_(highest_z) {}
 
 s_aia3::s_aia3(double highest_z)
-    : tabulated("s_aia3", letters_of_all, of_three_stages(coefficient_of_three_stages(highest_z)), promises),
+    : method("s_aia3", letters_of_all, of_three_stages(coefficient_of_three_stages(highest_z)), promises),
       highest_z_(highest_z) {}
 
 s_aia2 s_aia2_for(const model& system, double step) {

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/force.hpp"
+#include "nysalt/systems/modal_coordinates.hpp"
 
 namespace nysalt {
 

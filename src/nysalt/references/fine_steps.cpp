@@ -69,7 +69,7 @@ class evaluations_of_interval {
 template <class T>
 class steps_run final : public reference_run<T> {
  public:
-  steps_run(const model& system, const tabulated& method, double step,
+  steps_run(const model& system, const nysalt::method& method, double step,
             const phase_point<T, Eigen::Dynamic>& start, const reference_intervals& intervals)
       : reference_run<T>(start, intervals),
         steps_(steps_in_interval(intervals.length, step)),
@@ -111,7 +111,7 @@ struct summing_noise {
 template <class T>
 class path_run final : public reference_run<T> {
  public:
-  path_run(const model& system, const tabulated& method, double step, int halvings,
+  path_run(const model& system, const nysalt::method& method, double step, int halvings,
            const phase_point<T, Eigen::Dynamic>& start, const reference_intervals& intervals)
       : reference_run<T>(start, intervals),
         parts_(std::max(intervals.noise_parts, 1)),
@@ -153,7 +153,7 @@ class path_run final : public reference_run<T> {
 /// Small steps; along paths if there is a number of halvings of the step with fresh noise.
 class small_steps final : public detail::reference_kind {
  public:
-  small_steps(double step, tabulated method, std::optional<int> halvings)
+  small_steps(double step, nysalt::method method, std::optional<int> halvings)
       : step_(step), method_(std::move(method)), halvings_(halvings) {}
 
   std::unique_ptr<reference_run<double>> open(const model& system, const start_of_one& start,
@@ -184,7 +184,7 @@ class small_steps final : public detail::reference_kind {
   }
 
   double step_;
-  tabulated method_;
+  nysalt::method method_;
   std::optional<int> halvings_;
 };
 
@@ -195,16 +195,16 @@ void require_step(const std::string& who, double step) {
 
 }  // namespace
 
-reference fine_steps(double step) { return fine_steps(step, tabulated(srkn11b())); }
+reference fine_steps(double step) { return fine_steps(step, method(srkn11b())); }
 
-reference fine_steps(double step, const tabulated& method) {
+reference fine_steps(double step, const method& method) {
   require_step("fine_steps", step);
   return reference(std::make_shared<small_steps>(step, method, std::nullopt));
 }
 
-reference fine_paths(double step) { return fine_paths(step, tabulated(baoab())); }
+reference fine_paths(double step) { return fine_paths(step, method(baoab())); }
 
-reference fine_paths(double step, const tabulated& method) {
+reference fine_paths(double step, const method& method) {
   require_step("fine_paths", step);
   if (const int letters = method.letters().stochastic_letters; letters != 1) {
     throw std::invalid_argument(

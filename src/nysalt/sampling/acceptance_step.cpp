@@ -18,7 +18,7 @@ namespace nysalt {
 
 namespace {
 
-void require_proposals(const model& system, const tabulated& method, double step,
+void require_proposals(const model& system, const method& method, double step,
                        const proposal_options& options) {
   constexpr const char* who = "acceptance_of_proposals";
   detail::require_metropolis_applies(who, system, method, options.temperature);
@@ -62,7 +62,7 @@ double slope_of_acceptance(double mu) {
 
 }  // namespace
 
-proposal_acceptance acceptance_of_proposals(const model& system, const tabulated& method, double step,
+proposal_acceptance acceptance_of_proposals(const model& system, const method& method, double step,
                                             const initial_states& states, const proposal_options& options) {
   require_proposals(system, method, step, options);
   const auto shares = shares_of_steps(2.0 * options.length / step);
@@ -112,16 +112,15 @@ proposal_acceptance acceptance_of_proposals(const model& system, const tabulated
   return {mean_and_error(of_each), of_each};
 }
 
-acceptance_step step_at_acceptance(const model& system,
-                                   const std::function<tabulated(double step)>& method_at, double acceptance,
-                                   double guess, const initial_states& states,
+acceptance_step step_at_acceptance(const model& system, const std::function<method(double step)>& method_at,
+                                   double acceptance, double guess, const initial_states& states,
                                    const proposal_options& options) {
   if (!(acceptance > 0.0 && acceptance < 1.0)) {
     throw std::invalid_argument(
         sentence("step_at_acceptance: the acceptance must be between 0 and 1, got {}", acceptance));
   }
   const auto accepted = [&](double step) -> proposal_acceptance {
-    std::optional<tabulated> method;
+    std::optional<method> method;
     try {
       method = method_at(step);
     } catch (const std::invalid_argument&) {

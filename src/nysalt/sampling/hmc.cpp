@@ -68,7 +68,7 @@ bool has_room_for_lanes(const model& system) {
 
 }  // namespace
 
-hmc_result hmc(const model& system, const tabulated& method, const initial_states& starts,
+hmc_result hmc(const model& system, const method& method, const initial_states& starts,
                const hmc_options& options, const std::function<void(const hmc_draw&)>& take) {
   detail::require_metropolis_applies("hmc", system, method, options.temperature);
   require_options(system, options);

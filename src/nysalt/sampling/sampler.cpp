@@ -16,7 +16,7 @@
 
 namespace nysalt::detail {
 
-void require_metropolis_applies(const char* who, const model& system, const tabulated& method,
+void require_metropolis_applies(const char* who, const model& system, const method& method,
                                 double temperature) {
   if (!method.symmetric) {
     throw std::invalid_argument(
@@ -33,7 +33,7 @@ void require_metropolis_applies(const char* who, const model& system, const tabu
   }
 }
 
-energy_rises rises_of_energy(const model& system, const tabulated& method, double step,
+energy_rises rises_of_energy(const model& system, const method& method, double step,
                              const initial_states& starts, const ensemble_options& options) {
   const auto samples = static_cast<std::size_t>(options.steps / options.every);
   std::vector<double> at_start(static_cast<std::size_t>(options.trajectories));

@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "nysalt/communicator.hpp"
-#include "nysalt/core/ensemble_loop.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/hmc.hpp"
 #include "nysalt/initial_states.hpp"
@@ -28,6 +27,7 @@
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
+#include "nysalt/parallel/ensemble_loop.hpp"
 #include "nysalt/shard.hpp"
 #include "nysalt/stepper.hpp"
 
@@ -35,7 +35,7 @@ namespace nysalt::detail {
 
 /// Throws std::invalid_argument, in the name of `who`, if the method is not reversible, the system is in a
 /// bath that acts, or kT is not positive and finite.
-void require_metropolis_applies(const char* who, const model& system, const tabulated& method,
+void require_metropolis_applies(const char* who, const model& system, const nysalt::method& method,
                                 double temperature);
 
 /// Rises H' - H of the energy along trajectories of an ensemble.
@@ -45,7 +45,7 @@ struct energy_rises {
 };
 
 /// The rises on the trajectories of this rank; infinite once a trajectory has diverged. Collective.
-energy_rises rises_of_energy(const model& system, const tabulated& method, double step,
+energy_rises rises_of_energy(const model& system, const nysalt::method& method, double step,
                              const initial_states& starts, const ensemble_options& options);
 
 // Means and variances of chains, from which masses follow.
@@ -313,7 +313,7 @@ inline std::int64_t steps_of(const hmc_options& options, std::int64_t trajectory
 template <class T>
 class sampler {
  public:
-  sampler(const model& system, const tabulated& method, const initial_states& starts,
+  sampler(const model& system, const nysalt::method& method, const initial_states& starts,
           const hmc_options& options)
       : system_(system),
         target_(system),
@@ -550,7 +550,7 @@ class sampler {
 
   const model& system_;
   model target_;  // what is stepped: the system, or in units of its deviations
-  const tabulated& method_;
+  const nysalt::method& method_;
   const hmc_options& options_;
   shard mine_;
   progress_callback report_;

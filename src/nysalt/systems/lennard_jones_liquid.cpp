@@ -11,9 +11,9 @@
 
 #include "lennard_jones_pair.hpp"
 #include "neighbour_list.hpp"
-#include "nysalt/core/ensemble_loop.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/core/tree_sum.hpp"
+#include "nysalt/parallel/ensemble_loop.hpp"
 
 namespace nysalt {
 

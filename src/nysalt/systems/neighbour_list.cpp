@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "nysalt/core/ensemble_loop.hpp"
+#include "nysalt/parallel/ensemble_loop.hpp"
 
 namespace nysalt::detail {
 

@@ -98,7 +98,7 @@ void require_files(const sample_command& command) {
 }
 
 /// All that decides the bytes of the output.
-json question_of(const sample_command& command, const prepared_problem& system, const tabulated& method,
+json question_of(const sample_command& command, const prepared_problem& system, const method& method,
                  const hmc_options& options) {
   return {{"system", system.parameters()},
           {"description", system.description()},
@@ -240,8 +240,8 @@ std::string text_of(const sample_command& command, const method_source& source,
 }
 
 /// The method at its step. Throws refusal for what cannot be sampled with.
-tabulated method_for(const method_source& source, const prepared_problem& system, const hmc_options& options,
-                     bool force, std::vector<std::string>& warnings) {
+method method_for(const method_source& source, const prepared_problem& system, const hmc_options& options,
+                  bool force, std::vector<std::string>& warnings) {
   if (source.family) {
     refuse(
         "{} must be learned first: nysalt learn --family {} --loss acceptance --step STEP --output "
@@ -251,7 +251,7 @@ tabulated method_for(const method_source& source, const prepared_problem& system
   if (options.acceptance && !source.fixed && !force) {
     refuse("{} must run at its own step; give --step without --acceptance, or --force", source.typed);
   }
-  tabulated method =
+  nysalt::method method =
       source.fixed ? *source.fixed : coefficients_at(source, system, options.step, force, {}, warnings);
   system.require_served(method.letters());
   return method;
@@ -298,7 +298,7 @@ int sample(const sample_command& command, const common_settings& common) {
   charge(source, *system);
   hmc_options options = hmc_options_of(command, *system, source, common);
   std::vector<std::string> warnings;
-  const tabulated method = method_for(source, *system, options, common.force, warnings);
+  const nysalt::method method = method_for(source, *system, options, common.force, warnings);
   const std::int64_t shown = std::min<std::int64_t>(system->dimension(), 1000);
   require_room(command, shown);
 

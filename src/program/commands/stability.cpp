@@ -24,7 +24,7 @@ namespace {
 
 struct subject {
   std::string name;
-  tabulated method;
+  nysalt::method method;
 };
 
 std::vector<letter_facts> letters_of(const prepared_problem* system) {
@@ -39,7 +39,7 @@ subject subject_of(const stability_command& command, const prepared_problem* sys
       refuse("stability: a method must be given; give --method NAME or FILE, or --family with --parameters");
     }
     const std::string family = command.family.value_or("nystrom");
-    const tabulated method = family_member(family, command.parameters, letters_of(system));
+    const nysalt::method method = family_member(family, command.parameters, letters_of(system));
     if (system != nullptr) {
       system->require_served(method.letters());
       system->require_sound_letters(family, method.letters(), *command.step);
@@ -133,7 +133,7 @@ void add_judgement(answer& result, const judgement& found) {
 }
 
 /// Where the step lies among the windows, and which steps are stable and safe.
-void add_steps(answer& result, const tabulated& method, const stability_chart& chart,
+void add_steps(answer& result, const method& method, const stability_chart& chart,
                const prepared_problem& system, const judgement& found, int threads) {
   json& document = result.document;
   auto bands = system.frequency_bands();
@@ -188,7 +188,7 @@ std::optional<resonance> nearest_resonance(const std::vector<double>& modes, dou
 }
 
 /// Which modes a word that rotates magnifies, and which pair of them grows.
-void add_rotation(answer& result, const tabulated& method, const prepared_problem& system, double step) {
+void add_rotation(answer& result, const method& method, const prepared_problem& system, double step) {
   const auto guard = system.guard(method.letters());
   const auto worst = guard.most_magnified(method.letters(), method.coefficients(), step);
   json& document = result.document;

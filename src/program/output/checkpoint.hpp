@@ -10,7 +10,7 @@
 
 #include "comparison/json.hpp"
 #include "comparison/sampled_run.hpp"
-#include "nysalt/core/divergence.hpp"
+#include "nysalt/stepping/divergence.hpp"
 #include "unfinished_file.hpp"
 
 namespace nysalt::program {

@@ -23,8 +23,8 @@ struct planned_run {
   std::unique_ptr<prepared_problem> system;
   trajectories_plan plan;
   method_source source;
-  std::optional<tabulated> method;  // always there
-  judgement unchecked;              // what stands where checks are left out
+  std::optional<nysalt::method> method;  // always there
+  judgement unchecked;                   // what stands where checks are left out
   std::uint64_t seed;
   std::vector<std::string> warnings;  // of the method as it is
 

@@ -28,7 +28,7 @@ flow_map_data data_of(std::int64_t trajectories, std::uint64_t seed) {
 /// Errors that take the weights for given: the paper's theorem, but not its estimator.
 Eigen::VectorXd errors_without_weights(const flow_map_data& data, const Eigen::VectorXd& theta) {
   const metric measure(chain, data, coordinates::qp);
-  const after_steps<> loss(run_time_family(nystrom()), chain, data, state_error(measure));
+  const after_steps<> loss(family(nystrom()), chain, data, state_error(measure));
   const std::vector<Eigen::VectorXd> none;
   return curvature(hessian(objective_of(loss), theta), {0, 1})
       .spread(trajectory_gradients(loss, theta), none)
@@ -38,8 +38,7 @@ Eigen::VectorXd errors_without_weights(const flow_map_data& data, const Eigen::V
 /// The errors of a fit of data as few as one likes, of which the summary says only that they are not known.
 Eigen::VectorXd errors_of(const flow_map_data& data, const flow_map_data& held_out,
                           const Eigen::VectorXd& theta) {
-  const learning_problem problem(run_time_family(nystrom{}), chain, data, held_out,
-                                 {.loss = loss_named("state:1")});
+  const learning_problem problem(family(nystrom{}), chain, data, held_out, {.loss = loss_named("state:1")});
   const curvature bend(hessian(problem.loss, theta), {0, 1});
   return bend.spread(problem.scores(theta), problem.held_out_scores(theta)).standard_errors;
 }

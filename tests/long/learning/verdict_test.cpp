@@ -14,7 +14,7 @@ namespace {
 
 /// Learns a family from trajectories of ten steps, or of a horizon.
 template <class S, class E, class R>
-fit fit_of(const run_time_family& family, const S& system, const E& law, const R& reference, double step,
+fit fit_of(const family& family, const S& system, const E& law, const R& reference, double step,
            double horizon, fit_options options = {}, std::int64_t trajectories = 50) {
   if (!options.loss) options.loss = loss_named("state:1");
   const data_options of_data{.step = step, .horizon = horizon, .trajectories = trajectories};
@@ -23,11 +23,11 @@ fit fit_of(const run_time_family& family, const S& system, const E& law, const R
 
 /// Of 64 starts that no fit has seen, those that are lost in that many steps.
 template <class S, class E>
-std::int64_t lost_of(const S& system, const E& law, const run_time_family& family, const fit& found,
+std::int64_t lost_of(const S& system, const E& law, const family& family, const fit& found,
                      std::int64_t steps) {
   phase_points starts;
   for (std::uint64_t n = 0; n < 64; ++n) starts.push_back(law(77, n));
-  const tabulated method("found", family.letters, family.coefficients(found.theta), {1, false, false});
+  const method method("found", family.letters, family.coefficients(found.theta), {1, false, false});
   return judge(system, starts, method, found.summary.step, {.steps = steps}).lost;
 }
 
@@ -38,7 +38,7 @@ const auto particle_law = around_rest<1>(0.5, 1.0);
 BOOST_AUTO_TEST_CASE(a_kinetic_energy_that_is_not_quadratic_is_guarded_too) {
   int refused = 0;
   for (const double step : {0.1, 0.2, 0.34, 0.38}) {
-    const run_time_family family{nystrom{}};
+    const nysalt::family family{nystrom{}};
     const auto found = fit_of(family, fast_particle{}, particle_law,
                               fine_steps(step / 64.0, blanes_moan_s6()), step, 10.0 * step);
     BOOST_TEST_CONTEXT(found.summary.full()) {
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(what_is_handed_out_is_not_worse_than_a_member_that_was_know
   for (Eigen::Index k = 0; k < 100; ++k) squares[k] = static_cast<double>((k + 1) * (k + 1));
   const linear_chain target(Eigen::MatrixXd(squares.asDiagonal()));
   const gibbs_of_modes<Eigen::Dynamic> law(target, 1.0);
-  const run_time_family family{bab<3>{}};
+  const nysalt::family family{bab<3>{}};
   constexpr double step = 1.5 / 40.0;
   const auto fitted = [&](fit_options options) {
     options.loss = loss_named("energy:40");

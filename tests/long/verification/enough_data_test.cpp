@@ -43,11 +43,11 @@ const flow_map_data& many() {
 }
 
 /// From its usual start, as there is one minimum.
-fit fit_of(const run_time_family& family, const flow_map_data& data, const flow_map_data& held_out) {
+fit fit_of(const family& family, const flow_map_data& data, const flow_map_data& held_out) {
   return learn(family, chain, data, held_out, {.loss = loss_named("state:1"), .threads = 2});
 }
 
-fit fit_of(const run_time_family& family, const flow_map_data& data) {
+fit fit_of(const family& family, const flow_map_data& data) {
   static const auto held_out = data_of(4, 999'999);
   return fit_of(family, data, held_out);
 }
@@ -68,7 +68,7 @@ struct coverage {
   double squares_taken_apart = 0.0;
 };
 
-std::vector<coverage> coverage_of(const run_time_family& family) {
+std::vector<coverage> coverage_of(const family& family) {
   const auto truth = fit_of(family, many()).summary.parameters;
   const auto count = static_cast<std::size_t>(family.parameters());
   std::vector<coverage> result(count);
@@ -98,7 +98,7 @@ std::vector<coverage> coverage_of(const run_time_family& family) {
 
 // If each covers with probability .95, fewer than 43 of 50 do once in 500 times.
 BOOST_AUTO_TEST_CASE(intervals_of_a_hundred_trajectories_cover_the_value_of_twenty_thousand) {
-  for (const auto& family : {run_time_family(nystrom()), run_time_family(fg_chin())}) {
+  for (const auto& family : {nysalt::family(nystrom()), nysalt::family(fg_chin())}) {
     const auto all = coverage_of(family);
     for (std::size_t k = 0; k < all.size(); ++k) {
       const auto& covered = all[k];
@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(intervals_of_a_hundred_trajectories_cover_the_value_of_twen
 }
 
 BOOST_AUTO_TEST_CASE(the_loss_is_larger_by_what_is_expected_and_that_falls_as_one_over_the_number) {
-  const run_time_family family{nystrom()};
+  const nysalt::family family{nystrom()};
   // On new data, in the measure that many data tell.
   const metric measure(chain, many(), coordinates::qp);
   const auto unseen = data_of(4000, 2'000'000);

@@ -56,26 +56,26 @@ BOOST_AUTO_TEST_CASE(a_planet_returns_after_its_period) {
 // units of time, |H - H_0| absolute. H_0 is 1/2, so that is half of the relative error. Its leapfrog begins
 // with a drift: with a kick the error would be h^2/8 = 5.00e-3 instead of h^2/8/(1 - h^2/4) = 5.05e-3.
 BOOST_AUTO_TEST_CASE(energy_errors_are_those_of_another_library) {
-  const auto largest_error = [](const tabulated& method) {
+  const auto largest_error = [](const method& method) {
     const phase_point<double, 1> start{vector<double, 1>(1.0), vector<double, 1>(0.0)};
     const auto record = energy_drift(harmonic_oscillator(1.0), method, .2, start, 2500);
     BOOST_TEST(!record.diverged_at.has_value());
     return 0.5 * record.largest;
   };
   for (const auto& [method, known] :
-       std::vector<std::pair<tabulated, double>>{{tabulated(verlet_aba()), 5.05e-3},
-                                                 {tabulated(mclachlan2()), 4.48e-5},
-                                                 {tabulated(forest_ruth()), 6.27e-5},
-                                                 {tabulated(mclachlan_atela4()), 7.52e-7},
-                                                 {tabulated(mclachlan5()), 7.83e-7},
-                                                 {tabulated(blanes_moan_s6()), 2.24e-7},
-                                                 {tabulated(srkn6b()), 1.56e-9},
-                                                 {tabulated(srkn11b()), 9.1e-12},
-                                                 {tabulated(srkn14a()), 6.3e-13}}) {
+       std::vector<std::pair<nysalt::method, double>>{{nysalt::method(verlet_aba()), 5.05e-3},
+                                                      {nysalt::method(mclachlan2()), 4.48e-5},
+                                                      {nysalt::method(forest_ruth()), 6.27e-5},
+                                                      {nysalt::method(mclachlan_atela4()), 7.52e-7},
+                                                      {nysalt::method(mclachlan5()), 7.83e-7},
+                                                      {nysalt::method(blanes_moan_s6()), 2.24e-7},
+                                                      {nysalt::method(srkn6b()), 1.56e-9},
+                                                      {nysalt::method(srkn11b()), 9.1e-12},
+                                                      {nysalt::method(srkn14a()), 6.3e-13}}) {
     // The table gives two or three digits.
     BOOST_TEST(std::abs(largest_error(method) / known - 1.0) <= .02, method.name());
   }
-  BOOST_TEST(largest_error(tabulated(bcss2())) >
+  BOOST_TEST(largest_error(nysalt::method(bcss2())) >
              2.0 * 4.48e-5);  // the word of mclachlan2, another coefficient
 }
 
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(parameters_of_the_chain_are_those_of_the_paper) {
   for (const auto& [step, b1, beta1, scatter] :
        {row{.005, .5024, .4062, 5e-4}, {.01, .5070, .4078, 7.5e-4}}) {
     for (const std::uint64_t seed : {1U, 3U}) {
-      const auto fit = learn(run_time_family(nystrom()), chain, data_of_chain(step, seed),
+      const auto fit = learn(family(nystrom()), chain, data_of_chain(step, seed),
                              data_of_chain(step, seed + 1), {.loss = loss_named("state:1")});
       BOOST_TEST_CONTEXT(fit.summary.full()) {
         BOOST_TEST(fit.summary.usable);

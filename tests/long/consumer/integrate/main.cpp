@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdio>
 
-#include "nysalt/core/ensemble_loop.hpp"
 #include "nysalt/integrate.hpp"
 #include "nysalt/methods/classical.hpp"
+#include "nysalt/parallel/ensemble_loop.hpp"
 #include "nysalt/systems/textbook.hpp"
 
 int main() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Families made of other families, and of words.
-#include "nysalt/run_time_family.hpp"
+#include "nysalt/family.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,7 @@ namespace nysalt {
 
 namespace {
 
-Eigen::MatrixXd thermostatted_jacobian(const run_time_family& plain, placement where,
-                                       const Eigen::VectorXd& theta) {
+Eigen::MatrixXd thermostatted_jacobian(const family& plain, placement where, const Eigen::VectorXd& theta) {
   using D = dual<double, 1>;
   const auto c = plain.coefficients(theta);
   const Eigen::MatrixXd slopes = plain.jacobian(theta);
@@ -35,7 +34,7 @@ Eigen::MatrixXd thermostatted_jacobian(const run_time_family& plain, placement w
 
 }  // namespace
 
-run_time_family::run_time_family(std::string method_name, const word& all, std::vector<double> coefficients)
+family::family(std::string method_name, const word& all, std::vector<double> coefficients)
     : name(std::move(method_name)),
       starts({{name, Eigen::VectorXd()}}),
       order(0),
@@ -47,7 +46,7 @@ run_time_family::run_time_family(std::string method_name, const word& all, std::
         return Eigen::MatrixXd(count, 0);
       }) {}
 
-void run_time_family::contain(run_time_family inner) {
+void family::contain(family inner) {
   const Eigen::VectorXd somewhere = inner.starts.front().theta;
   const Eigen::Index count = parameters();
   const bool is_smaller = inner.letters.letters() == letters.letters() && inner.parameters() < count &&
@@ -74,22 +73,22 @@ void run_time_family::contain(run_time_family inner) {
   contained = std::make_shared<const contained_family>(std::move(result));
 }
 
-bool run_time_family::is_defined(const Eigen::VectorXd& theta) const {
+bool family::is_defined(const Eigen::VectorXd& theta) const {
   for (std::size_t k = 0; k < ranges.size(); ++k) {
     if (ranges[k].open && !ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
   }
   return true;
 }
 
-bool run_time_family::is_in_range(const Eigen::VectorXd& theta) const {
+bool family::is_in_range(const Eigen::VectorXd& theta) const {
   for (std::size_t k = 0; k < ranges.size(); ++k) {
     if (!ranges[k].contains(theta[static_cast<Eigen::Index>(k)])) return false;
   }
   return true;
 }
 
-run_time_family thermostatted(const run_time_family& plain, placement where) {
-  run_time_family result = plain;
+family thermostatted(const family& plain, placement where) {
+  family result = plain;
   result.letters = thermostatted(plain.letters, where);
   result.order = thermostatted_order(where, plain.order, plain.symmetric);
   result.symmetric = where != placement::end && plain.symmetric;
@@ -133,7 +132,7 @@ Eigen::VectorXd with_identity(const Eigen::VectorXd& theta, Eigen::Index further
 
 }  // namespace
 
-run_time_family processed(const run_time_family& kernel, int pairs) {
+family processed(const family& kernel, int pairs) {
   if (pairs < 2 || pairs > most_processor_pairs) {
     throw std::invalid_argument(sentence("{}: a processor must have from 2 to {} pairs of letters, got {}",
                                          kernel.name, most_processor_pairs, pairs));
@@ -143,7 +142,7 @@ run_time_family processed(const run_time_family& kernel, int pairs) {
         sentence("{}: the kernel of a processed word must be symmetric, got {}; take another family",
                  kernel.name, kernel.letters.letters()));
   }
-  run_time_family result = kernel;
+  family result = kernel;
   const Eigen::Index known = kernel.parameters();
   const Eigen::Index further = Eigen::Index{2} * (pairs - 1);
   const Eigen::Index all = known + further;
@@ -249,7 +248,7 @@ void put_equal_steps(const nysalt::word& word, const std::string& times, char pa
 
 }  // namespace
 
-run_time_family symmetric_word(std::string name, const nysalt::word& word, const std::string& times) {
+family symmetric_word(std::string name, const nysalt::word& word, const std::string& times) {
   const std::string letters = word.letters();
   const auto refuse = [&](const char* condition, const std::string& got, const char* remedy) {
     throw std::invalid_argument(sentence("{}: the word must {}, got {}; {}", name, condition, got, remedy));
@@ -266,7 +265,7 @@ run_time_family symmetric_word(std::string name, const nysalt::word& word, const
   std::vector<mirrored_slots> all = mirrored_slots_of(word, times);
   std::vector<double> equal_steps(word.slots);
   std::vector<double> start;
-  run_time_family result(std::move(name), word, {});
+  family result(std::move(name), word, {});
   for (std::size_t n = 0; n < all.size(); ++n) {
     const auto is_of_part = [&](const mirrored_slots& one) { return one.part == all[n].part; };
     const auto before = static_cast<std::size_t>(
@@ -320,7 +319,7 @@ run_time_family symmetric_word(std::string name, const nysalt::word& word, const
   return result;
 }
 
-tabulated member(const run_time_family& family, const std::vector<double>& theta) {
+method member(const family& family, const std::vector<double>& theta) {
   if (std::ssize(theta) != family.parameters()) {
     throw std::invalid_argument(sentence("{}: theta must have {} parameters, got {}", family.name,
                                          family.parameters(), theta.size()));
@@ -333,7 +332,7 @@ tabulated member(const run_time_family& family, const std::vector<double>& theta
           {family.order, family.symmetric, family.requires_quadratic_kinetic}};
 }
 
-void require_in_range(const run_time_family& family, const Eigen::VectorXd& theta) {
+void require_in_range(const family& family, const Eigen::VectorXd& theta) {
   for (std::size_t k = 0; k < family.ranges.size(); ++k) {
     detail::require_in_range(family.name, family.parameter_names[k], family.ranges[k],
                              theta[static_cast<Eigen::Index>(k)]);

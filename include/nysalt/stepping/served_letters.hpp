@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "nysalt/core/sentence.hpp"
-#include "nysalt/core/system_letters.hpp"
+#include "nysalt/stepping/system_letters.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt::detail {

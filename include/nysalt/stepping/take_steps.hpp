@@ -6,8 +6,8 @@
 #include <concepts>
 #include <cstdint>
 
-#include "nysalt/core/step_program.hpp"
 #include "nysalt/force.hpp"
+#include "nysalt/stepping/step_program.hpp"
 
 namespace nysalt::detail {
 

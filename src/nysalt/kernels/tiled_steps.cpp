@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 
-#include "nysalt/core/tiled_steps.hpp"
+#include "nysalt/kernels/tiled_steps.hpp"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "nysalt/core/sentence.hpp"
-#include "with_threads.hpp"
+#include "../parallel/with_threads.hpp"
 
 namespace nysalt::detail {
 

@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "nysalt/bath.hpp"
-#include "nysalt/core/site_kernels.hpp"
-#include "nysalt/core/step_program.hpp"
-#include "nysalt/core/system_letters.hpp"
 #include "nysalt/flow.hpp"
+#include "nysalt/kernels/site_kernels.hpp"
 #include "nysalt/lanes.hpp"
+#include "nysalt/stepping/step_program.hpp"
+#include "nysalt/stepping/system_letters.hpp"
 
 namespace nysalt {
 

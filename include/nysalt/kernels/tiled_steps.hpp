@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "nysalt/core/site_kernels.hpp"
-#include "nysalt/core/step_program.hpp"
+#include "nysalt/kernels/site_kernels.hpp"
+#include "nysalt/stepping/step_program.hpp"
 
 namespace nysalt::detail {
 

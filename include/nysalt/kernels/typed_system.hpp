@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/core/kernels.hpp"
-#include "nysalt/core/take_steps.hpp"
-#include "nysalt/core/tiled_steps.hpp"
 #include "nysalt/flows/drift_kick.hpp"
 #include "nysalt/flows/gradient_kick.hpp"
 #include "nysalt/flows/rotation.hpp"
+#include "nysalt/kernels/kernels.hpp"
+#include "nysalt/kernels/tiled_steps.hpp"
+#include "nysalt/stepping/take_steps.hpp"
 #include "nysalt/systems/counted.hpp"
 #include "nysalt/systems/in_bath.hpp"
 #include "nysalt/word.hpp"

@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/core/step_program.hpp"
 #include "nysalt/lanes.hpp"
+#include "nysalt/stepping/step_program.hpp"
 
 namespace nysalt::detail {
 

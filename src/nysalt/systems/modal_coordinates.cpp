@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/core/sentence.hpp"
+#include "nysalt/systems/modal_coordinates.hpp"
 
 namespace nysalt {
 

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/core/merged_half_steps.hpp"
-#include "nysalt/core/modal_coordinates.hpp"
 #include "nysalt/core/sentence.hpp"
-#include "nysalt/core/system_letters.hpp"
-#include "nysalt/core/take_steps.hpp"
+#include "nysalt/stepping/merged_half_steps.hpp"
+#include "nysalt/stepping/system_letters.hpp"
+#include "nysalt/stepping/take_steps.hpp"
+#include "nysalt/systems/modal_coordinates.hpp"
 #include "nysalt/word.hpp"
 
 namespace nysalt {

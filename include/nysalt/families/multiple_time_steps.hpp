@@ -110,10 +110,11 @@ struct nested_kicks : composition<(Inner * Outer - 1) / 2 + Inner * Outer / 2 + 
 /// a period of a fast mode it is unstable. Source: [tuckerman_berne_martyna_1992].
 template <std::size_t Fast, std::size_t Slow, int Inner>
   requires(Inner >= 1)
-struct r_respa : tabulated {
+struct r_respa : nysalt::method {
   r_respa()
-      : tabulated(sentence("r_respa({})", Inner), nested_word<Fast, Slow, static_cast<std::size_t>(Inner)>,
-                  equal_steps(), {2, true, false}) {}
+      : nysalt::method(sentence("r_respa({})", Inner),
+                       nested_word<Fast, Slow, static_cast<std::size_t>(Inner)>, equal_steps(),
+                       {2, true, false}) {}
 
  private:
   static std::vector<double> equal_steps() {

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/core/divergence.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/stepper.hpp"
+#include "nysalt/stepping/divergence.hpp"
 
 namespace nysalt {
 

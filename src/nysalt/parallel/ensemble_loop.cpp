@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 
-#include "nysalt/core/ensemble_loop.hpp"
+#include "nysalt/parallel/ensemble_loop.hpp"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "nysalt/core/requirements.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/flows/exact_flow.hpp"
 #include "nysalt/lanes.hpp"
+#include "nysalt/systems/requirements.hpp"
 
 namespace nysalt {
 
