@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
+#include "nysalt/divergence.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/stepper.hpp"
-#include "nysalt/stepping/divergence.hpp"
 
 namespace nysalt::python {
 
@@ -92,8 +92,8 @@ bool goes_together(const own_functions& functions, const nysalt::method& method)
 }
 
 void integrate_together(const std::shared_ptr<const own_functions>& functions, const bath& heat_bath,
-                        const nysalt::method& method, const program::trajectories_plan& plan, std::span<double> q,
-                        std::span<double> p) {
+                        const nysalt::method& method, const program::trajectories_plan& plan,
+                        std::span<double> q, std::span<double> p) {
   const model system = side_by_side(functions, plan.count, heat_bath);
   const Eigen::Index n = functions->dimension;
   phase_point<double, Eigen::Dynamic> start{Eigen::Map<const Eigen::VectorXd>(q.data(), system.size()),

@@ -10,10 +10,10 @@
 #include <string>
 #include <string_view>
 
+#include "nysalt/divergence.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_point.hpp"
-#include "nysalt/stepping/divergence.hpp"
 
 namespace nysalt {
 

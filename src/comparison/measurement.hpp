@@ -13,7 +13,7 @@
 #include "nysalt/analysis/ensemble_statistics.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
-#include "nysalt/stepping/divergence.hpp"
+#include "nysalt/divergence.hpp"
 
 namespace nysalt::program {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/divergence.hpp"
 #include "nysalt/ensemble_run.hpp"
-#include "nysalt/stepping/divergence.hpp"
 #include "plans.hpp"
 #include "prepared_problem.hpp"
 

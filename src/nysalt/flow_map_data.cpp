@@ -38,17 +38,27 @@ double numbers_of_trajectory(const data_options& options, double steps, Eigen::I
   return steps * (4.0 + options.noise_parts) * static_cast<double>(dimension);
 }
 
-/// Writes the pairs and energies of trajectories first .. first + count - 1, one in each lane, of those from
-/// number options.first on; returns the force evaluations that they took.
+/// What the trajectories of a rank are made from, and where they are written.
+struct reference_pass {
+  const initial_states& ensemble;
+  const nysalt::reference& reference;
+  const data_options& options;  ///< trajectories are numbered from options.first on
+  flow_map_data& data;
+  std::vector<energy_range>& energies;  ///< of each trajectory
+};
+
+/// Writes the pairs and energies of trajectories first .. first + count - 1, one in each lane; returns the
+/// force evaluations that they took.
 template <class T>
-std::int64_t follow_reference(const model& system, const initial_states& ensemble, const reference& reference,
-                              const data_options& options, std::int64_t first, int count, flow_map_data& data,
-                              std::vector<energy_range>& energies) {
+std::int64_t follow_reference(const reference_pass& pass, const model& system, std::int64_t first,
+                              int count) {
+  const data_options& options = pass.options;
+  flow_map_data& data = pass.data;
   const auto place = [&](int k) { return static_cast<std::size_t>(first + k); };
   const auto include_energies = [&](const auto& x) {
     if (!has_energy(system)) return;
     const T found = energy<T>(system, x);
-    for (int k = 0; k < count; ++k) energies[place(k)].include(lane(found, k));
+    for (int k = 0; k < count; ++k) pass.energies[place(k)].include(lane(found, k));
   };
   const auto store = [&](phase_points& all, std::size_t pair, const auto& x, int k) {
     const auto at = all[pair];
@@ -60,16 +70,16 @@ std::int64_t follow_reference(const model& system, const initial_states& ensembl
     }
   };
   const std::int64_t number = options.first + first;
-  const auto start = sound_starts<T>(system, ensemble, options.seed, number, count);
+  const auto start = sound_starts<T>(system, pass.ensemble, options.seed, number, count);
   include_energies(start);
   first_in_lanes<T> lost;  // the step at which a lane was not finite any more
   const std::size_t steps = data.first_of[place(0) + 1] - data.first_of[place(0)];
   const auto parts = static_cast<std::size_t>(options.noise_parts);
-  const auto run = reference.open(system, start,
-                                  {.length = options.step,
-                                   .count = count,
-                                   .at = {options.seed, static_cast<std::uint64_t>(number), 0},
-                                   .noise_parts = options.noise_parts});
+  const auto run = pass.reference.open(system, start,
+                                       {.length = options.step,
+                                        .count = count,
+                                        .at = {options.seed, static_cast<std::uint64_t>(number), 0},
+                                        .noise_parts = options.noise_parts});
   const auto& x = run->state();
   for (std::size_t n = 0; n < steps; ++n) {
     for (int k = 0; k < count; ++k) store(data.start, data.first_of[place(k)] + n, x, k);
@@ -92,7 +102,7 @@ std::int64_t follow_reference(const model& system, const initial_states& ensembl
     throw std::runtime_error(
         fmt::format("flow_map_data: trajectory {} of the reference ({}) must be finite, got one that "
                     "diverged at step {}: {}",
-                    number + k, reference.description(), *lost[k], not_finite_in(last)));
+                    number + k, pass.reference.description(), *lost[k], not_finite_in(last)));
   }
   return run->evaluations();
 }
@@ -139,10 +149,10 @@ flow_map_data make_some_pairs(const model& system, const initial_states& ensembl
   });
   std::atomic<std::int64_t> evaluations = 0;
   options.first += share.first();
+  const reference_pass pass{ensemble, reference, options, data, energies};
   with_scalar_of(system, [&]<class T>(T) {
     const auto follow = [&](const model& own, std::int64_t place, int n) {
-      evaluations +=
-          follow_reference<T>(own, ensemble, reference, options, place - share.first(), n, data, energies);
+      evaluations += follow_reference<T>(pass, own, place - share.first(), n);
     };
     for_each_lane_block(system, share, lanes_in<T>, options.threads, follow, options.progress);
   });

@@ -337,8 +337,8 @@ judgement step_judge::of(const method& method) const {
   found.steps = plan.steps;
   found.energy_was_watched = options.watches_energy && !system.bath().acts() && motion.kinetic_energy > 0.0;
   found.kinetic_energy = motion.kinetic_energy;
-  auto courses = detail::run_trial(system, method, step, starts, plan, motion, found.energy_was_watched,
-                                   options, unconfined);
+  auto courses = detail::run_trial({system, starts, step, plan, motion, found.energy_was_watched, options},
+                                   method, unconfined);
   // Each letter rounds H once at most, in one direction at worst.
   const double rounding = static_cast<double>(plan.steps) * static_cast<double>(word.length) *
                           std::numeric_limits<double>::epsilon();

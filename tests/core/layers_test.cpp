@@ -13,7 +13,8 @@ using texts = std::map<std::string, std::string>;  // by path below include/nysa
 /// highest.
 const std::vector<std::vector<std::string>> layers{
     {"core/", "scalar", "scalars/", "phase_point"},
-    {"system", "local_system", "force", "energy", "lanes", "bath", "noise", "systems/", "noises/"},
+    {"system", "local_system", "force", "energy", "lanes", "bath", "noise", "divergence", "systems/",
+     "noises/"},
     {"flow", "flows/", "letters", "word", "stepping/", "stepper"},
     {"kernels/", "model"},
     {"langevin", "family", "families/", "method", "methods/", "integrate"},
@@ -105,6 +106,32 @@ texts files_below(const std::filesystem::path& folder) {
 
 const texts headers = files_below("include/nysalt");
 
+/// Every folder that reaches itself through the includes of other folders. Concepts at the top belong to no
+/// folder: they have the layer of their models.
+std::vector<std::string> folders_in_a_circle(const texts& files) {
+  std::map<std::string, std::set<std::string>> includes;
+  for (const auto& [path, text] : files) {
+    const auto folder = [](const std::string& of) { return of.substr(0, of.find('/') + 1); };
+    for (const auto& other : includes_of(text)) {
+      if (!folder(path).empty() && !folder(other).empty() && folder(other) != folder(path))
+        includes[folder(path)].insert(folder(other));
+    }
+  }
+  std::vector<std::string> found;
+  for (const auto& [folder, direct] : includes) {
+    std::set<std::string> reached;
+    std::vector<std::string> next(direct.begin(), direct.end());
+    while (!next.empty()) {
+      const std::string one = next.back();
+      next.pop_back();
+      if (!reached.insert(one).second || !includes.contains(one)) continue;
+      next.insert(next.end(), includes.at(one).begin(), includes.at(one).end());
+    }
+    if (reached.contains(folder)) found.push_back(folder);
+  }
+  return found;
+}
+
 /// The folders of src, from the lowest to the highest.
 const std::vector<std::string> folders{"nysalt", "comparison", "report", "plugin", "program", "reproduction"};
 
@@ -157,6 +184,24 @@ BOOST_AUTO_TEST_CASE(a_cellar_that_includes_the_roof_is_found) {
         std::ranges::any_of(found, [&words = words](const auto& one) { return one.find(words) != one.npos; }),
         words);
   }
+}
+
+BOOST_AUTO_TEST_CASE(folders_include_each_other_one_way) {
+  for (const auto& folder : folders_in_a_circle(headers))
+    BOOST_ERROR(folder + " includes itself through others");
+  const texts circle{{"flows/a.hpp", "#include \"nysalt/systems/b.hpp\"\n"},
+                     {"systems/b.hpp", "#include \"nysalt/noises/c.hpp\"\n"},
+                     {"noises/c.hpp", "#include \"nysalt/flows/a.hpp\"\n"}};
+  BOOST_TEST(folders_in_a_circle(circle).size() == 3U);
+}
+
+// nysalt/nysalt.hpp, and what needs Boost.Odeint or MPI.
+BOOST_AUTO_TEST_CASE(every_header_is_reached_from_an_entry_header) {
+  std::set<std::string> reached{"nysalt.hpp", "odeint.hpp", "mpi.hpp"};
+  for (const std::string entry : {"nysalt.hpp", "odeint.hpp", "mpi.hpp"})
+    reached.merge(reached_from(headers, entry));
+  for (const auto& [path, text] : headers) BOOST_TEST(reached.contains(path), path);
+  BOOST_TEST(!reached_from(headers, "core.hpp").contains("hmc.hpp"));
 }
 
 BOOST_AUTO_TEST_CASE(sources_include_downwards) {

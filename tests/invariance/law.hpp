@@ -19,11 +19,11 @@
 #include "../support/systems.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/communicator.hpp"
+#include "nysalt/divergence.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_point.hpp"
-#include "nysalt/stepping/divergence.hpp"
 #include "nysalt/systems/fpu_chain.hpp"
 #include "nysalt/systems/in_bath.hpp"
 

@@ -248,7 +248,7 @@ BOOST_AUTO_TEST_CASE(an_admitted_minimum_far_above_another_is_left_for_the_edge_
 }
 
 BOOST_AUTO_TEST_CASE(random_starts_are_those_of_their_seed_and_stay_in_range) {
-  const family two{nystrom()};  // b1 in (0, 1), beta1 in [0, .5]
+  const nysalt::family two{nystrom()};  // b1 in (0, 1), beta1 in [0, .5]
   const Eigen::VectorXd middle = Eigen::Vector2d(0.5, 0.4);
   const auto drawn = [&](std::uint64_t which, std::uint64_t n, const std::vector<Eigen::Index>& free) {
     return random_start(two, middle, free, which, n);

@@ -14,7 +14,7 @@ using namespace nysalt::test;
 namespace {
 
 const henon_heiles galaxy;
-const nysalt::family family{nystrom()};
+const nysalt::family two_stages{nystrom()};
 const Eigen::VectorXd theta = Eigen::Vector2d(0.45, 0.38);
 
 const data_sets& two_sets() {
@@ -38,7 +38,7 @@ flow_map_data uneven_data(const S& system) {
 template <Scalar R>
 squares squares_of(const model& system, const flow_map_data& data, const window_error<R>& error,
                    int threads = 1) {
-  const after_steps<R> loss(family, system, data, error, {.steps = {5}, .threads = threads});
+  const after_steps<R> loss(two_stages, system, data, error, {.steps = {5}, .threads = threads});
   return loss.at(theta);
 }
 
@@ -142,12 +142,12 @@ BOOST_AUTO_TEST_CASE(residuals_that_change_in_number_are_refused) {
 BOOST_AUTO_TEST_CASE(the_librarys_loss_written_as_ones_own_is_learned_to_the_bit) {
   const auto& sets = two_sets();
   const metric measure(galaxy, sets.data, coordinates::qp);
-  const fit_options from_one_start{.start = family.starts.front().theta};
+  const fit_options from_one_start{.start = two_stages.starts.front().theta};
   fit_options by_state = from_one_start;
   by_state.loss = loss_named("state:3");
-  const auto usual = sets.learned(family, galaxy, by_state);
+  const auto usual = sets.learned(two_stages, galaxy, by_state);
   const auto learned_with = [&](const auto& loss) {
-    return sets.learned(family, galaxy, from_one_start, loss);
+    return sets.learned(two_stages, galaxy, from_one_start, loss);
   };
   const auto own = learned_with(state_after_three(measure));
   const auto other = learned_with(state_after_three(measure, 2.0));
@@ -169,11 +169,11 @@ BOOST_AUTO_TEST_CASE(weights_of_ones_own_have_no_error_and_the_own_loss_judges) 
   const auto& [data, held_out] = two_sets();
   const metric measure(galaxy, data, coordinates::qp);
   const auto problem_of = [&](const loss_choice& loss) {
-    return learning_problem(family, galaxy, data, held_out, {.loss = loss});
+    return learning_problem(two_stages, galaxy, data, held_out, {.loss = loss});
   };
   const auto problem = problem_of(loss_of(galaxy, state_after_three(measure)));
   const auto usual = problem_of(loss_named("state:3"));
-  const after_steps<> loss(family, galaxy, data, state_error(measure), {.steps = {3}});
+  const after_steps<> loss(two_stages, galaxy, data, state_error(measure), {.steps = {3}});
   const auto gradients = loss.gradients(theta);
   const auto ours = problem.scores(theta);
   const auto with_weights = usual.scores(theta);
@@ -225,7 +225,7 @@ class sixty_blocks final : public loss_on_data {
   }
   std::size_t residuals() const override { return 4; }
   bool has_estimated_weights() const override { return false; }
-  std::unique_ptr<const loss_on_data> of_family(const family&) const override {
+  std::unique_ptr<const loss_on_data> of_family(const nysalt::family&) const override {
     return std::make_unique<const sixty_blocks>(*this);
   }
   const shard& share() const override { return share_; }
@@ -253,7 +253,7 @@ BOOST_AUTO_TEST_CASE(errors_are_withheld_where_single_trajectories_make_the_curv
   const data_sets sets(galaxy, around_rest<2>(0.1, 0.2), fine_steps(0.025),
                        {.step = 0.5, .horizon = 2.0, .trajectories = 60});
   const auto fitted = [&](double curvature_of_two) {
-    learning_problem problem(family, galaxy, sets.data, sets.data,
+    learning_problem problem(two_stages, galaxy, sets.data, sets.data,
                              {.loss = loss_named("state:3"),
                               .start = sixty_blocks::least + Eigen::Vector2d(0.01, 0.01),
                               .random_starts = 0});
@@ -284,7 +284,7 @@ BOOST_AUTO_TEST_CASE(errors_are_withheld_where_single_trajectories_make_the_curv
 BOOST_AUTO_TEST_CASE(where_an_own_loss_is_not_a_number_no_search_ends) {
   const auto nowhere = []<class T>(const phase_point<T, 2>&, const phase_point<T, 2>& finish,
                                    const phase_point<T, 2>&) -> T { return finish.q[0] * std::nan(""); };
-  const auto found = two_sets().learned(family, galaxy, {}, own_loss{"nowhere", 3, nowhere}).summary;
+  const auto found = two_sets().learned(two_stages, galaxy, {}, own_loss{"nowhere", 3, nowhere}).summary;
   BOOST_TEST((!found.usable && !found.reason.empty()), found.full());
 }
 
@@ -304,5 +304,5 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   }
   loss.name = "mine";
   loss.steps = 5;
-  BOOST_TEST(refuses([&] { learn(family, galaxy, data, data, {}, loss); }, {"5 steps", "longer horizon"}));
+  BOOST_TEST(refuses([&] { learn(two_stages, galaxy, data, data, {}, loss); }, {"5 steps", "longer horizon"}));
 }

@@ -15,9 +15,9 @@
 
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/communicator.hpp"
+#include "nysalt/divergence.hpp"
 #include "nysalt/energy.hpp"
 #include "nysalt/integrate_ensemble.hpp"
-#include "nysalt/stepping/divergence.hpp"
 
 namespace nysalt {
 

@@ -17,13 +17,13 @@
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/communicator.hpp"
+#include "nysalt/divergence.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/noises/counter_noise.hpp"
 #include "nysalt/reference.hpp"
-#include "nysalt/stepping/divergence.hpp"
 
 namespace nysalt {
 

@@ -30,6 +30,9 @@ struct squares {
 /// A loss as a function of theta only: a search need not know what is behind it.
 using objective = std::function<squares(const Eigen::VectorXd& theta)>;
 
+/// A condition on theta: that coefficients are defined there, or that a guard admits the member.
+using theta_condition = std::function<bool(const Eigen::VectorXd& theta)>;
+
 /// A loss over data: a sum over trajectories of squares of residuals. after_steps is one; a loss with a pass
 /// of another kind over the data is another class. Where ranks share the data, each rank has its own
 /// trajectories, and the functions of theta are collective.

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "nysalt/core/sentence.hpp"
+#include "nysalt/divergence.hpp"
 #include "nysalt/stepper.hpp"
-#include "nysalt/stepping/divergence.hpp"
 
 namespace nysalt {
 

@@ -14,10 +14,10 @@
 
 #include "nysalt/analysis/cost_against_error.hpp"
 #include "nysalt/communicator.hpp"
+#include "nysalt/divergence.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/langevin.hpp"
 #include "nysalt/parallel/ensemble_loop.hpp"
-#include "nysalt/stepping/divergence.hpp"
 #include "trajectory_runs.hpp"
 
 namespace nysalt {

@@ -105,8 +105,8 @@ double tolerance_of_differences() { return 30.0 * std::cbrt(std::numeric_limits<
 
 /// The derivative of function(vector) along a direction whose size is that of a displacement of the motion.
 /// Errors of the function's entries count with the weights.
-column difference_along(const std::function<column(const column&)>& function, const column& x,
-                        const column& direction, const column& weights) {
+column difference_along(const auto& function, const column& x, const column& direction,
+                        const column& weights) {
   const auto value_at = [&](double s, column& y) { y = function(x + s * direction); };
   const column middle = function(x);
   const double noise = noise_of_forces * weights.cwiseAbs().dot(middle.cwiseAbs());
@@ -116,8 +116,7 @@ column difference_along(const std::function<column(const column&)>& function, co
 }
 
 /// The same of a function with one value.
-double slope_by_difference(const std::function<double(const column&)>& function, const column& x,
-                           const column& direction) {
+double slope_by_difference(const auto& function, const column& x, const column& direction) {
   const auto value = [&](const column& at) { return column::Constant(1, function(at)).eval(); };
   return difference_along(value, x, direction, column::Ones(1))[0];
 }

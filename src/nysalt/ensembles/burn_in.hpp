@@ -78,9 +78,9 @@ class burn_in_chains {
   /// BAOAB on the system in the chains' bath.
   using stepper_type = stepper<model, double, counter_noise>;
 
-  /// Chains of a system that comes without its bath; temperature is kT, an energy.
-  burn_in_chains(const model& base, double temperature, double friction, double step, std::uint64_t seed)
-      : system_(detail::own_copy(base).in(bath::of_temperature(friction, temperature))),
+  /// Chains of a system, which comes without its bath, in another bath.
+  burn_in_chains(const model& base, const bath& heat_bath, double step, std::uint64_t seed)
+      : system_(detail::own_copy(base).in(heat_bath)),
         stepper_(make_stepper(system_, method(baoab{}), step, counter_noise(seed, noise_purpose::burn_in))) {}
   burn_in_chains(const burn_in_chains&) = delete;  // the stepper refers to the system
   burn_in_chains& operator=(const burn_in_chains&) = delete;
@@ -121,6 +121,14 @@ struct chain_diverged : std::runtime_error {
   std::int64_t step;  // number of the step
 };
 
+/// Chains of a pilot: how many, in which bath, at which step.
+struct pilot_plan {
+  bath heat_bath;            ///< friction and temperature of the chains
+  double step;               ///< h of BAOAB
+  int count;                 ///< number of chains
+  std::int64_t first_noise;  ///< number of chain 0 in the noise
+};
+
 /// Chains 0, 1, ... from starts of their numbers, with noise from `first_noise` on.
 template <class T>
 class burn_in_pilot {
@@ -159,16 +167,14 @@ class burn_in_pilot {
 
  public:
   /// Refers to the weights of the slowest mode, which may be empty.
-  burn_in_pilot(const model& base, const initial_states& from, double temperature, double friction,
-                double step, const burn_in_options& options, int count, std::int64_t first_noise,
-                const Eigen::VectorXd& slowest)
-      : threads_(options.threads), count_(count), slowest_(&slowest) {
-    for (int first = 0; first < count; first += width) {
-      const int here = std::min(width, count - first);
+  burn_in_pilot(const model& base, const initial_states& from, const pilot_plan& plan,
+                const burn_in_options& options, const Eigen::VectorXd& slowest)
+      : threads_(options.threads), count_(plan.count), slowest_(&slowest) {
+    for (int first = 0; first < plan.count; first += width) {
+      const int here = std::min(width, plan.count - first);
       const state start = sound_starts<T>(base, from, options.seed, first, here);
-      const auto own =
-          std::make_shared<const burn_in_chains>(base, temperature, friction, step, options.seed);
-      blocks_.push_back({own, first, here, start, own->open(start, first_noise + first, here)});
+      const auto own = std::make_shared<const burn_in_chains>(base, plan.heat_bath, plan.step, options.seed);
+      blocks_.push_back({own, first, here, start, own->open(start, plan.first_noise + first, here)});
     }
   }
 
@@ -355,7 +361,11 @@ class burn_in_search {
   burn_in_pilot<T> pilot(double friction, double step, int count) {
     // Far from the numbers of chains that anybody uses, and from those of other pilots.
     const std::int64_t noise = (std::int64_t{1} << 47) + (pilots_++ << 24);
-    return {*base_, *from_, temperature_, friction, step, options_, count, noise, slowest_};
+    return {*base_,
+            *from_,
+            {bath::of_temperature(friction, temperature_), step, count, noise},
+            options_,
+            slowest_};
   }
 
   /// Chains that are watched for 32 times what they remember, after as long a time unwatched; nothing where

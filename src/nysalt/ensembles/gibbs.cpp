@@ -48,7 +48,8 @@ class gibbs_chains {
   }
   template <class T>
   phase_point<T, Eigen::Dynamic> block(std::uint64_t seed, std::int64_t first, int count) const {
-    const burn_in_chains chains(base_, temperature_, report_.friction, report_.step, seed);
+    const burn_in_chains chains(base_, bath::of_temperature(report_.friction, temperature_), report_.step,
+                                seed);
     auto run = chains.open(sound_starts<T>(base_, from_, seed, first, count), first, count);
     run.go_on(report_.steps);
     for (int k = 0; k < count; ++k) {

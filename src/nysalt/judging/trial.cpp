@@ -162,19 +162,19 @@ namespace {
 /// Which of some trajectories an accurate method loses too: at a fine step and, so that it is not its own
 /// instability, at a finer one.
 template <class T>
-std::vector<bool> are_unconfined(const model& system, const states& at, double step, std::int64_t parts,
-                                 std::int64_t steps, const judging_options& options) {
+std::vector<bool> are_unconfined(const trial_setting& setting, const states& at, std::int64_t parts) {
   std::vector<bool> result(at.size(), true);
   if (at.empty()) return result;
   for (const std::int64_t finer : {parts, 4 * parts}) {
-    const auto accurate = make_stepper(system, method(blanes_moan_s6{}), step / static_cast<double>(finer),
-                                       counter_noise(options.seed));
+    const auto accurate =
+        make_stepper(setting.system, method(blanes_moan_s6{}), setting.step / static_cast<double>(finer),
+                     counter_noise(setting.options.seed));
     const auto diverged_at = integrate_ensemble<T>(
         accurate, listed<Eigen::Dynamic>(at),
         {.trajectories = std::ssize(at),
-         .steps = finer * steps,
-         .every = finer * steps,
-         .threads = options.threads},
+         .steps = finer * setting.plan.steps,
+         .every = finer * setting.plan.steps,
+         .threads = setting.options.threads},
         1, [](const auto&, std::span<T>) {}, [](auto&&...) {});
     for (std::size_t k = 0; k < at.size(); ++k) result[k] = result[k] && diverged_at[k].has_value();
     if (std::ranges::none_of(result, std::identity{})) break;
@@ -185,14 +185,13 @@ std::vector<bool> are_unconfined(const model& system, const states& at, double s
 /// Leaves out those of some diverged trajectories that an accurate method loses, too. A few at a time: the
 /// first that the motion does not lose decides.
 template <class T>
-void leave_out_unconfined(const model& system, const states& starts, double step, std::int64_t steps,
-                          const accurate_motion& motion, const judging_options& options,
-                          const std::vector<std::size_t>& diverged, unconfined_starts& known,
-                          std::vector<course>& courses) {
+void leave_out_unconfined(const trial_setting& setting, const std::vector<std::size_t>& diverged,
+                          unconfined_starts& known, std::vector<course>& courses) {
   constexpr double fewest_parts = 8.0;  // finer than a step at which the energy stays by chance
   constexpr double most_parts = 64.0;   // of more parts nothing is asked: the step is far too long
-  const double wanted = std::max(fewest_parts, std::ceil(step / motion.step));
-  if (wanted >= most_parts || system.bath().acts()) return;
+  const double wanted = std::max(fewest_parts, std::ceil(setting.step / setting.motion.step));
+  if (wanted >= most_parts || setting.system.bath().acts()) return;
+  const std::int64_t steps = setting.plan.steps;
   const auto parts = static_cast<std::int64_t>(wanted);
   constexpr std::size_t few = 8;
   for (std::size_t begin = 0; begin < diverged.size(); begin += few) {
@@ -202,9 +201,9 @@ void leave_out_unconfined(const model& system, const states& starts, double step
     for (std::size_t k = begin; k < end; ++k) {
       if (known.contains({diverged[k], steps})) continue;
       unknown.push_back(diverged[k]);
-      some.push_back(starts[diverged[k]]);
+      some.push_back(setting.starts[diverged[k]]);
     }
-    const auto unconfined = are_unconfined<T>(system, some, step, parts, steps, options);
+    const auto unconfined = are_unconfined<T>(setting, some, parts);
     for (std::size_t k = 0; k < unknown.size(); ++k) known[{unknown[k], steps}] = unconfined[k];
     bool are_all = true;
     for (std::size_t k = begin; k < end; ++k) {
@@ -233,17 +232,19 @@ bool are_clear(const std::vector<course>& courses, double kinetic_energy) {
 }
 
 template <class T>
-std::vector<course> run_trial(const model& system, const method& method, double step, const states& starts,
-                              const trial_plan& plan, const accurate_motion& motion, bool watches,
-                              const judging_options& options, unconfined_starts& unconfined) {
+std::vector<course> run_trial(const trial_setting& setting, const method& method,
+                              unconfined_starts& unconfined) {
   constexpr std::int64_t block = 64;
   constexpr std::int64_t every = 7;  // no low-order resonance has this period
-  const double kinetic_energy = motion.kinetic_energy;
-  const listed<Eigen::Dynamic> all(starts);
-  const auto stepper = make_stepper(system, method, step, counter_noise(options.seed));
+  const double kinetic_energy = setting.motion.kinetic_energy;
+  const bool watches = setting.watches;
+  const trial_plan& plan = setting.plan;
+  const listed<Eigen::Dynamic> all(setting.starts);
+  const auto stepper =
+      make_stepper(setting.system, method, setting.step, counter_noise(setting.options.seed));
   std::vector<course> courses;
   const auto read = [&](const phase_point<T, Eigen::Dynamic>& x, std::span<T> numbers) {
-    if (watches) numbers[0] = energy<T>(system, x);
+    if (watches) numbers[0] = energy<T>(setting.system, x);
   };
   const auto take = [&](std::int64_t m, std::int64_t n, std::span<const double> numbers) {
     if (!watches) return;
@@ -270,8 +271,8 @@ std::vector<course> run_trial(const model& system, const method& method, double 
                                                    {.trajectories = count,
                                                     .steps = plan.steps,
                                                     .every = watches ? every : plan.steps,
-                                                    .seed = options.seed,
-                                                    .threads = options.threads,
+                                                    .seed = setting.options.seed,
+                                                    .threads = setting.options.threads,
                                                     .first = first},
                                                    1, read, take);
     std::vector<std::size_t> diverged;
@@ -280,7 +281,7 @@ std::vector<course> run_trial(const model& system, const method& method, double 
       courses[m].diverged_at = diverged_at[k];
       if (diverged_at[k]) diverged.push_back(m);
     }
-    leave_out_unconfined<T>(system, starts, step, plan.steps, motion, options, diverged, unconfined, courses);
+    leave_out_unconfined<T>(setting, diverged, unconfined, courses);
     for (std::int64_t m = first; m < first + count; ++m) {
       const course& one = courses[static_cast<std::size_t>(m)];
       if (one.diverged_at && !one.is_left_out) ++lost;
@@ -292,12 +293,10 @@ std::vector<course> run_trial(const model& system, const method& method, double 
 
 }  // namespace
 
-std::vector<course> run_trial(const model& system, const method& method, double step, const states& starts,
-                              const trial_plan& plan, const accurate_motion& motion, bool watches,
-                              const judging_options& options, unconfined_starts& unconfined) {
-  return in_lanes_if_filled(system, plan.trajectories, [&]<class T>(T) {
-    return run_trial<T>(system, method, step, starts, plan, motion, watches, options, unconfined);
-  });
+std::vector<course> run_trial(const trial_setting& setting, const method& method,
+                              unconfined_starts& unconfined) {
+  return in_lanes_if_filled(setting.system, setting.plan.trajectories,
+                            [&]<class T>(T) { return run_trial<T>(setting, method, unconfined); });
 }
 
 }  // namespace nysalt::detail

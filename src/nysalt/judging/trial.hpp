@@ -85,12 +85,20 @@ struct course {
 /// matter of the method that is judged.
 using unconfined_starts = std::map<std::pair<std::size_t, std::int64_t>, bool>;
 
+/// What a trial is made on.
+struct trial_setting {
+  const model& system;
+  const states& starts;
+  double step;
+  trial_plan plan;
+  const accurate_motion& motion;  ///< its kinetic energy is the scale of energies
+  bool watches;                   ///< whether energies are watched; else only divergence counts
+  const judging_options& options;
+};
+
 /// Runs a method in blocks of trajectories. Stops after one in which most of all are lost, and after two if
 /// these are clear: of the share lost more is not known then than that it is small.
-/// The kinetic energy of the motion is the scale of energies; unless energies are watched only divergence
-/// counts.
-std::vector<course> run_trial(const model& system, const method& method, double step, const states& starts,
-                              const trial_plan& plan, const accurate_motion& motion, bool watches,
-                              const judging_options& options, unconfined_starts& unconfined);
+std::vector<course> run_trial(const trial_setting& setting, const method& method,
+                              unconfined_starts& unconfined);
 
 }  // namespace nysalt::detail

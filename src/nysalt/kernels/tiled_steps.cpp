@@ -12,8 +12,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "nysalt/core/sentence.hpp"
 #include "../parallel/with_threads.hpp"
+#include "nysalt/core/sentence.hpp"
 
 namespace nysalt::detail {
 

@@ -109,10 +109,8 @@ std::string objection(const fit_summary& fit, bool settled, const std::string& i
 
 namespace nysalt {
 
-Eigen::VectorXd descend_at_edge(const objective& loss,
-                                const std::function<bool(const Eigen::VectorXd&)>& admits,
-                                Eigen::VectorXd theta, const std::vector<Eigen::Index>& free,
-                                int most_passes) {
+Eigen::VectorXd descend_at_edge(const objective& loss, const theta_condition& admits, Eigen::VectorXd theta,
+                                const std::vector<Eigen::Index>& free, int most_passes) {
   constexpr double longest = 0.3;  // coefficients are of order one
   constexpr double shortest = 1e-3;
   if (free.empty()) return theta;

@@ -48,10 +48,8 @@ namespace nysalt {
 /// Gauss-Newton's matrix, each as long as the loss at its bottom would ask for, then shorter. What is not
 /// admitted is not taken, so that it slides along an edge. Cost: a pass with derivatives for each poll that
 /// is admitted, `most_passes` at most.
-Eigen::VectorXd descend_at_edge(const objective& loss,
-                                const std::function<bool(const Eigen::VectorXd&)>& admits,
-                                Eigen::VectorXd theta, const std::vector<Eigen::Index>& free,
-                                int most_passes = 400);
+Eigen::VectorXd descend_at_edge(const objective& loss, const theta_condition& admits, Eigen::VectorXd theta,
+                                const std::vector<Eigen::Index>& free, int most_passes = 400);
 
 }  // namespace nysalt
 

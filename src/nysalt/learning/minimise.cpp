@@ -18,8 +18,7 @@
 
 namespace nysalt {
 
-compressed_cost::compressed_cost(objective loss, std::function<bool(const Eigen::VectorXd&)> defined,
-                                 int parameters)
+compressed_cost::compressed_cost(objective loss, theta_condition defined, int parameters)
     : loss_(std::move(loss)), defined_(std::move(defined)) {
   set_num_residuals(parameters + 1);
   mutable_parameter_block_sizes()->push_back(parameters);
@@ -100,8 +99,8 @@ void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, con
                     steps[steps.size() * 3 / 4].cost <= hardly * summary.final_cost;
 }
 
-void polish(const objective& loss, const std::function<bool(const Eigen::VectorXd&)>& defined,
-            const std::vector<Eigen::Index>& free, minimum& found) {
+void polish(const objective& loss, const theta_condition& defined, const std::vector<Eigen::Index>& free,
+            minimum& found) {
   const Eigen::VectorXd began = found.theta;
   found.hessian = hessian(loss, began);
   const curvature bend(found.hessian, free);
@@ -138,8 +137,7 @@ void polish(const objective& loss, const std::function<bool(const Eigen::VectorX
 namespace {
 
 /// descend() from theta; false from where the loss is not usable.
-bool descend_by_few_residuals(const objective& loss,
-                              const std::function<bool(const Eigen::VectorXd&)>& defined,
+bool descend_by_few_residuals(const objective& loss, const theta_condition& defined,
                               const std::vector<Eigen::Index>& free, const detail::descent& how,
                               minimum& found) {
   auto cost = std::make_unique<compressed_cost>(loss, defined, static_cast<int>(found.theta.size()));
@@ -156,8 +154,7 @@ bool descend_by_few_residuals(const objective& loss,
 
 }  // namespace
 
-std::pair<Eigen::VectorXd, double> descend_roughly(const objective& loss,
-                                                   const std::function<bool(const Eigen::VectorXd&)>& defined,
+std::pair<Eigen::VectorXd, double> descend_roughly(const objective& loss, const theta_condition& defined,
                                                    const Eigen::VectorXd& start,
                                                    const std::vector<Eigen::Index>& free, bool may_climb) {
   const detail::descent roughly{.max_iterations = 40, .function_tolerance = 0.01, .may_climb = may_climb};
@@ -168,8 +165,8 @@ std::pair<Eigen::VectorXd, double> descend_roughly(const objective& loss,
   return {found.theta, loss(found.theta).value};
 }
 
-minimum minimise(const objective& loss, const std::function<bool(const Eigen::VectorXd&)>& defined,
-                 const Eigen::VectorXd& start, const std::vector<Eigen::Index>& free, int max_iterations) {
+minimum minimise(const objective& loss, const theta_condition& defined, const Eigen::VectorXd& start,
+                 const std::vector<Eigen::Index>& free, int max_iterations) {
   minimum found{start};
   found.hessian = Eigen::MatrixXd::Zero(start.size(), start.size());  // where the direction is not needed
   if (free.empty()) {

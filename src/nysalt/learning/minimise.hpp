@@ -26,7 +26,7 @@ class compressed_cost final : public ceres::CostFunction {
  public:
   /// Points where `defined` is false, or anything is not finite, are rejected, with or without the Jacobian:
   /// Ceres writes to the standard error stream where one that it has accepted has none.
-  compressed_cost(objective loss, std::function<bool(const Eigen::VectorXd&)> defined, int parameters);
+  compressed_cost(objective loss, theta_condition defined, int parameters);
 
   /// Whether the point would not be rejected. Cost: that of Evaluate(), which then knows it.
   bool is_usable_at(const Eigen::VectorXd& theta) const;
@@ -41,7 +41,7 @@ class compressed_cost final : public ceres::CostFunction {
   using rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   objective loss_;
-  std::function<bool(const Eigen::VectorXd&)> defined_;
+  theta_condition defined_;
   // A step that is tried is nearly always taken, and then its derivatives are asked for: one pass gives all.
   mutable Eigen::VectorXd theta_;
   mutable squares at_theta_;
@@ -89,16 +89,15 @@ void descend(ceres::Problem& problem, const std::vector<Eigen::Index>& free, con
 
 /// Newton steps with the Hessian of where they begin, until rounding is reached; then it is that of the end,
 /// to a part in a million.
-void polish(const objective& loss, const std::function<bool(const Eigen::VectorXd&)>& defined,
-            const std::vector<Eigen::Index>& free, minimum& found);
+void polish(const objective& loss, const theta_condition& defined, const std::vector<Eigen::Index>& free,
+            minimum& found);
 
 }  // namespace detail
 
 /// Near a minimum, and the loss there: a few steps, until they lower the loss by less than a hundredth. From
 /// a start that is not defined, or whose loss is not finite, it goes nowhere, and the loss is infinite. It
 /// may climb as descend() may.
-std::pair<Eigen::VectorXd, double> descend_roughly(const objective& loss,
-                                                   const std::function<bool(const Eigen::VectorXd&)>& defined,
+std::pair<Eigen::VectorXd, double> descend_roughly(const objective& loss, const theta_condition& defined,
                                                    const Eigen::VectorXd& start,
                                                    const std::vector<Eigen::Index>& free,
                                                    bool may_climb = false);
@@ -106,7 +105,7 @@ std::pair<Eigen::VectorXd, double> descend_roughly(const objective& loss,
 /// Minimises over the free parameters. Converged: another Newton step would lower the loss by less than 1e-6
 /// of itself. From a start that is not defined, or whose loss is not finite, it goes nowhere, and the loss is
 /// infinite: Ceres would say so on the standard error stream.
-minimum minimise(const objective& loss, const std::function<bool(const Eigen::VectorXd&)>& defined,
-                 const Eigen::VectorXd& start, const std::vector<Eigen::Index>& free, int max_iterations);
+minimum minimise(const objective& loss, const theta_condition& defined, const Eigen::VectorXd& start,
+                 const std::vector<Eigen::Index>& free, int max_iterations);
 
 }  // namespace nysalt

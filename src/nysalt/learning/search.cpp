@@ -18,8 +18,7 @@ namespace {
 
 /// Minimises where `defined`; bounds that may be attained are left aside, and where the search ends beyond
 /// one that parameter is held there and the others are fitted again.
-candidate descend(const search_task& task, const std::function<bool(const Eigen::VectorXd&)>& defined,
-                  const named_parameters& start) {
+candidate descend(const search_task& task, const theta_condition& defined, const named_parameters& start) {
   candidate found{.from = start.name, .theta = start.theta, .hessian = {}, .free = task.free};
   for (bool inside = false; !inside;) {
     const auto end = minimise(task.loss, defined, found.theta, found.free, task.max_iterations);

@@ -47,11 +47,11 @@ struct search_task {
   std::vector<search_stage> stages{};    ///< losses that are minimised roughly before
   objective one_step_loss{};             ///< one-step loss, whose least minimum is a start, too; empty: none
   std::vector<named_parameters> kept{};  ///< further starts of the last stage only
-  std::function<double(const Eigen::VectorXd&)> judge;       ///< score, which is least for the best theta
-  std::function<bool(const Eigen::VectorXd&)> admits;        ///< the guard
-  std::function<bool(const Eigen::VectorXd&)> withstands{};  ///< a trial run; empty: none is asked for
+  std::function<double(const Eigen::VectorXd&)> judge;  ///< score, which is least for the best theta
+  theta_condition admits;                               ///< the guard
+  theta_condition withstands{};                         ///< a trial run; empty: none is asked for
   /// The guard where the search goes on among admitted points only; empty: the same.
-  std::function<bool(const Eigen::VectorXd&)> admits_at_edge{};
+  theta_condition admits_at_edge{};
   std::vector<Eigen::Index> free;                        ///< numbers of the parameters that may change
   int max_iterations;                                    ///< largest number of iterations of each descent
   std::optional<named_parameters> most_stable_member{};  ///< a start where the guard acts

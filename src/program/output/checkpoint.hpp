@@ -10,7 +10,7 @@
 
 #include "comparison/json.hpp"
 #include "comparison/sampled_run.hpp"
-#include "nysalt/stepping/divergence.hpp"
+#include "nysalt/divergence.hpp"
 #include "unfinished_file.hpp"
 
 namespace nysalt::program {
