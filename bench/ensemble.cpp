@@ -36,10 +36,10 @@ constexpr double rounding = 1e-9;
 
 const fpu_chain<3> chain(omega);
 constexpr std::array<double, 2> theta{0.5, 0.4};
-const nysalt::method method = member(nystrom(), {theta[0], theta[1]});
+const method learned = member(nystrom(), {theta[0], theta[1]});
 
 two_stage folded() {
-  const auto c = method.coefficients();
+  const auto c = learned.coefficients();
   return {c[0] * h, c[1] * h, c[2] * h, c[3] * h, c[4] * h, 0.5 * omega * omega};
 }
 
@@ -90,7 +90,7 @@ std::vector<double> numbers(std::span<const chain_state<lanes>> states) {
 /// By the library: the chain as a model.
 void ours_by_library(std::span<chain_state<lanes>> states) {
   static const model system = chain;
-  const auto stepper = make_stepper(system, method, h);
+  const auto stepper = make_stepper(system, learned, h);
   phase_point<lanes, Eigen::Dynamic> x{vector<lanes, Eigen::Dynamic>(6), vector<lanes, Eigen::Dynamic>(6)};
   for (auto& state : states) {
     std::copy(state.q.begin(), state.q.end(), x.q.begin());
@@ -105,7 +105,7 @@ void ours_by_library(std::span<chain_state<lanes>> states) {
 
 /// The kernels do as many operations as our step, or they are no roof of it.
 void require_operations() {
-  const auto stepper = make_stepper(chain, method, h);
+  const auto stepper = make_stepper(chain, learned, h);
   phase_point<counting, 6> x = fpu_law<3>(chain)(1, 0).cast<counting>();
   auto run = stepper.open(x);
   counting::multiplied = counting::added = 0;

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -17,6 +16,7 @@
 
 #include "../src/nysalt/learning/minimise.hpp"
 #include "../tests/support/losses.hpp"
+#include "../tests/support/parameters.hpp"
 #include "counting.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/families/nystrom.hpp"
@@ -34,13 +34,11 @@ using chain_type = fpu_chain<3>;
 constexpr std::int64_t pairs_each = 100;
 constexpr std::int64_t trajectories = 1000;
 
-using is_defined = std::function<bool(const Eigen::VectorXd&)>;
-
 /// One window of test::sample_blocks as a Ceres cost.
 template <class Blocks>
 class sample_cost final : public ceres::CostFunction {
  public:
-  sample_cost(const Blocks& blocks, std::size_t window, is_defined defined)
+  sample_cost(const Blocks& blocks, std::size_t window, theta_condition defined)
       : blocks_(&blocks),
         window_(window),
         defined_(std::move(defined)),
@@ -53,7 +51,7 @@ class sample_cost final : public ceres::CostFunction {
     constexpr std::size_t count = Blocks::parameters;
     std::array<double, count> theta;
     for (std::size_t k = 0; k < count; ++k) theta[k] = at[0][k];
-    if (defined_ && !defined_(column_of(theta))) return false;
+    if (defined_ && !defined_(test::column_of(theta))) return false;
     if (jacobians == nullptr || jacobians[0] == nullptr) {
       for (const double r : blocks_->at(window_, theta)) *residuals++ = r * share_;
       return true;
@@ -69,7 +67,7 @@ class sample_cost final : public ceres::CostFunction {
  private:
   const Blocks* blocks_;
   std::size_t window_;
-  is_defined defined_;
+  theta_condition defined_;
   double share_;
 };
 
@@ -151,11 +149,11 @@ class problem {
  private:
   static constexpr int iterations_ = 200;
   family family_{nystrom()};
-  is_defined defined_ = [this](const Eigen::VectorXd& theta) { return family_.is_defined(theta); };
+  theta_condition defined_ = [this](const Eigen::VectorXd& theta) { return family_.is_defined(theta); };
   chain_type chain_{50.0};
   flow_map_data data_;
   metric measure_;
-  Eigen::VectorXd start_ = column_of(nystrom::start());
+  Eigen::VectorXd start_ = test::column_of(nystrom::start());
 };
 
 /// What is asked of the learner: the loss equal to 1e-10, theta to 1e-8.
