@@ -73,7 +73,7 @@ class sample_cost final : public ceres::CostFunction {
 
 /// What minimise() does, block by block.
 template <class Blocks>
-minimum minimise_by_blocks(const Blocks& blocks, const is_defined& defined, const Eigen::VectorXd& start,
+minimum minimise_by_blocks(const Blocks& blocks, const theta_condition& defined, const Eigen::VectorXd& start,
                            const std::vector<Eigen::Index>& free, int max_iterations) {
   minimum found{start};
   ceres::Problem problem;

@@ -18,7 +18,7 @@
 using namespace nysalt;
 
 constexpr int steps_of_revolution = 24;
-const fg_chin family;  // B(b) A(1/2) G(1 - 2 b, c) A(1/2) B(b), three evaluations
+const fg_chin chin;  // B(b) A(1/2) G(1 - 2 b, c) A(1/2) B(b), three evaluations
 
 // [loss]
 template <Scalar T>
@@ -51,8 +51,8 @@ int main() {
 
   // [learn]
   const fit_options options{.fixed = {1.0 / 6.0, std::nullopt}};
-  const auto usual = learn(family, system, data, unseen, options);  // the error of the state
-  const auto own = learn(family, system, data, unseen, options, turning);
+  const auto usual = learn(chin, system, data, unseen, options);  // the error of the state
+  const auto own = learn(chin, system, data, unseen, options, turning);
   // [/learn]
 
   const auto report = [](const char* name, const fit& found) {
