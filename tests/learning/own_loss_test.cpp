@@ -38,7 +38,7 @@ flow_map_data uneven_data(const S& system) {
 template <Scalar R>
 squares squares_of(const model& system, const flow_map_data& data, const window_error<R>& error,
                    int threads = 1) {
-  const after_steps<R> loss(family, system, data, error, {.steps = {5}, .threads = threads});
+  const after_steps<R> loss(family, system, data, error, {.steps = {5}, .execution = {.threads = threads}});
   return loss.at(theta);
 }
 
@@ -225,7 +225,7 @@ class sixty_blocks final : public loss_on_data {
   }
   std::size_t residuals() const override { return 4; }
   bool has_estimated_weights() const override { return false; }
-  std::unique_ptr<const loss_on_data> of_family(const family&) const override {
+  std::unique_ptr<const loss_on_data> of_family(const nysalt::family&) const override {
     return std::make_unique<const sixty_blocks>(*this);
   }
   const shard& share() const override { return share_; }

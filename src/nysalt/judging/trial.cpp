@@ -102,7 +102,7 @@ accurate_motion follow_at(double step, const model& system, const states& starts
                          .steps = every * samples,
                          .every = 1,
                          .seed = options.seed,
-                         .threads = options.threads},
+                         .execution = {.threads = options.execution.threads}},
                         2 * n + 2, read, take);
   accurate_motion result;
   result.step = step;
@@ -174,7 +174,7 @@ std::vector<bool> are_unconfined(const model& system, const states& at, double s
         {.trajectories = std::ssize(at),
          .steps = finer * steps,
          .every = finer * steps,
-         .threads = options.threads},
+         .execution = {.threads = options.execution.threads}},
         1, [](const auto&, std::span<T>) {}, [](auto&&...) {});
     for (std::size_t k = 0; k < at.size(); ++k) result[k] = result[k] && diverged_at[k].has_value();
     if (std::ranges::none_of(result, std::identity{})) break;
@@ -271,7 +271,7 @@ std::vector<course> run_trial(const model& system, const method& method, double 
                                                     .steps = plan.steps,
                                                     .every = watches ? every : plan.steps,
                                                     .seed = options.seed,
-                                                    .threads = options.threads,
+                                                    .execution = {.threads = options.execution.threads},
                                                     .first = first},
                                                    1, read, take);
     std::vector<std::size_t> diverged;

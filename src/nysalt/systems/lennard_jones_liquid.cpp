@@ -81,7 +81,8 @@ void for_each_atom(const detail::neighbour_list& list, int threads, const detail
           });
     }
   };
-  for_each_trajectory(list.blocks(), threads, std::cref(of_block));  // a copy would allocate at each force
+  for_each_trajectory(list.blocks(), {.threads = threads},
+                      std::cref(of_block));  // a copy would allocate at each force
 }
 
 reals only(const integers& mask, const reals& x) {
