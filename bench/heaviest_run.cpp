@@ -38,7 +38,7 @@ runner run_of(const std::string& name, const method& method, double step, std::i
     const auto stepper = make_stepper(chain, method, step, counter_noise(1));
     const fpu_law<3> starts(chain);
     const ensemble_options options{
-        .trajectories = trajectories, .steps = steps, .every = steps, .threads = threads};
+        .trajectories = trajectories, .steps = steps, .every = steps, .execution = {.threads = threads}};
     const auto nothing = [](auto&&...) {};
     const auto diverged_at = integrate_ensemble<pack<double>>(stepper, starts, options, 0, nothing, nothing);
     const auto diverged = [](const auto& step) { return step.has_value(); };

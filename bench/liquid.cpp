@@ -26,7 +26,8 @@ constexpr std::int64_t steps = 20;  // of a turn, in which lists are made twice
 
 /// What LAMMPS does by default too.
 lennard_jones_liquid liquid_of(Eigen::Index atoms, int threads = 1) {
-  return {atoms, density, {.cutoff = 2.5, .smoothness = 0, .skin = 0.3, .threads = threads}};
+  return lennard_jones_liquid(atoms, density, {.cutoff = 2.5, .smoothness = 0, .skin = 0.3})
+      .on_threads(threads);
 }
 
 /// Our liquid under way.

@@ -30,10 +30,11 @@ int main() {
   const auto take = [&](std::int64_t m, std::int64_t n, double energy) {
     energies[static_cast<std::size_t>(n / every)][static_cast<std::size_t>(m)] = energy;
   };
-  const ensemble_options options{.trajectories = trajectories,
-                                 .steps = 5 * every,
-                                 .every = every,
-                                 .threads = static_cast<int>(std::thread::hardware_concurrency())};
+  const ensemble_options options{
+      .trajectories = trajectories,
+      .steps = 5 * every,
+      .every = every,
+      .execution = {.threads = static_cast<int>(std::thread::hardware_concurrency())}};
   const auto diverged_at = integrate_ensemble(chain, srkn6b(), step, law, options, of_first_spring, take);
 
   for (std::size_t k = 0; k < energies.size(); ++k) {

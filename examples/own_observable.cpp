@@ -50,7 +50,8 @@ int main() {
   const auto add = [&](std::int64_t m, std::int64_t n, double r) {
     if (n > 0) mean_of_each[static_cast<std::size_t>(m)] += r / 100;
   };
-  const ensemble_options options{.trajectories = 1000, .steps = 1000, .every = 10, .seed = 1, .threads = 2};
+  const ensemble_options options{
+      .trajectories = 1000, .steps = 1000, .every = 10, .seed = 1, .execution = {.threads = 2}};
   integrate_ensemble(system, pefrl{}, 0.05, ellipses, options, distance, add);
   const auto [mean, error] = mean_and_error(mean_of_each);
   // [/ensemble]

@@ -77,7 +77,7 @@ int main() {
 
   one_by_one second_part(stepper, starts, 1, 0, trajectories, read(path, 3));
   fmt::print("taken up at step {}\n", second_part.step());
-  second_part.go_on(end, end, 0, nothing, nothing, 2);
+  second_part.go_on(end, end, 0, nothing, nothing, {.threads = 2});
   // [/restart]
 
   const auto whole = uncut.save().numbers;

@@ -20,8 +20,9 @@ void learn_and_report(const communicator& ranks) {
   const fpu_law<3> starts(chain);
   // [learn]
   const auto pairs = [&](std::uint64_t seed) {
-    return make_flow_map_data(chain, starts, fine_steps(1e-3),
-                              {.step = 0.03, .trajectories = 400, .seed = seed, .ranks = &ranks});
+    return make_flow_map_data(
+        chain, starts, fine_steps(1e-3),
+        {.step = 0.03, .trajectories = 400, .seed = seed, .execution = {.ranks = &ranks}});
   };
   const auto [theta, summary, method] =
       learn(nystrom{}, chain, pairs(1), pairs(2), {.loss = loss_named("state:1")});
@@ -30,7 +31,7 @@ void learn_and_report(const communicator& ranks) {
   // How far the energy is off at t = 30, along trajectories that each process follows for itself.
   // [share]
   const ensemble_options options{
-      .trajectories = 1000, .steps = 1000, .every = 1000, .seed = 3, .ranks = &ranks};
+      .trajectories = 1000, .steps = 1000, .every = 1000, .seed = 3, .execution = {.ranks = &ranks}};
   const shard ours(options.trajectories, ranks);
   std::vector<double> squares(static_cast<std::size_t>(ours.count()));
   std::vector<double> at_start(squares.size());

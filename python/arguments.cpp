@@ -155,11 +155,11 @@ program::common_settings common_of(const argument_reader& arguments, bool calls_
   std::int64_t threads = program::usual_threads();
   arguments.take("threads", threads);
   if (!std::in_range<int>(threads)) refuse("threads must be a number of threads, got {}", threads);
-  settings.threads = static_cast<int>(threads);
+  settings.execution.threads = static_cast<int>(threads);
   arguments.take("force", settings.force);
   settings.json = true;
   require_sound(settings);
-  if (calls_python) settings.threads = 1;
+  if (calls_python) settings.execution.threads = 1;
   return settings;
 }
 

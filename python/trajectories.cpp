@@ -183,8 +183,8 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
     if (q.data() != all_q.data()) std::ranges::copy(numbers_in(q), all_q.begin());
     if (p.data() != all_p.data()) std::ranges::copy(numbers_in(p), all_p.begin());
     if (steps == 0) return;
-    const program::trajectories_plan plan{command.step, steps, count,
-                                          seed_for(program::role::test, common.seed), common.threads};
+    const program::trajectories_plan plan{
+        command.step, steps, count, seed_for(program::role::test, common.seed), common.execution.threads};
     if (system.own && goes_together(*system.own, method)) {
       integrate_together(system.own, system.model->heat_bath(), method, plan, all_q, all_p);
       return;
@@ -210,7 +210,7 @@ py::tuple judge(const held_system& system, const py::dict& arguments) {
     const auto source = program::find_method(command.method, command.held, made->letters());
     const auto method = coefficients_at(source, *made, command.step, common.force,
                                         program::placement_asked(command.placement), warnings);
-    document = program::to_json(made->judged(method, command.step, common.threads)).dump();
+    document = program::to_json(made->judged(method, command.step, common.execution.threads)).dump();
   });
   return py::make_tuple(document, list_of(warnings));
 }

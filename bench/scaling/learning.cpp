@@ -36,8 +36,7 @@ data_type make_data(const size_of_work& size, std::uint64_t seed) {
                              .horizon = h * static_cast<double>(size.steps),
                              .trajectories = size.trajectories,
                              .seed = seed,
-                             .threads = size.threads,
-                             .ranks = &size.who->ranks()});
+                             .execution = {.threads = size.threads, .ranks = &size.who->ranks()}});
 }
 
 /// Data and what is made of them, ready to be gone through.
@@ -49,7 +48,7 @@ struct learning_case {
   explicit learning_case(const size_of_work& size)
       : data(make_data(size, 1)),
         held_out(make_data(size, 2)),
-        problem(family(nystrom{}), chain, data, held_out, {.threads = size.threads}) {}
+        problem(family(nystrom{}), chain, data, held_out, {.execution = {.threads = size.threads}}) {}
 
   double loss() const { return problem.loss(problem.family.starts.front().theta).value; }
 };
@@ -117,7 +116,7 @@ void race_learning(const std::deque<first_ranks>& all, std::int64_t trajectories
     wait_for_all();
     runners.push_back({row_of("learn", size), size.who, [data_sets, size, &seen] {
                          const auto found = learn(nystrom{}, chain, data_sets->first, data_sets->second,
-                                                  {.threads = size.threads});
+                                                  {.execution = {.threads = size.threads}});
                          require_same(seen, size.trajectories, found.summary.loss);
                        }});
   }

@@ -48,7 +48,7 @@ double mean_stiff_energy(const Stepper& stepper, const size_of_work& size) {
     const ensemble_options options{.trajectories = ours.count(),
                                    .steps = size.steps,
                                    .every = size.steps,
-                                   .threads = size.threads,
+                                   .execution = {.threads = size.threads},
                                    .first = ours.first()};
     integrate_ensemble<T>(stepper, law, options, 1, read, take);
   }

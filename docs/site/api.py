@@ -30,7 +30,7 @@ groups = {
     "Stability and derivatives": "derivatives/",
     "Errors and statistics": "analysis/",
     "Comparisons": "compare recommend comparison_options export_to",
-    "Ranks and files": "communicator communicators/ shard atomic_file",
+    "Ranks and files": "communicator communicators/ execution shard atomic_file",
 }
 internal = {"core", "kernels", "parallel", "stepping"}
 

@@ -134,8 +134,8 @@ void on_first(const communicator& ranks, const std::function<void()>& work);
 
 // One rank's progress, reported as the progress of all ranks.
 
-/// A function that is called with the number of trajectories done, after some of them; calls do not overlap.
-/// Empty where progress is not reported.
+/// A function that is called with the number of trajectories done, after some of them, unless the options say
+/// what is counted; from any thread, but calls do not overlap. Empty where progress is not reported.
 using progress_callback = std::function<void(std::int64_t done)>;
 
 /// A counter for the `count` trajectories of this rank, such that `progress` counts to `total`, the number of

@@ -10,17 +10,19 @@
 #include <string>
 #include <vector>
 
+#include "nysalt/execution.hpp"
+
 namespace nysalt {
 
 /// Options of all computations.
-struct execution_options {
+struct common_options {
   std::uint64_t seed = 1;  ///< below 2^51: learning, judging and testing draw apart from each other by it
-  int threads = 1;         ///< results are the same bits for any number
   bool force = false;      ///< whether a scheme may be used at another step or system than in learning
+  nysalt::execution execution{};  ///< threads only: progress is told by parts
   /// Callback with the name of the current part and its completed share, from any thread, one call at a time.
   /// An exception that it throws cancels the work. Empty: progress is written to standard error, on a
   /// terminal as one line, and elsewhere once a minute.
-  std::function<void(const std::string& part, double share)> progress = {};
+  std::function<void(const std::string& part, double share)> progress_of_parts = {};
 };
 
 /// Options of learning at a step that is given elsewhere.

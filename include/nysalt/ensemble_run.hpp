@@ -14,6 +14,7 @@
 
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/ensemble.hpp"
+#include "nysalt/execution.hpp"
 #include "nysalt/parallel/ensemble_loop.hpp"
 #include "nysalt/stepping/lockstep.hpp"
 
@@ -52,25 +53,27 @@ class ensemble_run {
   };
 
  public:
-  /// A run at the initial states. Throws std::invalid_argument if there are none, or one does not fit.
+  /// A run at the initial states, made on the threads of `how`. Throws std::invalid_argument if there are
+  /// none, or one does not fit.
   template <Ensemble<typename Stepper::system_type> E>
   ensemble_run(const Stepper& stepper, const E& ensemble, std::uint64_t seed, std::int64_t first,
-               std::int64_t count, int threads = 1)
-      : ensemble_run(stepper, ensemble, seed, first, count, nullptr, threads) {}
+               std::int64_t count, const execution& how = {})
+      : ensemble_run(stepper, ensemble, seed, first, count, nullptr, how) {}
 
   /// A run that resumes from `saved`. Throws std::invalid_argument if it is of another number of trajectories
   /// or coordinates.
   template <Ensemble<typename Stepper::system_type> E>
   ensemble_run(const Stepper& stepper, const E& ensemble, std::uint64_t seed, std::int64_t first,
-               std::int64_t count, const saved_runs& saved, int threads = 1)
-      : ensemble_run(stepper, ensemble, seed, first, count, &saved, threads) {}
+               std::int64_t count, const saved_runs& saved, const execution& how = {})
+      : ensemble_run(stepper, ensemble, seed, first, count, &saved, how) {}
 
   /// Goes on to step `end`. At steps n that `every` divides, beyond step() and at 0 before the first step,
   /// read(x, numbers) and take(m, n, numbers) are called as by integrate_ensemble(). Divergence is checked
-  /// at `end` too: cut a run at multiples of steps_between_checks, and it is as if uncut.
+  /// at `end` too: cut a run at multiples of steps_between_checks, and it is as if uncut. Threads and
+  /// progress are those of `how`; its ranks are ignored, as all trajectories of the run are of this one.
   template <class Read, class Take>
   void go_on(std::int64_t end, std::int64_t every, std::size_t width_of_numbers, const Read& read,
-             const Take& take, int threads = 1, const progress_callback& progress = {}) {
+             const Take& take, const execution& how = {}) {
     if (end <= step_) return;
     const auto follow = [&](std::int64_t b) {
       block& here = *blocks_[static_cast<std::size_t>(b)];
@@ -80,9 +83,11 @@ class ensemble_run {
       here.start.reset();
       here.run.go_on(end, every, taken);
     };
-    const auto in_trajectories = [&](std::int64_t done) { progress(std::min(done * width, count_)); };
-    for_each_trajectory(std::ssize(blocks_), threads, follow,
-                        progress ? progress_callback(in_trajectories) : nullptr);
+    const auto in_trajectories = [&](std::int64_t done) { how.progress(std::min(done * width, count_)); };
+    for_each_trajectory(
+        std::ssize(blocks_),
+        {.threads = how.threads, .progress = how.progress ? progress_callback(in_trajectories) : nullptr},
+        follow);
     step_ = end;
   }
 
@@ -111,7 +116,7 @@ class ensemble_run {
 
  private:
   ensemble_run(const Stepper& stepper, const auto& ensemble, std::uint64_t seed, std::int64_t first,
-               std::int64_t count, const saved_runs* saved, int threads)
+               std::int64_t count, const saved_runs* saved, const execution& how)
       : stepper_(&stepper), first_(first), count_(count) {
     detail::require_trajectories("ensemble_run", count, first);
     if (saved != nullptr) require_fitting(*saved);
@@ -124,7 +129,7 @@ class ensemble_run {
       made = std::make_unique<block>(block{std::move(own), std::move(run), place, here, {}});
       if (step_ == 0) made->start = start;
     };
-    detail::for_each_lane_block(stepper, shard(count), width, threads, make);
+    detail::for_each_lane_block(stepper, shard(count), width, {.threads = how.threads}, make);
   }
 
   void require_fitting(const saved_runs& saved) {

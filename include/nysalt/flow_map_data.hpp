@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "nysalt/energy.hpp"
+#include "nysalt/execution.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_point.hpp"
@@ -77,7 +78,7 @@ struct flow_map_data {
   std::size_t first_pair() const { return shared ? shared->first : 0; }
 };
 
-/// Number, length, seed and threads of the trajectories of the data.
+/// Number, length and seed of the trajectories of the data.
 struct data_options {
   double step;                      ///< h, the step to learn for
   double horizon = 0.5;             ///< length of each trajectory, a time: floor(horizon/step) steps
@@ -85,9 +86,7 @@ struct data_options {
   std::uint64_t seed = 1;           ///< seed of starts and noise
   std::int64_t first = 0;           ///< number of the first trajectory: which start and which noise it has
   int noise_parts = 0;              ///< equal parts of a step in which noise is kept, for letters O
-  int threads = 1;                  ///< changes no bit of the data
-  const communicator* ranks = &one_rank;  ///< ranks that share the trajectories; changes no bit either
-  progress_callback progress{};           ///< called from any thread
+  nysalt::execution execution{};    ///< threads, ranks and progress
 };
 
 namespace detail {

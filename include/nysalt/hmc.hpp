@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/communicator.hpp"
+#include "nysalt/execution.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
@@ -40,10 +40,8 @@ struct hmc_options {
   /// unit of time of these masses, which step and length are in, coordinates that do not depend on each other
   /// have the frequency 1. Needs `acceptance`.
   bool diagonal_masses = false;
-  std::uint64_t seed = 1;                 ///< seed of starts and chains
-  int threads = 1;                        ///< changes no bit
-  progress_callback progress = {};        ///< counts trajectories of all chains
-  const communicator* ranks = &one_rank;  ///< ranks that share the chains; changes no bit
+  std::uint64_t seed = 1;         ///< seed of starts and chains
+  nysalt::execution execution{};  ///< ranks share the chains; progress counts trajectories of all chains
   std::int64_t keep_every = 0;  ///< trajectories of a chain between two calls of `keep`; 0: it is not called
   std::function<void(const hmc_state&)> keep =
       {};  ///< checkpoint callback, at every rank, after all draws of the trajectories so far were taken

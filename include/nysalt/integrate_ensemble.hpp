@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "nysalt/communicator.hpp"
 #include "nysalt/core/sentence.hpp"
 #include "nysalt/ensemble.hpp"
+#include "nysalt/execution.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/parallel/ensemble_loop.hpp"
 #include "nysalt/shard.hpp"
@@ -20,16 +20,14 @@
 
 namespace nysalt {
 
-/// Number, length, seed and threads of the trajectories of an ensemble.
+/// Number, length and seed of the trajectories of an ensemble.
 struct ensemble_options {
-  std::int64_t trajectories = 100;        ///< number of trajectories
-  std::int64_t steps = 1000;              ///< steps of each trajectory
-  std::int64_t every = 1;                 ///< steps between observations
-  std::uint64_t seed = 1;                 ///< seed of the starts
-  int threads = 1;                        ///< changes no bit
-  std::int64_t first = 0;                 ///< number of the first trajectory
-  progress_callback progress = {};        ///< called after each block
-  const communicator* ranks = &one_rank;  ///< ranks that share the trajectories; changes no bit
+  std::int64_t trajectories = 100;  ///< number of trajectories
+  std::int64_t steps = 1000;        ///< steps of each trajectory
+  std::int64_t every = 1;           ///< steps between observations
+  std::uint64_t seed = 1;           ///< seed of the starts
+  nysalt::execution execution{};    ///< progress is called after each block
+  std::int64_t first = 0;           ///< number of the first trajectory
 };
 
 namespace detail {
@@ -61,7 +59,7 @@ void measure_ensemble(const Stepper& stepper, const E& ensemble, const ensemble_
       measure.end(run);
     }
   };
-  for_each_lane_block(stepper, share, of_thread, options.threads, follow, options.progress);
+  for_each_lane_block(stepper, share, of_thread, options.execution, follow);
 }
 
 }  // namespace detail
@@ -83,7 +81,7 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
                                                             std::size_t width, const Read& read,
                                                             const Take& take) {
   detail::require_ensemble("integrate_ensemble", options);
-  const shard own(options.trajectories, *options.ranks);
+  const shard own(options.trajectories, *options.execution.ranks);
   std::vector<std::optional<std::int64_t>> diverged_at(static_cast<std::size_t>(options.trajectories));
   struct taken : detail::take_in_order<Read, Take> {
     std::optional<std::int64_t>* diverged_at;

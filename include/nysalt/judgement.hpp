@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "nysalt/divergence.hpp"
+#include "nysalt/execution.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/phase_point.hpp"
@@ -40,9 +41,9 @@ struct judging_options {
   /// Largest number of force evaluations times force_cost(), some tenths of a second in lanes, as a rule; of
   /// a black box, whose cost is not known, of force evaluations a two-thousandth of it.
   std::int64_t work = 400'000'000;
-  std::uint64_t seed = 1;      ///< seed of the noise, in a bath
-  int threads = 1;             ///< changes no bit
-  bool watches_energy = true;  ///< false: only divergence counts, as for proposals of Hybrid Monte Carlo
+  std::uint64_t seed = 1;         ///< seed of the noise, in a bath
+  nysalt::execution execution{};  ///< threads only
+  bool watches_energy = true;     ///< false: only divergence counts, as for proposals of Hybrid Monte Carlo
 };
 
 /// Largest number of force evaluations of a trial: what `work` comes to.

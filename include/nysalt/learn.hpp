@@ -5,10 +5,10 @@
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "nysalt/execution.hpp"
 #include "nysalt/family.hpp"
 #include "nysalt/flow_map_data.hpp"
 #include "nysalt/learning/fit_summary.hpp"
@@ -45,9 +45,9 @@ struct fit_options {
   std::optional<double> frequency{};
   std::uint64_t seed = 1;    ///< seed of the random starts
   int max_iterations = 200;  ///< largest number of iterations of the search from each start
-  int threads = 1;           ///< changes no bit of what is learned
-  /// Called before each pass of the search over the data; what it throws ends the search.
-  std::function<void()> progress{};
+  /// Threads; ranks are those of the data. Progress is called before each pass of the search over the data,
+  /// with the number of passes done, and what it throws ends the search.
+  nysalt::execution execution{};
 };
 
 /// Result of learn().

@@ -5,6 +5,7 @@
 #include "nysalt/communicator.hpp"
 #include "nysalt/distributed_run.hpp"
 #include "nysalt/ensemble_run.hpp"
+#include "nysalt/execution.hpp"
 #include "nysalt/integrate_ensemble.hpp"
 #include "nysalt/parallel/ensemble_loop.hpp"
 #include "nysalt/shard.hpp"

@@ -48,7 +48,7 @@ class recommendation {
 /// checks are the same as in compare(). Throws std::invalid_argument, naming the option, for bad input. Cost:
 /// a fit for each family that suits, and a comparison of all that take part.
 recommendation recommend(const initial_value_problem& problem, const recommendation_options& options,
-                         const execution_options& execution = {});
+                         const common_options& common = {});
 
 /// The word with which Hybrid Monte Carlo takes the largest step per force evaluation on a system at one
 /// acceptance: of the words that samplers ship or their literature proposes, and of families that are learned
@@ -57,6 +57,6 @@ recommendation recommend(const initial_value_problem& problem, const recommendat
 /// std::invalid_argument, naming the option, for bad input. Cost: pilot chains of 500 trajectories and
 /// more; some twelve times the trajectories of the options for each word; up to seven fits for each family.
 recommendation recommend_for_sampling(const initial_value_problem& problem, const sampling_options& options,
-                                      const execution_options& execution = {});
+                                      const common_options& common = {});
 
 }  // namespace nysalt

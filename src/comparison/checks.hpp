@@ -19,8 +19,8 @@ namespace nysalt::program {
 
 inline void require_sound(const common_settings& common) {
   constexpr int most_threads = 1024;  // each takes memory, before it works
-  if (common.threads < 1 || common.threads > most_threads) {
-    refuse("--threads must be at least 1 and at most {}, got {}", most_threads, common.threads);
+  if (common.execution.threads < 1 || common.execution.threads > most_threads) {
+    refuse("--threads must be at least 1 and at most {}, got {}", most_threads, common.execution.threads);
   }
   if (common.seed >= seed_limit) refuse("--seed must be below 2^51 = {}, got {}", seed_limit, common.seed);
 }

@@ -251,7 +251,7 @@ void comparison::add_row(const method_source& source, double nominal) {
 
 trajectories_plan comparison::plan_at(double step) const {
   return {step, steps_within("--horizon", horizon_, step), options_.trajectories,
-          seed_for(role::test, common_.seed), common_.threads};
+          seed_for(role::test, common_.seed), common_.execution.threads};
 }
 
 /// To the horizon, over which errors are means.

@@ -41,7 +41,7 @@ void comparison::judge_steps() {
     shown_.part(fmt::format("judging {} at step {:g}", line.method, line.nominal));
     // A step of several evaluations is a product, which differs from the step as typed in its last digit.
     const double as_typed = std::stod(fmt::format("{:.15g}", line.step));
-    line.judged = system_->judged(*line.coefficients, as_typed, common_.threads);
+    line.judged = system_->judged(*line.coefficients, as_typed, common_.execution.threads);
   }
 }
 

@@ -35,7 +35,7 @@ inline void fix_parameter(const family& family, const std::string& text, fit_opt
 /// Throws refusal, or std::invalid_argument where a fixed value is out of range.
 inline fit_options options_for(const family& family, const learning_options& how, int threads) {
   fit_options options;
-  options.threads = threads;
+  options.execution.threads = threads;
   if (!how.coordinates.empty()) options.coordinates = coordinates_named(how.coordinates);
   if (!how.loss.empty()) options.loss = loss_named(how.loss);
   options.effort = effort_named(how.effort);

@@ -121,7 +121,7 @@ learn_plan plan_for(const std::string& family, std::optional<placement> where, d
           .how = how,
           .seed = seed_for(role::training, common.seed),
           .held_out_seed = seed_for(role::held_out, common.seed),
-          .threads = common.threads};
+          .threads = common.execution.threads};
 }
 
 void prepare_starts(prepared_problem& system, const common_settings& common, progress& shown,

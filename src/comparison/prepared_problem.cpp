@@ -482,7 +482,7 @@ const judgement& prepared_problem::judged_by(const method& method, double step, 
   const std::pair at(step, evaluations);
   auto judge = judges_.find(at);
   if (judge == judges_.end()) {
-    judging_options options{.threads = threads};
+    judging_options options{.execution = {.threads = threads}};
     const double share = static_cast<double>(evaluations) / static_cast<double>(all);
     if (evaluations < all) options.work = std::llround(std::ceil(share * static_cast<double>(options.work)));
     const phase_points starts = starts_to_judge(made_.system, starts_or_law());

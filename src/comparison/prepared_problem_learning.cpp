@@ -70,7 +70,9 @@ learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& pr
   // are found.
   options.frequency = frequency_asked_;
   options.check_force = false;  // systems of users were checked when they were made
-  if (progress) options.progress = [&progress, all = plan.how.trajectories] { progress(all); };
+  if (progress) {
+    options.execution.progress = [&progress, all = plan.how.trajectories](std::int64_t) { progress(all); };
+  }
   if (!plan.from.empty()) {
     const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(plan.from.data(), std::ssize(plan.from));
     if (plan.only_from_there) {
@@ -94,9 +96,7 @@ learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& pr
                  .trajectories = plan.how.trajectories,
                  .seed = seed,
                  .noise_parts = parts,
-                 .threads = plan.threads,
-                 .ranks = &all_ranks(),
-                 .progress = progress},
+                 .execution = {.threads = plan.threads, .ranks = &all_ranks(), .progress = progress}},
                 pairs);
   };
   make(data, plan.seed);

@@ -24,9 +24,7 @@ trajectory_options options_of(const trajectories_plan& plan, const counter& prog
           .steps = plan.steps,
           .trajectories = plan.count,
           .seed = plan.seed,
-          .threads = plan.threads,
-          .progress = progress,
-          .ranks = &all_ranks(),
+          .execution = {.threads = plan.threads, .ranks = &all_ranks(), .progress = progress},
           .horizon = plan.horizon};
 }
 
@@ -110,14 +108,13 @@ gathered_statistics prepared_problem::statistics(const method& method, const sta
   const auto& trajectories = plan.trajectories;
   const auto stepper =
       make_stepper(made_.system, method, trajectories.step, counter_noise(trajectories.seed));
-  const ensemble_options options{.trajectories = trajectories.count,
-                                 .steps = trajectories.steps,
-                                 .every = plan.every,
-                                 .seed = trajectories.seed,
-                                 .threads = trajectories.threads,
-                                 .first = plan.first,
-                                 .progress = progress,
-                                 .ranks = &all_ranks()};
+  const ensemble_options options{
+      .trajectories = trajectories.count,
+      .steps = trajectories.steps,
+      .every = plan.every,
+      .seed = trajectories.seed,
+      .execution = {.threads = trajectories.threads, .ranks = &all_ranks(), .progress = progress},
+      .first = plan.first};
   // Half a step on is where B(1/2) at the beginning of a word leads.
   const bool leaps = method.letters().letters().front() == kick::letter && method.coefficients()[0] == 0.5;
   const statistics_wanted wanted{.histogram = plan.bins,

@@ -185,7 +185,7 @@ void recommendation::confirm(contest& among, candidate& contender) {
 }
 
 std::string recommendation::objection_to(const candidate& contender) const {
-  const judgement& found = system_->judged(*contender.method, contender.step, common_.threads);
+  const judgement& found = system_->judged(*contender.method, contender.step, common_.execution.threads);
   return found.holds() ? std::string() : fmt::format("at step {:g}: {}", contender.step, found.in_words());
 }
 

@@ -14,7 +14,7 @@ namespace nysalt::program {
 
 trajectories_plan recommendation::plan_at(double step, std::int64_t count, std::uint64_t seed) const {
   trajectories_plan plan{step, steps_within("--horizon", options_.horizon, step), count, seed,
-                         common_.threads};
+                         common_.execution.threads};
   if (!metric().is_along_paths()) return plan;
   plan.steps = steps_beyond("--horizon", options_.horizon, step);  // errors are means over all of the horizon
   plan.horizon = options_.horizon;

@@ -39,7 +39,7 @@ void recommendation::time_steps() {
                               : coefficients_at(contender.source, *system_, step, false,
                                                 placement_asked(options_.placement), ignored);
       methods.push_back({method,
-                         {step, steps, options_.trajectories, common_.seed, common_.threads},
+                         {step, steps, options_.trajectories, common_.seed, common_.execution.threads},
                          contender.source.evaluations_per_step / step});
       names.push_back(contender.source.typed);
       return false;

@@ -77,10 +77,11 @@ double run_in_batches(const initial_value_problem& made, const initial_states& s
     std::optional<batch> runs;  // a rank may have none
     collectively(ranks, [&] {
       if (shared.count() == 0) return;
+      const execution in_threads{.threads = all.threads};
       if (goes_on) {
-        runs.emplace(stepper, starts, all.seed, shared.first(), shared.count(), saved, all.threads);
+        runs.emplace(stepper, starts, all.seed, shared.first(), shared.count(), saved, in_threads);
       } else {
-        runs.emplace(stepper, starts, all.seed, shared.first(), shared.count(), all.threads);
+        runs.emplace(stepper, starts, all.seed, shared.first(), shared.count(), in_threads);
       }
     });
     for (std::int64_t step = saved.step, end; step < all.steps; step = end) {
@@ -101,7 +102,9 @@ double run_in_batches(const initial_value_problem& made, const initial_states& s
         progress(static_cast<std::int64_t>(1000.0 * of_all / static_cast<double>(all.count)));
       };
       collectively(ranks, [&] {
-        if (runs) runs->go_on(end, plan.every, watched.size(), read, keep, all.threads, report_progress);
+        if (runs)
+          runs->go_on(end, plan.every, watched.size(), read, keep,
+                      {.threads = all.threads, .progress = report_progress});
       });
       for (std::size_t i = 0; i < records.size(); ++i) {
         const auto lost = runs->diverged_at(shared.first() + static_cast<std::int64_t>(i));

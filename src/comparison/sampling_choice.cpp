@@ -130,8 +130,8 @@ void sampling_choice::run_pilot() {
                           .draws = draws,
                           .acceptance = options_.acceptance,
                           .seed = seed_for(role::training, common_.seed),
-                          .threads = common_.threads,
-                          .progress = shown_.counter(chains * (burn_in + draws))};
+                          .execution = {.threads = common_.execution.threads,
+                                        .progress = shown_.counter(chains * (burn_in + draws))}};
   std::vector<std::vector<Eigen::VectorXd>> positions(chains);
   std::vector<std::vector<double>> potentials(chains);
   const auto keep = [&](const hmc_draw& draw) {
@@ -174,8 +174,7 @@ proposal_options sampling_choice::proposals(std::uint64_t seed) const {
           .times_larger = options_.times_larger,
           .states = options_.trajectories,
           .seed = seed,
-          .threads = common_.threads,
-          .ranks = &all_ranks()};
+          .execution = {.threads = common_.execution.threads, .ranks = &all_ranks()}};
 }
 
 method sampling_choice::method_at(const sampling_candidate& candidate, double step) const {

@@ -154,7 +154,7 @@ flow_map_data make_some_pairs(const model& system, const initial_states& ensembl
     const auto follow = [&](const model& own, std::int64_t place, int n) {
       evaluations += follow_reference<T>(pass, own, place - share.first(), n);
     };
-    for_each_lane_block(system, share, lanes_in<T>, options.threads, follow, options.progress);
+    for_each_lane_block(system, share, lanes_in<T>, options.execution, follow);
   });
   collectively(share.ranks(), [&] { evaluations += check_reference(system, reference, options, data); });
   if (has_energy(system)) {
@@ -221,7 +221,7 @@ std::int64_t steps_of_each(const data_options& options, Eigen::Index dimension) 
     throw std::invalid_argument(
         fmt::format("flow_map_data: noise_parts must be >= 0, got {}", options.noise_parts));
   }
-  if (options.trajectories / options.ranks->size() >
+  if (options.trajectories / options.execution.ranks->size() >
       static_cast<std::int64_t>(numbers_in_memory / numbers_of_trajectory(options, steps, dimension))) {
     throw std::invalid_argument(
         fmt::format("flow_map_data: the data must fit into memory, got {} trajectories of {} steps; take "
@@ -265,7 +265,7 @@ void extend_data(const model& system, const initial_states& ensemble, const refe
         fmt::format("flow_map_data: the reference must have noise to keep, got {}; take fine_paths",
                     reference.description()));
   }
-  const shard all(options.trajectories, *options.ranks);
+  const shard all(options.trajectories, *options.execution.ranks);
   if (there > 0) detail::redistribute(data, all, size(system));
 
   data_options of_further = options;

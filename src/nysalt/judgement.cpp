@@ -297,11 +297,11 @@ void add_linear(const stability_guard& guard, const nysalt::method& method, Eige
 step_judge::step_judge(model system, const phase_points& starts, double step,
                        const judging_options& options) {
   if (starts.empty() || !(step > 0.0) || !std::isfinite(step) || options.steps < 1 || options.work < 1 ||
-      options.threads < 1) {
+      options.execution.threads < 1) {
     throw std::invalid_argument(
         fmt::format("judge: starts must be given, step must be positive and finite, steps, work and threads "
                     "at least 1, got {} starts, step {}, steps {}, work {} and threads {}",
-                    starts.size(), step, options.steps, options.work, options.threads));
+                    starts.size(), step, options.steps, options.work, options.execution.threads));
   }
   auto made = std::make_unique<known>(known{.system = std::move(system),
                                             .starts = states(starts.begin(), starts.end()),

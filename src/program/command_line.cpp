@@ -74,7 +74,7 @@ std::string without_threads(const std::string& options) {
 int run_command_line(int argc, char** argv) {
   load_named_system(argc, argv);
   common_settings common;
-  common.threads = usual_threads();
+  common.execution.threads = usual_threads();
   common.command = command_text(argc, argv);
   CLI::App app("Learned symplectic integrators: learn one for a system and a step, run it, compare it.",
                "nysalt");

@@ -110,7 +110,8 @@ void fitted_family::learn() {
   learned_ = learn_curve(*system_, plan_, steps_, shown);
   shown.part("judging the step");
   for (const auto& one : learned_)
-    losing_fewest_.push_back(loses_fewest(one.method, *system_, one.fit.judgement, common_.threads));
+    losing_fewest_.push_back(
+        loses_fewest(one.method, *system_, one.fit.judgement, common_.execution.threads));
   for (const auto& one : learned_) {
     if (one.course && !one.course->is_reached)
       warnings_.push_back(fmt::format("at step {:g} {}", one.fit.step, one.course->report()));

@@ -280,7 +280,7 @@ void complain(std::string text) {
 void warn(std::string_view text) { complain("warning: " + std::string(text)); }
 
 void warn_of_threads(const common_settings& common) {
-  if (const auto advice = advice_on_threads(common.threads); !advice.empty()) warn(advice);
+  if (const auto advice = advice_on_threads(common.execution.threads); !advice.empty()) warn(advice);
 }
 
 }  // namespace nysalt::program

@@ -18,8 +18,8 @@ using program::with_cpp_messages;
 class comparison::measurement {
  public:
   measurement(const initial_value_problem& problem, const comparison_options& options,
-              const execution_options& execution)
-      : all(program::prepared(problem), options, program::settings_of(execution)) {}
+              const common_options& common)
+      : all(program::prepared(problem), options, program::settings_of(common)) {}
 
   program::comparison all;
 };
@@ -80,10 +80,10 @@ void comparison::write(const std::filesystem::path& folder) const {
 }
 
 comparison compare(const initial_value_problem& problem, const comparison_options& options,
-                   const execution_options& execution) {
+                   const common_options& common) {
   return with_cpp_messages([&] {
-    const program::told_caller told(execution);
-    const auto found = std::make_shared<comparison::measurement>(problem, options, execution);
+    const program::told_caller told(common);
+    const auto found = std::make_shared<comparison::measurement>(problem, options, common);
     program::journal nowhere;
     found->all.learn_and_measure(nowhere);
     return comparison(found);
@@ -91,11 +91,11 @@ comparison compare(const initial_value_problem& problem, const comparison_option
 }
 
 comparison report(const initial_value_problem& problem, comparison_options options,
-                  const std::filesystem::path& folder, const execution_options& execution) {
+                  const std::filesystem::path& folder, const common_options& common) {
   options.energies = true;
   return with_cpp_messages([&] {
-    const program::told_caller told(execution);
-    const auto found = std::make_shared<comparison::measurement>(problem, options, execution);
+    const program::told_caller told(common);
+    const auto found = std::make_shared<comparison::measurement>(problem, options, common);
     auto question = found->all.question();
     question["seen_at_starts"] = seen_at_starts(problem);
     make_folders(folder);

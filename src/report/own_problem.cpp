@@ -19,9 +19,9 @@ std::unique_ptr<prepared_problem> prepared(initial_value_problem problem) {
                                             surroundings{.bath = in, .start = where, .is_start_usual = true});
 }
 
-told_caller::told_caller(const execution_options& execution) {
-  if (!execution.progress) return;
-  caller_.hears = execution.progress;
+told_caller::told_caller(const common_options& common) {
+  if (!common.progress_of_parts) return;
+  caller_.hears = common.progress_of_parts;
   work_.emplace(caller_);
 }
 
@@ -30,9 +30,9 @@ std::vector<std::string> with_cpp_terms(std::vector<std::string> warnings) {
   return warnings;
 }
 
-common_settings settings_of(const execution_options& execution) {
+common_settings settings_of(const common_options& common) {
   common_settings settings;
-  static_cast<execution_options&>(settings) = execution;
+  static_cast<common_options&>(settings) = common;
   require_sound(settings);
   return settings;
 }

@@ -20,12 +20,12 @@ namespace nysalt::program {
 std::unique_ptr<prepared_problem> prepared(initial_value_problem problem);
 
 /// With a whole seed and some threads. Throws refusal.
-common_settings settings_of(const execution_options& execution);
+common_settings settings_of(const common_options& common);
 
 /// Hears what the caller asks to be told, while it lives.
 class told_caller {
  public:
-  explicit told_caller(const execution_options& execution);
+  explicit told_caller(const common_options& common);
 
  private:
   quiet_caller caller_;

@@ -28,8 +28,8 @@ template <class Work>
 class result_of : public recommendation::contest_result {
  public:
   template <class Options>
-  result_of(const initial_value_problem& problem, const Options& options, const execution_options& execution)
-      : all_(program::prepared(problem), options, program::settings_of(execution)) {
+  result_of(const initial_value_problem& problem, const Options& options, const common_options& common)
+      : all_(program::prepared(problem), options, program::settings_of(common)) {
     all_.learn_and_rank();
   }
   bool has_result() const override { return all_.has_result(); }
@@ -87,18 +87,18 @@ std::vector<std::string> recommendation::warnings() const {
 }
 
 recommendation recommend(const initial_value_problem& problem, const recommendation_options& options,
-                         const execution_options& execution) {
+                         const common_options& common) {
   return program::with_cpp_messages([&] {
-    const program::told_caller told(execution);
-    return recommendation(std::make_shared<const best_for_runs>(problem, options, execution));
+    const program::told_caller told(common);
+    return recommendation(std::make_shared<const best_for_runs>(problem, options, common));
   });
 }
 
 recommendation recommend_for_sampling(const initial_value_problem& problem, const sampling_options& options,
-                                      const execution_options& execution) {
+                                      const common_options& common) {
   return program::with_cpp_messages([&] {
-    const program::told_caller told(execution);
-    return recommendation(std::make_shared<const best_for_sampling>(problem, options, execution));
+    const program::told_caller told(common);
+    return recommendation(std::make_shared<const best_for_sampling>(problem, options, common));
   });
 }
 

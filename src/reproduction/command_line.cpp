@@ -16,7 +16,7 @@ namespace nysalt::program::paper {
 
 int run_command_line(int argc, char** argv) {
   common_settings common;
-  common.threads = usual_threads();
+  common.execution.threads = usual_threads();
   common.command = command_text(argc, argv);
   reproduce_command asked;
   CLI::App app("The paper's tables and figures beside our own.", "nysalt_paper");

@@ -10,7 +10,7 @@ statistics_plan plan_of_statistics(const setting& setup, double step, role whose
   const auto count = setup.pick<std::int64_t>(10'000, 32);
   const double horizon = setup.pick(40.0, 4.0);
   return {.trajectories = {step, static_cast<std::int64_t>(horizon / step + 1e-9), count,
-                           seed_for(whose, setup.seed()), setup.common.threads},
+                           seed_for(whose, setup.seed()), setup.common.execution.threads},
           .first = ensemble * count};
 }
 

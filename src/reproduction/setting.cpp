@@ -24,7 +24,7 @@ std::uint64_t setting::seed(std::uint64_t repetition) const {
 namespace {
 trajectories_plan plan_of(const setting& setup, double step, double horizon, std::int64_t count) {
   return {step, steps_within("horizon", horizon, step), count, seed_for(role::test, setup.seed()),
-          setup.common.threads};
+          setup.common.execution.threads};
 }
 }  // namespace
 
@@ -82,7 +82,7 @@ learned_scheme learn_at(const setting& setup, const prepared_problem& system, do
                                 .random_starts = 0},
                         .seed = seed_for(role::training, setup.seed(how.repetition)),
                         .held_out_seed = seed_for(role::held_out, setup.seed(how.repetition)),
-                        .threads = setup.common.threads};
+                        .threads = setup.common.execution.threads};
   return system.learn(plan, {});
 }
 

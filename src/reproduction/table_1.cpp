@@ -41,10 +41,12 @@ struct column {
 
 std::vector<estimate> fitted(const fpu_chain<3>& system, const pairs& data, const pairs& held_out,
                              coordinates which, int threads) {
-  fit_options options{
-      .coordinates = which, .loss = loss_named("state:1"), .random_starts = 0, .threads = threads};
+  fit_options options{.coordinates = which,
+                      .loss = loss_named("state:1"),
+                      .random_starts = 0,
+                      .execution = {.threads = threads}};
   options.fixed.resize(2);
-  const auto [theta, summary] = learn(family_named("nystrom"), system, data, held_out, options);
+  const fit_summary summary = learn(family_named("nystrom"), system, data, held_out, options).summary;
   std::vector<estimate> result;
   for (const auto& p : summary.parameters) result.push_back({p.value, p.standard_error});
   return result;
@@ -55,22 +57,23 @@ void learn_columns(const setting& setup, std::vector<column>& columns) {
   const fpu_law<3> law(system);
   const double h = setup.pick(1e-6, 1e-4);
   for (const auto& generator : generators) {
-    const auto reference = fine_steps(h, member<nystrom>(generator));
+    const auto reference = fine_steps(h, member(nystrom(), {generator[0], generator[1]}));
     const auto data_of = [&](role which) {
       return make_flow_map_data(system, law, reference,
                                 {.step = 1e-3,
                                  .horizon = 1.0,
                                  .trajectories = setup.pick<std::int64_t>(100, 10),
                                  .seed = seed_for(which, setup.seed()),
-                                 .threads = setup.common.threads});
+                                 .execution = {.threads = setup.common.execution.threads}});
     };
     const pairs data = data_of(role::training);
     const pairs held_out = data_of(role::held_out);
     for (column& one : columns) {
       for (std::size_t r = 0; r < printed.size(); ++r) {
         const auto factor = printed[r].factor;
-        const auto theta = fitted(system, thinned(data, factor, one.horizon),
-                                  thinned(held_out, factor, one.horizon), one.which, setup.common.threads);
+        const auto theta =
+            fitted(system, thinned(data, factor, one.horizon), thinned(held_out, factor, one.horizon),
+                   one.which, setup.common.execution.threads);
         if (r >= one.first.size()) one.first.push_back(theta);
         for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
           const double change = std::abs(theta[k].mean - one.first[r][k].mean);

@@ -461,7 +461,7 @@ BOOST_AUTO_TEST_CASE(statistics_that_cannot_be_are_refused) {
   BOOST_TEST(refused({.trajectories = 0}, {}, "trajectories 0"));
   BOOST_TEST(refused({.steps = -1}, {}, "steps -1"));
   BOOST_TEST(refused({.every = 0}, {}, "every 0"));
-  BOOST_TEST(refused({.threads = 0}, {}, "thread"));
+  BOOST_TEST(refused({.execution = {.threads = 0}}, {}, "thread"));
   BOOST_TEST(refused({.steps = 10}, {.from = 11}, "from 11"));
   BOOST_TEST(refused({.steps = 10, .every = 2}, {.lags = 6}, "6 samples", "6 lags"));
   BOOST_TEST(refused({.steps = 10, .every = 2}, {.lags = 3, .from = 5}, "3 samples"));

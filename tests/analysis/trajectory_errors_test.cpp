@@ -31,7 +31,7 @@ struct setting {
   double step;
 
   trajectory_options options(std::int64_t steps, std::int64_t trajectories) const {
-    return {.step = step, .steps = steps, .trajectories = trajectories, .threads = 2};
+    return {.step = step, .steps = steps, .trajectories = trajectories, .execution = {.threads = 2}};
   }
   errors judged(const std::vector<method>& some, const error_measure& measure,
                 const trajectory_options& how) const {
@@ -376,9 +376,9 @@ BOOST_AUTO_TEST_CASE(progress_counts_trajectories_in_turn) {
       std::vector<std::int64_t> told;
       run_ranks(ranks, [&](const communicator& all) {
         auto options = on_the_chain.options(2, 40);
-        options.threads = threads;
-        options.ranks = &all;
-        options.progress = [&](std::int64_t done) {
+        options.execution.threads = threads;
+        options.execution.ranks = &all;
+        options.execution.progress = [&](std::int64_t done) {
           if (!all.is_first()) throw std::logic_error("not the first rank told it");
           told.push_back(done);
         };
@@ -445,8 +445,9 @@ BOOST_AUTO_TEST_CASE(all_threads_and_ranks_name_the_first_trajectory_in_trouble)
   for (const std::size_t m : {58U, 40U, 33U}) starts[m].q[0] = NAN;
   const auto named = [&](const communicator& ranks, int threads) {
     return refusal_of<std::exception>([&] {
-      judged(these(starts), by_state,
-             {.step = .01, .steps = 5, .trajectories = 60, .threads = threads, .ranks = &ranks});
+      judged(
+          these(starts), by_state,
+          {.step = .01, .steps = 5, .trajectories = 60, .execution = {.threads = threads, .ranks = &ranks}});
     });
   };
   const std::string expected = named(one_rank, 1);
@@ -490,8 +491,9 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
   BOOST_TEST(refused({.step = .01, .steps = 1, .trajectories = 0}, "0 trajectories"));
   BOOST_TEST(refused({.step = 0.0, .steps = 1}, "step must be"));
   BOOST_TEST(refused({.step = NAN, .steps = 1}, "step must be"));
-  BOOST_TEST(refused({.step = .01, .steps = 1, .threads = 0}, "thread"));
-  BOOST_TEST(refused({.step = .01, .steps = 1, .threads = 1'000'000}, "fit into memory", "threads"));
+  BOOST_TEST(refused({.step = .01, .steps = 1, .execution = {.threads = 0}}, "thread"));
+  BOOST_TEST(
+      refused({.step = .01, .steps = 1, .execution = {.threads = 1'000'000}}, "fit into memory", "threads"));
   BOOST_TEST(refused({.step = .01, .steps = 1, .trajectories = 2'000'000'000}, "fit into memory"));
   BOOST_TEST(refused({.step = .0103, .steps = 1}, "a multiple"));  // of the fine step
   for (const double perturbation : {0.0, -1.0, static_cast<double>(INFINITY), std::nan("")}) {

@@ -18,7 +18,7 @@ const std::vector<std::vector<std::string>> layers{
     {"flow", "flows/", "letters", "word", "stepping/", "stepper"},
     {"kernels/", "model"},
     {"langevin", "family", "families/", "method", "methods/", "integrate"},
-    {"atomic_file", "communicator", "communicators/", "shard", "parallel/"},
+    {"atomic_file", "communicator", "communicators/", "execution", "shard", "parallel/"},
     {"derivatives/"},
     {"reference", "references/", "ensemble", "initial_states", "ensembles/"},
     {"distributed_run", "integrate_ensemble", "ensemble_run", "flow_map_data"},

@@ -70,7 +70,8 @@ seen alone(const auto& stepper, std::int64_t every = 7, std::uint64_t shift = 0)
 template <class T>
 seen together(const auto& stepper, std::int64_t every = 7) {
   seen all{every};
-  const ensemble_options options{.trajectories = trajectories, .steps = steps, .every = every, .threads = 2};
+  const ensemble_options options{
+      .trajectories = trajectories, .steps = steps, .every = every, .execution = {.threads = 2}};
   all.diverged_at = integrate_ensemble<T>(stepper, star_law, options, 2, read_two<T>, all.take());
   return all;
 }
@@ -174,7 +175,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   refused(galaxy, by_verlet, star_law, before_the_first, "first -3");
   refused(galaxy, by_verlet, star_law, {.steps = -1}, "steps -1");
   refused(galaxy, by_verlet, star_law, {.every = 0}, "every 0");
-  refused(galaxy, by_verlet, star_law, {.threads = 0}, "thread");
+  refused(galaxy, by_verlet, star_law, {.execution = {.threads = 0}}, "thread");
   const listed<2> states({{{0.0, 0.0}, {0.0, 0.0}}, {{NAN, 0.0}, {0.0, 0.0}}});
   refused(galaxy, by_verlet, states, {.trajectories = 2}, "start 1 ", "must be finite");
   // By its method an ensemble has no source of noise.
@@ -298,7 +299,7 @@ BOOST_AUTO_TEST_CASE(a_reference_that_diverges_is_told_with_the_lowest_trajector
     starts.resize(known);
     return make_flow_map_data(
         cliff(), listed<1>(starts), fine_steps(0.05),
-        {.step = 0.5, .horizon = 5.0, .trajectories = trajectories, .threads = threads});
+        {.step = 0.5, .horizon = 5.0, .trajectories = trajectories, .execution = {.threads = threads}});
   };
   for (const int threads : {1, 5}) {
     BOOST_TEST(refuses<std::runtime_error>([&] { make(40, 40, threads); },
@@ -317,7 +318,8 @@ BOOST_AUTO_TEST_CASE(the_range_of_energies_is_that_of_all_starts_and_finishes) {
   const auto tell = [&](std::int64_t done) {
     if (done > most) most = done;
   };
-  const auto data = made({.step = 0.02, .horizon = 0.1, .trajectories = 20, .threads = 2, .progress = tell});
+  const auto data =
+      made({.step = 0.02, .horizon = 0.1, .trajectories = 20, .execution = {.threads = 2, .progress = tell}});
   BOOST_TEST(most == 20);
   energy_range all;
   for (const auto* states : {&data.start, &data.finish}) {
@@ -367,7 +369,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_made_is_refused) {
   refused({.step = 0.02, .horizon = 1e300}, {"memory"});
   refused({.step = 0.0205}, {"a multiple"});
   refused({.step = 0.02, .first = -1}, {"number -1"});
-  refused({.step = 0.02, .threads = 0}, {"threads must be at least one", "0"});
+  refused({.step = 0.02, .execution = {.threads = 0}}, {"threads must be at least one", "0"});
   const model four = linear_chain::between_walls(4, 1.0);
   const initial_states of_two =
       normal_around<Eigen::Dynamic>({Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)}, 0.1, 0.1);

@@ -306,7 +306,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   BOOST_TEST(refused({.step = -1.0}, {"step", "positive"}));
   BOOST_TEST(refused({.length = std::nan("")}, {"length", "positive"}));
   BOOST_TEST(refused({.pilots = 3}, {"pilots must be 16 to", "got 3"}));
-  BOOST_TEST(refused({.threads = 0}, {"thread"}));
+  BOOST_TEST(refused({.execution = {.threads = 0}}, {"thread"}));
   BOOST_TEST(
       refuses([] { gibbs(at(1.0, no_force{}), around_0); }, {"gibbs", "frequencies or forces", "a step"}));
   const auto springs = linear_chain::between_walls(4, 1.0);

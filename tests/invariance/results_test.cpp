@@ -31,8 +31,10 @@ void require_some_of_both(std::size_t diverged, std::size_t all) {
 
 /// Of groups of one trajectory, or of 32 with a part of one at the end.
 result statistics(const division& how, std::uint64_t seed, std::int64_t count) {
-  ensemble_options options{.trajectories = count, .steps = 20, .seed = seed, .threads = how.threads};
-  options.ranks = how.ranks;
+  ensemble_options options{.trajectories = count,
+                           .steps = 20,
+                           .seed = seed,
+                           .execution = {.threads = how.threads, .ranks = how.ranks}};
   options.first = 5;
   const model system = in_noise(how);
   const auto found = ensemble_statistics(make_stepper(system, method(obabo()), unstable, counter_noise(seed)),
@@ -57,8 +59,7 @@ trajectory_options options_of(const division& how, std::uint64_t seed, double st
           .steps = 20,
           .trajectories = trajectories,
           .seed = seed,
-          .threads = how.threads,
-          .ranks = how.ranks};
+          .execution = {.threads = how.threads, .ranks = how.ranks}};
 }
 
 result accepted(const division& how, std::uint64_t seed) {
@@ -97,8 +98,7 @@ result proposals(const division& how, std::uint64_t seed) {
                                    .times_larger = larger,
                                    .states = 45,
                                    .seed = seed,
-                                   .threads = how.threads,
-                                   .ranks = how.ranks};
+                                   .execution = {.threads = how.threads, .ranks = how.ranks}};
     const auto found = acceptance_of_proposals(system, method(bcss3()), 0.03, law, options);
     all.of_all << found.probability << found.of_each;
     const auto step = step_at_acceptance(
@@ -126,8 +126,7 @@ result draws_of_chains(const division& how, std::uint64_t seed) {
   if (how.is_cut) hmc(system, method(bcss3()), around_0, options, [](const hmc_draw&) {});
   const hmc_state before = how.is_cut ? kept.front() : hmc_state();
   if (how.is_cut) options.from = &before;
-  options.threads = how.threads;
-  options.ranks = how.ranks;
+  options.execution = {.threads = how.threads, .ranks = how.ranks};
   std::vector<numbers> of_each(static_cast<std::size_t>(trajectories));
   const auto found = hmc(system, method(bcss3()), around_0, options, [&](const hmc_draw& draw) {
     of_each[static_cast<std::size_t>(draw.chain)] << draw.number << draw.q << draw.potential;
@@ -148,8 +147,7 @@ flow_map_data data_of(const division& how, std::uint64_t seed, const model& syst
                              .trajectories = trajectories,
                              .seed = seed,
                              .noise_parts = system.bath().acts() ? 2 : 0,
-                             .threads = how.threads,
-                             .ranks = how.ranks});
+                             .execution = {.threads = how.threads, .ranks = how.ranks}});
 }
 
 /// Of windows of three steps, whatever the residuals.
@@ -159,7 +157,7 @@ result sums_over_windows(const division& how, const model& system, const flow_ma
   result all;
   const auto add = [&]<Scalar R>(R) {
     const after_steps<R> loss(family, system, data, state_error<R>(measure),
-                              {.steps = {1, 3}, .threads = how.threads});
+                              {.steps = {1, 3}, .execution = {.threads = how.threads}});
     const Eigen::Vector2d theta(0.45, 0.38);
     const squares found = loss.at(theta);
     all.of_all << found.value << found.half_gradient << found.normal_matrix.reshaped()
@@ -187,7 +185,7 @@ result fitted(const division& how, std::uint64_t seed, const model& system, cons
               const family& family) {
   const auto data = data_of(how, seed, system, reference);
   const auto held_out = data_of(how, seed + 100, system, reference);
-  const fit_options options{.random_starts = 1, .planned_steps = 500, .threads = how.threads};
+  const fit_options options{.random_starts = 1, .planned_steps = 500, .execution = {.threads = how.threads}};
   result all;
   all.of_all = numbers_of(learn(family, system, data, held_out, options));
   return all;
@@ -202,7 +200,8 @@ result learned_by_own_loss(const division& how, std::uint64_t seed) {
                           }};
   const auto fit_of = [&](const auto& system) {
     const auto data = data_of(how, seed, system, fine_steps(1e-3));
-    const fit_options options{.random_starts = 0, .planned_steps = 500, .threads = how.threads};
+    const fit_options options{
+        .random_starts = 0, .planned_steps = 500, .execution = {.threads = how.threads}};
     result all;
     all.of_all = numbers_of(learn(family(nystrom()), system, data, data, options, of_place));
     return all;

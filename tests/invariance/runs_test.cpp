@@ -64,9 +64,10 @@ result resumed_ensemble(const division& how, std::uint64_t seed) {
     const auto stepper = obabo_of(system, 0.1, seed);
     detail::with_scalar_of(system, [&]<class T>(T) {
       using run_type = ensemble_run<T, std::remove_const_t<decltype(stepper)>>;
-      auto run = saved.step == 0 ? run_type(stepper, wide, seed, 0, trajectories, part.threads)
-                                 : run_type(stepper, wide, seed, 0, trajectories, saved, part.threads);
-      run.go_on(end, every, 1, read_first<T>, seen.take(), part.threads);
+      const execution in_threads{.threads = part.threads};
+      auto run = saved.step == 0 ? run_type(stepper, wide, seed, 0, trajectories, in_threads)
+                                 : run_type(stepper, wide, seed, 0, trajectories, saved, in_threads);
+      run.go_on(end, every, 1, read_first<T>, seen.take(), in_threads);
       saved = run.save();
     });
   };
@@ -84,10 +85,12 @@ result followed_ensemble(const division& how, std::uint64_t seed, const model& s
   sightings seen(trajectories);
   std::vector<std::optional<std::int64_t>> diverged_at;
   const auto follow = [&](std::int64_t first, std::int64_t count) {
-    ensemble_options options{
-        .trajectories = count, .steps = steps, .every = every, .seed = seed, .threads = how.threads};
+    ensemble_options options{.trajectories = count,
+                             .steps = steps,
+                             .every = every,
+                             .seed = seed,
+                             .execution = {.threads = how.threads, .ranks = how.ranks}};
     options.first = first;
-    options.ranks = how.ranks;
     detail::with_scalar_of(system, [&]<class T>(T) {
       const auto part = integrate_ensemble<T>(stepper, starts, options, 1, read_first<T>, seen.take());
       diverged_at.insert(diverged_at.end(), part.begin(), part.end());
@@ -105,8 +108,7 @@ result pairs(const division& how, std::uint64_t seed, const model& system, const
                        .trajectories = trajectories,
                        .seed = seed,
                        .noise_parts = parts,
-                       .threads = how.threads,
-                       .ranks = how.ranks};
+                       .execution = {.threads = how.threads, .ranks = how.ranks}};
   flow_map_data data;
   if (how.is_cut) {
     options.trajectories = 20;
@@ -139,8 +141,7 @@ result checks_of_pairs(const division& how, std::uint64_t seed) {
                                         .horizon = 0.1,
                                         .trajectories = trajectories,
                                         .seed = seed,
-                                        .threads = how.threads,
-                                        .ranks = how.ranks});
+                                        .execution = {.threads = how.threads, .ranks = how.ranks}});
   result all;
   all.of_all << data.evaluations;
   for (const auto& [pair, finish] : data.finer) {
@@ -151,7 +152,8 @@ result checks_of_pairs(const division& how, std::uint64_t seed) {
 
 result starts_after_a_burn_in(const division& how, std::uint64_t seed) {
   const in_bath warm(harmonic_oscillator(3.0), bath::of_temperature(0.01, 0.7));
-  const gibbs ensemble(warm, around_0, {.friction = 6.0, .pilots = 50, .seed = seed, .threads = how.threads});
+  const gibbs ensemble(warm, around_0,
+                       {.friction = 6.0, .pilots = 50, .seed = seed, .execution = {.threads = how.threads}});
   const burn_in_report& report = ensemble.report();
   result all;
   all.of_all << report.tau << report.length;
@@ -170,8 +172,8 @@ result starts_after_a_burn_in(const division& how, std::uint64_t seed) {
 result judged(const division& how, std::uint64_t seed, const model& system, const method& method) {
   phase_points starts;
   for (std::uint64_t m = 0; m < 100; ++m) starts.push_back(law(seed, m));  // more than a block
-  const judgement found =
-      judge(system, starts, method, 0.04, {.steps = 128, .seed = seed, .threads = how.threads});
+  const judgement found = judge(system, starts, method, 0.04,
+                                {.steps = 128, .seed = seed, .execution = {.threads = how.threads}});
   result all;
   all.of_all << found.trajectories << found.lost << found.diverged << found.kinetic_energy
              << found.energy_error.median << found.energy_error.most << found.energy_error.largest

@@ -23,7 +23,11 @@ const family two_stages{nystrom()};
 const normal_around<1> starts({vector<double, 1>(0.5), vector<double, 1>(0.0)}, 0.5, 0.5);
 
 data_options options_for(std::int64_t trajectories, std::uint64_t seed, const communicator& ranks) {
-  return {.step = step, .horizon = 3.0, .trajectories = trajectories, .seed = seed, .ranks = &ranks};
+  return {.step = step,
+          .horizon = 3.0,
+          .trajectories = trajectories,
+          .seed = seed,
+          .execution = {.ranks = &ranks}};
 }
 
 flow_map_data make(std::int64_t trajectories, std::uint64_t seed, const communicator& ranks) {

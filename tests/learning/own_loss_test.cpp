@@ -38,7 +38,8 @@ flow_map_data uneven_data(const S& system) {
 template <Scalar R>
 squares squares_of(const model& system, const flow_map_data& data, const window_error<R>& error,
                    int threads = 1) {
-  const after_steps<R> loss(two_stages, system, data, error, {.steps = {5}, .threads = threads});
+  const after_steps<R> loss(two_stages, system, data, error,
+                            {.steps = {5}, .execution = {.threads = threads}});
   return loss.at(theta);
 }
 
@@ -304,5 +305,6 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   }
   loss.name = "mine";
   loss.steps = 5;
-  BOOST_TEST(refuses([&] { learn(two_stages, galaxy, data, data, {}, loss); }, {"5 steps", "longer horizon"}));
+  BOOST_TEST(
+      refuses([&] { learn(two_stages, galaxy, data, data, {}, loss); }, {"5 steps", "longer horizon"}));
 }

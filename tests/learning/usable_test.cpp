@@ -269,6 +269,17 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_learned_is_refused_with_the_reason) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(progress_counts_passes_and_may_end_the_search) {
+  constexpr std::int64_t enough = 5;
+  std::vector<std::int64_t> told;
+  const auto count = [&](std::int64_t passes) {
+    told.push_back(passes);
+    if (passes + 1 == enough) throw std::runtime_error("enough");
+  };
+  BOOST_CHECK_THROW(fit_oscillator(0.5, {.execution = {.progress = count}}), std::runtime_error);
+  BOOST_TEST(told == (std::vector<std::int64_t>{0, 1, 2, 3, 4}));
+}
+
 BOOST_AUTO_TEST_CASE(contenders_are_compared_by_means_and_by_ranks) {
   const shard five(5);
   const std::vector<double> rising{1.0, 2.0, 4.0, 8.0, 16.0};

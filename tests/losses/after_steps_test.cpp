@@ -48,7 +48,7 @@ void check_bits(const after_steps_options& options, std::size_t windows) {
   const Eigen::VectorXd at = column_of(elsewhere<F>());
   const auto expected = blocks(at);
   auto in_threads = options;
-  in_threads.threads = 2;
+  in_threads.execution.threads = 2;
   const after_steps<> loss(family(F()), galaxy, data, state_error(measure), in_threads);
   BOOST_TEST_CONTEXT(F::name << " over " << options.steps.back() << " steps") {
     BOOST_TEST(blocks.windows() == windows);
@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(each_trajectory_has_the_bits_of_its_pairs) {
                                  {.step = 0.4, .horizon = 0.4, .trajectories = 2100});
   data.first_of = {0, 0, 1, 3, 3, 20, 37, 60, 61, 200, 2100, 2100};
   const metric measure(chain, data, coordinates::modes);
-  const after_steps<> loss(two_stages, chain, data, state_error(measure), {.threads = 2});
+  const after_steps<> loss(two_stages, chain, data, state_error(measure), {.execution = {.threads = 2}});
   const sample_blocks<nystrom, linear_chain> pairs(chain, data, measure);
   const auto expected = pairs.by_trajectory(array_of<2>(theta));
   const auto losses = loss.by_trajectory(theta);

@@ -136,14 +136,18 @@ BOOST_AUTO_TEST_CASE(the_driver_visits_the_trajectories_of_each_rank) {
   std::atomic<int> caught = 0;
   run_ranks(3, [&](const thread_communicator& ours) {
     const shard share(total, ours);
-    detail::for_each_lane_block(system, share, 8, 2, [&](const model& own, std::int64_t first, int count) {
-      if (own.size() != 1 || first < share.first() || first + count > share.first() + share.count()) return;
-      for (int k = 0; k < count; ++k) ++visits[static_cast<std::size_t>(first + k)];
-    });
+    detail::for_each_lane_block(
+        system, share, 8, {.threads = 2}, [&](const model& own, std::int64_t first, int count) {
+          if (own.size() != 1 || first < share.first() || first + count > share.first() + share.count())
+            return;
+          for (int k = 0; k < count; ++k) ++visits[static_cast<std::size_t>(first + k)];
+        });
     try {
-      detail::for_each_lane_block(system, share, 8, 2, [](const model&, std::int64_t first, int count) {
-        if (first <= 70 && 70 < first + count) throw std::invalid_argument("number 70");
-      });
+      detail::for_each_lane_block(system, share, 8, {.threads = 2},
+                                  [](const model&, std::int64_t first, int count) {
+                                    if (first <= 70 && 70 < first + count)
+                                      throw std::invalid_argument("number 70");
+                                  });
     } catch (const std::invalid_argument&) {
       ++caught;
     }

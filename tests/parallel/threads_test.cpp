@@ -23,11 +23,12 @@ using nysalt::detail::wait_for_held_signals;
 BOOST_AUTO_TEST_CASE(every_trajectory_is_visited_once) {
   for (const int threads : {1, 2, 7}) {
     std::vector<int> visits(1000, 0);
-    for_each_trajectory(1000, threads, [&](std::int64_t m) { ++visits[static_cast<std::size_t>(m)]; });
+    for_each_trajectory(1000, {.threads = threads},
+                        [&](std::int64_t m) { ++visits[static_cast<std::size_t>(m)]; });
     BOOST_TEST(std::ranges::count(visits, 1) == 1000);
   }
-  for_each_trajectory(0, 2, [](std::int64_t) { BOOST_ERROR("there is none"); });
-  BOOST_CHECK_THROW(for_each_trajectory(1, 0, [](std::int64_t) {}), std::invalid_argument);
+  for_each_trajectory(0, {.threads = 2}, [](std::int64_t) { BOOST_ERROR("there is none"); });
+  BOOST_CHECK_THROW(for_each_trajectory(1, {.threads = 0}, [](std::int64_t) {}), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_CASE(blocks_cover_all_trajectories_once) {
@@ -36,7 +37,7 @@ BOOST_AUTO_TEST_CASE(blocks_cover_all_trajectories_once) {
       std::vector<int> visits(static_cast<std::size_t>(count), 0);
       std::atomic<int> short_blocks = 0;
       std::atomic<int> off_blocks = 0;
-      for_each_block(count, width, 2, [&](std::int64_t first, int n) {
+      for_each_block(count, width, {.threads = 2}, [&](std::int64_t first, int n) {
         off_blocks += first % width != 0;  // BOOST_TEST is for one thread
         short_blocks += n != width;
         for (int k = 0; k < n; ++k) ++visits[static_cast<std::size_t>(first + k)];
@@ -46,7 +47,7 @@ BOOST_AUTO_TEST_CASE(blocks_cover_all_trajectories_once) {
       BOOST_TEST(short_blocks == (count % width == 0 ? 0 : 1));
     }
   }
-  BOOST_CHECK_THROW(for_each_block(1, 0, 1, [](std::int64_t, int) {}), std::invalid_argument);
+  BOOST_CHECK_THROW(for_each_block(1, 0, {.threads = 1}, [](std::int64_t, int) {}), std::invalid_argument);
 }
 
 // The later one is thrown long before the earlier one can be.
@@ -63,7 +64,8 @@ BOOST_AUTO_TEST_CASE(the_first_exception_leaves_the_loop) {
       while (threads > 1 && !later && std::chrono::steady_clock::now() < patience) std::this_thread::yield();
       throw std::runtime_error("17");
     };
-    BOOST_TEST(refuses<std::runtime_error>([&] { for_each_trajectory(100, threads, body); }, {"17"}));
+    BOOST_TEST(
+        refuses<std::runtime_error>([&] { for_each_trajectory(100, {.threads = threads}, body); }, {"17"}));
   }
 }
 
@@ -76,7 +78,8 @@ BOOST_AUTO_TEST_CASE(the_first_trajectory_in_trouble_is_named_by_any_number_of_l
   };
   for (const int width : {1, 5, 16, 100}) {
     for (const int threads : {1, 3}) {
-      BOOST_TEST(refuses<std::runtime_error>([&] { for_each_block(100, width, threads, body); }, {"18"}));
+      BOOST_TEST(refuses<std::runtime_error>([&] { for_each_block(100, width, {.threads = threads}, body); },
+                                             {"18"}));
     }
   }
 }
@@ -97,23 +100,25 @@ BOOST_AUTO_TEST_CASE(a_black_box_with_memory_is_used_by_one_thread_at_a_time) {
   const nysalt::method method{verlet{}};
   phase_points starts;
   for (std::uint64_t n = 0; n < 64; ++n) starts.push_back(around_rest(1, n));
-  const judgement found = judge(system, starts, method, 0.1, {.steps = 700, .threads = 4});
+  const judgement found = judge(system, starts, method, 0.1, {.steps = 700, .execution = {.threads = 4}});
   BOOST_TEST(found.holds(), found.in_words());
   BOOST_TEST(found.energy_was_watched);
   BOOST_TEST(black_box_with_memory::meetings == 0);
-  const auto errors = trajectory_errors(system, fine_steps(0.01), around_rest, method, energy_measure(system),
-                                        {.step = 0.1, .steps = 20, .trajectories = 64, .threads = 4});
+  const auto errors =
+      trajectory_errors(system, fine_steps(0.01), around_rest, method, energy_measure(system),
+                        {.step = 0.1, .steps = 20, .trajectories = 64, .execution = {.threads = 4}});
   BOOST_TEST(errors.methods[0].error.mean > 0.0);
   BOOST_TEST(black_box_with_memory::meetings == 0);
   const auto stepper = make_stepper(system, method, 0.1);
-  ensemble_run<double, std::remove_const_t<decltype(stepper)>> run(stepper, around_rest, 1, 0, 64, 4);
+  ensemble_run<double, std::remove_const_t<decltype(stepper)>> run(stepper, around_rest, 1, 0, 64,
+                                                                   {.threads = 4});
   run.go_on(
       2000, 2000, 1, [](const auto& x, std::span<double> number) { number[0] = x.q[0]; }, [](auto&&...) {},
-      4);
+      {.threads = 4});
   BOOST_TEST(black_box_with_memory::meetings == 0);
   // The count can fail: one object that several threads use.
   const black_box_with_memory one;
-  for_each_block(64, 1, 4, [&](std::int64_t, int) {
+  for_each_block(64, 1, {.threads = 4}, [&](std::int64_t, int) {
     for (int i = 0; i < 2000; ++i) one.potential(vector<double, 1>(2.0));
   });
   BOOST_TEST(black_box_with_memory::meetings > 0);
@@ -132,7 +137,7 @@ BOOST_AUTO_TEST_CASE(all_functions_of_a_shared_black_box_have_one_lock) {
     if (which == 3) system.directional_derivative(one, one, one, g);
   };
   black_box_with_memory::meetings = 0;
-  for_each_block(64, 1, 4, [&](std::int64_t m, int) {
+  for_each_block(64, 1, {.threads = 4}, [&](std::int64_t m, int) {
     for (int i = 0; i < 2000; ++i) ask(m % 4);
   });
   BOOST_TEST(black_box_with_memory::meetings == 0);
@@ -142,7 +147,8 @@ BOOST_AUTO_TEST_CASE(work_rounds_to_nearest_and_must_leave_it_so) {
   for (const int threads : {1, 3}) {
     std::fesetround(FE_UPWARD);
     std::atomic<int> off = 0;
-    for_each_block(100, 8, threads, [&](std::int64_t, int) { off += std::fegetround() != FE_TONEAREST; });
+    for_each_block(100, 8, {.threads = threads},
+                   [&](std::int64_t, int) { off += std::fegetround() != FE_TONEAREST; });
     const int after = std::fegetround();
     std::fesetround(FE_TONEAREST);
     BOOST_TEST(off == 0);
@@ -150,7 +156,7 @@ BOOST_AUTO_TEST_CASE(work_rounds_to_nearest_and_must_leave_it_so) {
     const auto changes = [](std::int64_t first, int) {
       std::fesetround(first < 48 ? FE_TONEAREST : FE_DOWNWARD);
     };
-    BOOST_TEST(refuses([&] { for_each_block(100, 8, threads, changes); },
+    BOOST_TEST(refuses([&] { for_each_block(100, 8, {.threads = threads}, changes); },
                        {"floating-point environment", "got rounding downward"}));
     BOOST_TEST(std::fegetround() == FE_TONEAREST);
   }

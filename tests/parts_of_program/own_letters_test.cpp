@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(one_thread_at_a_time_evaluates_an_observable_of_a_black_box
       system,
       []<class T>(const model& of, const phase_point<T, Eigen::Dynamic>& at) { return energy<T>(of, at); });
   const auto on_threads = [](const auto& value) {
-    for_each_block(64, 1, 4, [&](std::int64_t, int) {
+    for_each_block(64, 1, {.threads = 4}, [&](std::int64_t, int) {
       for (int n = 0; n < 1000; ++n) value();
     });
   };

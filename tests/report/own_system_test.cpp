@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(a_report_that_was_interrupted_goes_on_from_its_journal) {
   options.methods = {"verlet"};
   std::vector<std::string> parts;
   bool stops = true;
-  const execution_options told{.progress = [&](const std::string& part, double share) {
+  const common_options told{.progress_of_parts = [&](const std::string& part, double share) {
     BOOST_TEST((0.0 <= share && share <= 1.0));
     if (parts.empty() || parts.back() != part) parts.push_back(part);
     if (stops && part.starts_with("energies of")) throw std::runtime_error("stopped");
@@ -163,8 +163,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_in_terms_of_the_options) {
     BOOST_TEST(has(text, words), text);
     BOOST_TEST(!has(text, "--"), text);
   }
-  BOOST_TEST(test::refuses<std::invalid_argument>([] { compare(morse(), quick(), {.threads = 0}); },
-                                                  {"threads must be"}));
+  BOOST_TEST(test::refuses<std::invalid_argument>(
+      [] { compare(morse(), quick(), {.execution = {.threads = 0}}); }, {"threads must be"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_recommendation_names_a_method_and_its_step) {

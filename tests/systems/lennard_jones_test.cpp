@@ -329,7 +329,7 @@ BOOST_AUTO_TEST_CASE(bits_depend_neither_on_threads_nor_on_the_list) {
   const liquid fresh = one;  // of a copy, which has no list yet
   BOOST_TEST(fresh.lists_made() == 0);
   for (const auto& [skin, threads] : {std::pair{0.3, 1}, {0.05, 2}, {0.7, 3}}) {
-    const liquid other(256, 0.8442, {.skin = skin, .threads = threads});
+    const liquid other = liquid(256, 0.8442, {.skin = skin}).on_threads(threads);
     Eigen::VectorXd f(x.size());
     other.force(x.q, f);
     BOOST_TEST((f == with_old_list));
@@ -411,11 +411,11 @@ BOOST_AUTO_TEST_CASE(bad_liquids_are_refused) {
   BOOST_TEST(refuses([] { liquid(500, 1e300); }, {"take a shorter cut-off"}));
   BOOST_TEST(refuses([] { liquid(500, 0.8, {.smoothness = 4}); }, {"smoothness", "0 to 3", "got 4"}));
   BOOST_TEST(refuses([] { liquid(500, 0.8, {.smoothness = -1}); }, {"smoothness", "got -1"}));
-  BOOST_TEST(refuses([] { liquid(500, 0.8, {.threads = 0}); }, {"threads", "at least 1", "got 0"}));
+  BOOST_TEST(refuses([] { liquid(500, 0.8).on_threads(0); }, {"threads", "at least 1", "got 0"}));
   const liquid good(500, 0.8);
   BOOST_TEST(refuses([&] { lennard_jones_liquid_law(good, -1.0); }, {"temperature", "got -1"}));
   BOOST_TEST(good.description() == "lennard_jones_liquid(atoms=500, density=0.8, cutoff=2.5, smoothness=0)");
-  BOOST_TEST(liquid(500, 0.8, {.skin = 0.2, .threads = 2}).description() == good.description());
+  BOOST_TEST(liquid(500, 0.8, {.skin = 0.2}).on_threads(2).description() == good.description());
   BOOST_TEST(good.kind() == liquid(600, 0.8).kind());
   BOOST_TEST(good.kind() != liquid(500, 0.7).kind());
 }

@@ -24,7 +24,7 @@ hmc_options options_of(double step, const contest_options& options) {
           .length = options.length,
           .burn_in = 0,
           .draws = options.pilot,
-          .threads = options.threads};
+          .execution = {.threads = options.threads}};
 }
 
 double energy_error(const target& of, const method& word, double step, const contest_options& options) {
@@ -39,7 +39,7 @@ std::pair<method, bool> fitted(const small_target& small, double step, const con
   data_options training{.step = step,
                         .horizon = (whole + 0.5) * step,  // that many steps
                         .trajectories = 200,
-                        .threads = options.threads};
+                        .execution = {.threads = options.threads}};
   data_options others = training;
   others.seed = 2;
   const auto reference = fine_steps(step / 40.0);
@@ -48,7 +48,7 @@ std::pair<method, bool> fitted(const small_target& small, double step, const con
   const auto found = learn(bab<Drifts>{}, small.of.system, data, unseen,
                            {.loss = loss_named("acceptance"),
                             .planned_steps = static_cast<std::int64_t>(4.0 * whole),
-                            .threads = options.threads});
+                            .execution = {.threads = options.threads}});
   return {found.method.anywhere(), found.summary.usable};
 }
 

@@ -53,7 +53,7 @@ Eigen::VectorXd after_masses(Eigen::Index size, double condition, const extent& 
                           .draws = 1,
                           .acceptance = 0.9,
                           .diagonal_masses = true,
-                          .threads = how.threads},
+                          .execution = {.threads = how.threads}},
                          [](const hmc_draw&) {});
   return frequencies.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(found.deviations.data(), size));
 }

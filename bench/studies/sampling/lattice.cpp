@@ -35,7 +35,7 @@ target thermal(Eigen::Index side, std::int64_t chains, std::int64_t draws, const
        .burn_in = 600,
        .draws = draws,
        .acceptance = 0.9,
-       .threads = how.threads},
+       .execution = {.threads = how.threads}},
       [&](const hmc_draw& draw) {
         positions[static_cast<std::size_t>(draw.chain * draws + draw.number)] = draw.q;
       });
@@ -61,7 +61,7 @@ statistic squared_powers(const target& of, Eigen::Index side, const contender& b
        .burn_in = 50,
        .draws = draws,
        .seed = 7,
-       .threads = options.threads},
+       .execution = {.threads = options.threads}},
       [&](const hmc_draw& draw) {
         const auto m = static_cast<std::size_t>(draw.chain);
         result.value(draw.q, values[m]);

@@ -25,7 +25,7 @@ statistic squares_by(const target& of, double step, const contest_options& optio
        .burn_in = 100,
        .draws = draws,
        .seed = 7,
-       .threads = options.threads},
+       .execution = {.threads = options.threads}},
       [&](const hmc_draw& draw) {
         const auto m = static_cast<std::size_t>(draw.chain);
         first[m] += draw.q.cwiseAbs2();

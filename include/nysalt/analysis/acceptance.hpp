@@ -9,7 +9,7 @@
 
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
-#include "nysalt/communicator.hpp"
+#include "nysalt/execution.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/method.hpp"
 #include "nysalt/model.hpp"
@@ -47,13 +47,12 @@ acceptance_result acceptance(const model& system, const nysalt::method& method,
 
 /// Options of the acceptance of proposals.
 struct proposal_options {
-  double length;                          ///< mean duration: durations are uniform between 0 and twice that
-  double temperature = 1.0;               ///< kT, an energy
-  double times_larger = 1.0;              ///< size of the system that will run, as a multiple of this system
-  std::int64_t states = 100;              ///< states at which proposals begin
-  std::uint64_t seed = 1;                 ///< seed of the states
-  int threads = 1;                        ///< changes no bit
-  const communicator* ranks = &one_rank;  ///< ranks that share the states; changes no bit
+  double length;                  ///< mean duration: durations are uniform between 0 and twice that
+  double temperature = 1.0;       ///< kT, an energy
+  double times_larger = 1.0;      ///< size of the system that will run, as a multiple of this system
+  std::int64_t states = 100;      ///< states at which proposals begin
+  std::uint64_t seed = 1;         ///< seed of the states
+  nysalt::execution execution{};  ///< progress counts the states of each step that is tried
 };
 
 /// Acceptance of proposals at a step.

@@ -267,7 +267,7 @@ gathered_statistics ensemble_statistics(const Stepper& stepper, const E& ensembl
     const double seen_first = lane(value_in_lanes<T>(observable, start), 0);
     const double centre = std::isfinite(seen_first) ? seen_first : 0.0;
     const double interval = static_cast<double>(options.every) * stepper.step_size();
-    gathering all(wanted, options.trajectories, samples, interval, centre, *options.ranks);
+    gathering all(wanted, options.trajectories, samples, interval, centre, *options.execution.ranks);
     detail::measure_ensemble<T>(
         stepper, ensemble, options, all.share(), all.trajectories_of_thread(),
         [&](std::int64_t place, int count) {

@@ -16,8 +16,8 @@
 
 #include "nysalt/analysis/error_measures.hpp"
 #include "nysalt/analysis/statistics.hpp"
-#include "nysalt/communicator.hpp"
 #include "nysalt/divergence.hpp"
+#include "nysalt/execution.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/lanes.hpp"
 #include "nysalt/method.hpp"
@@ -107,18 +107,16 @@ struct trajectory_errors_result {
   double unit = 1.0;                        ///< divisor of the errors: a mean over all trajectories
 };
 
-/// Number, length, seed and threads of the trajectories to compare.
+/// Number, length and seed of the trajectories to compare.
 struct trajectory_options {
   double step;                      ///< samples are at t_i = i step, i = 1..steps
   std::int64_t steps;               ///< steps of each trajectory
   std::int64_t trajectories = 400;  ///< independent starts
   std::uint64_t seed = 1;           ///< seed of the starts and the noise
-  int threads = 1;                  ///< changes no bit
-  progress_callback progress = {};  ///< called after some trajectories
+  nysalt::execution execution{};    ///< threads, ranks and progress
   bool null_model = false;          ///< whether to measure it; what is left out costs nothing
   /// Relative, of starts: how long are trajectories predictable? Nothing: that is not measured.
   std::optional<double> perturbation = {};
-  const communicator* ranks = &one_rank;  ///< ranks that share the trajectories; changes no bit
   /// Errors are means over [0, horizon], which ends within the last step (sample_weights), so that methods of
   /// other steps are judged over the same time. Nothing: over all samples alike.
   std::optional<double> horizon = {};

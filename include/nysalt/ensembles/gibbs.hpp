@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "nysalt/ensemble.hpp"
+#include "nysalt/execution.hpp"
 #include "nysalt/initial_states.hpp"
 #include "nysalt/model.hpp"
 #include "nysalt/systems/modal_coordinates.hpp"
@@ -27,7 +28,7 @@ struct burn_in_options {
   int pilots = 256;     ///< number of chains that are measured
   std::int64_t most_steps = 10'000'000;  ///< largest number of steps of a pilot until it is stationary
   std::uint64_t seed = 1;                ///< seed of the pilots
-  int threads = 1;                       ///< threads for the pilots; changes no bit
+  nysalt::execution execution{};         ///< of the pilots; threads only
 };
 
 /// The observed quantities, all in units of kT: the kinetic temperature between two steps, the virial

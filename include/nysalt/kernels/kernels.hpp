@@ -52,10 +52,10 @@ class kernels {
   using program = step_program<coefficient_of<T>>;
 
   virtual ~kernels() = default;
-  /// Advances an open run by `steps` steps. Cost: one virtual call, and the cost of the letters and
-  /// observations.
+  /// Advances an open run by `steps` steps, which at most `threads` threads share where the system allows
+  /// it. Cost: one virtual call, and the cost of the letters and observations.
   virtual void advance(column& q, column& p, column& f, flow_room<T, Eigen::Dynamic>& room,
-                       const program& letters, std::int64_t steps, const callback& other,
+                       const program& letters, std::int64_t steps, int threads, const callback& other,
                        const watch<T>& watched) const = 0;
   virtual void force(field of, const column& q, column& f) const = 0;
   /// g = f'(q) v, of a black box from a difference along reach v.

@@ -116,15 +116,15 @@ class typed_kernels final : public kernels<T> {
   typed_kernels(const held_system<S>& system, lock_of<S>& guard) : system_(&system), guard_(&guard) {}
 
   void advance(column& q, column& p, column& f, flow_room<T, Eigen::Dynamic>& room,
-               const step_program<C>& letters, std::int64_t steps, const callback& other,
+               const step_program<C>& letters, std::int64_t steps, int threads, const callback& other,
                const watch<T>& watched) const final {
     if constexpr (std::same_as<T, double> && N == Eigen::Dynamic && LocalSystem<S>) {
       const typed_site_kernels<S> sites(*system_);
       const std::int64_t steps_at_once = watched.observe == nullptr ? steps : std::min(steps, watched.every);
       const std::int64_t kicks = steps_at_once * std::ssize(letters.pairs);
-      const int threads = threads_in_tiles(sites.layout(), letters.threads, kicks);
-      if (!letters.pairs.empty() && threads > 0) {
-        tiled_steps tiles(sites, threads, kicks);
+      const int at_tiles = threads_in_tiles(sites.layout(), threads, kicks);
+      if (!letters.pairs.empty() && at_tiles > 0) {
+        tiled_steps tiles(sites, at_tiles, kicks);
         state_in_place<T, N> x{q, p, f};
         return watch_steps(
             steps, watched,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "nysalt/bath.hpp"
+#include "nysalt/execution.hpp"
 #include "nysalt/family.hpp"
 #include "nysalt/losses/squares.hpp"
 #include "nysalt/losses/window_error.hpp"
@@ -20,10 +21,10 @@ namespace nysalt {
 
 /// Numbers of steps after which an error counts.
 struct after_steps_options {
-  std::vector<int> steps{1};  ///< rising numbers; the last is the length K of a window
-  int apart = 1;              ///< steps from the beginning of one window to the beginning of the next
-  int every = 1;              ///< trajectory counts whose number this divides
-  int threads = 1;            ///< changes no bit
+  std::vector<int> steps{1};      ///< rising numbers; the last is the length K of a window
+  int apart = 1;                  ///< steps from the beginning of one window to the beginning of the next
+  int every = 1;                  ///< trajectory counts whose number this divides
+  nysalt::execution execution{};  ///< threads only: ranks are those of the data
 };
 
 /// From what a loss over data is made. The loss copies the data, and refers to the metric.

@@ -10,29 +10,29 @@
 
 #include "nysalt/communicator.hpp"
 #include "nysalt/core/sentence.hpp"
+#include "nysalt/execution.hpp"
 #include "nysalt/shard.hpp"
 #include "nysalt/system.hpp"
 
 namespace nysalt {
 
 /// Calls body(first, n) once for each block of n <= width consecutive trajectories first .. first + n - 1, of
-/// `count` in all, on at most `threads` threads at a time, in no certain order; only the last block is
-/// shorter. A body writes what it finds into the places of its trajectories; a sum over them is then taken by
-/// tree_sum, and neither width nor the number of threads changes a bit. With one thread the order is the
-/// order of the trajectories, and no thread is made. `progress`, if given, is called after each block with
-/// the number of trajectories done; from any thread, never two calls at once.
+/// `count` in all, on the threads of `how`, in no certain order; only the last block is shorter. A body
+/// writes what it finds into the places of its trajectories; a sum over them is then taken by tree_sum, and
+/// neither width nor the number of threads changes a bit. With one thread the order is the order of the
+/// trajectories, and no thread is made. Progress is called after each block with the number of trajectories
+/// done. Ranks are ignored: the trajectories are those of this rank.
 ///
 /// If a body throws, its trajectories are run again, one after the other, so that what leaves the
 /// loop is the exception of the first trajectory that has one, for any width and threads; some beyond it are
 /// not visited. Each body begins with rounding to nearest and with subnormal numbers kept, whatever the
 /// thread has. Throws std::invalid_argument if threads or width are below 1, or if a body changes that.
-void for_each_block(std::int64_t count, int width, int threads,
-                    const std::function<void(std::int64_t, int)>& body,
-                    const progress_callback& progress = {});
+void for_each_block(std::int64_t count, int width, const execution& how,
+                    const std::function<void(std::int64_t, int)>& body);
 
 /// Calls body(m) for m = 0 .. count - 1: blocks of one.
-void for_each_trajectory(std::int64_t count, int threads, const std::function<void(std::int64_t)>& body,
-                         const progress_callback& progress = {});
+void for_each_trajectory(std::int64_t count, const execution& how,
+                         const std::function<void(std::int64_t)>& body);
 
 namespace detail {
 
@@ -100,16 +100,19 @@ own_stepper<Stepper> own_copy(const Stepper& stepper) {
 
 /// The driver of ensembles: body(own, first, n) for blocks of at most `width` of the trajectories of this
 /// rank, with own_copy() of the system or stepper, and with the exceptions and progress of for_each_block().
-/// Trajectories are numbered as in the shard. Collective: what a body throws on one rank is thrown on all.
+/// Trajectories are numbered as in the shard. Ranks are those of the shard, and progress counts the
+/// trajectories of all. Collective: what a body throws on one rank is thrown on all.
 template <class Source>
-void for_each_lane_block(const Source& source, const shard& share, int width, int threads, const auto& body,
-                         const progress_callback& progress = {}) {
+void for_each_lane_block(const Source& source, const shard& share, int width, const execution& how,
+                         const auto& body) {
   const auto visit = [&](std::int64_t place, int count) {
     body(own_copy(source), share.first() + place, count);
   };
   collectively(share.ranks(), [&] {
-    for_each_block(share.count(), width, threads, visit,
-                   progress_of_share(share.ranks(), share.count(), share.total(), progress));
+    for_each_block(share.count(), width,
+                   {.threads = how.threads,
+                    .progress = progress_of_share(share.ranks(), share.count(), share.total(), how.progress)},
+                   visit);
   });
 }
 

@@ -23,7 +23,6 @@ namespace nysalt {
 struct surroundings_of_word {
   std::optional<bath> heat_bath;  ///< for letters O; a copy, as a system may return it by value
   std::shared_ptr<const modal_coordinates> part;  ///< for letters R
-  int threads = 1;                                ///< that may share a step
 };
 
 // clang-format off
@@ -61,7 +60,6 @@ class prepared_word {
     };
     run_.reads = plain_.reads = w.reads == field::soft ? field::soft : field::whole;
     run_.calls = plain_.calls = w.stochastic_letters > 0;
-    run_.threads = around.threads;
     if (merges_half_steps_) run_.loop.push_back({.number = seam_of_steps});
     if (merges_half_steps_) run_.last.push_back({.number = seam_of_steps});
     const std::size_t slots_of_first = w.slots_of(0);
@@ -103,7 +101,7 @@ class prepared_word {
   /// Opens a run. Cost: the word's evaluations_to_open.
   template <class T, System S>
   [[gnu::noinline]] void open(const S& system, flow_state<T, S::dimension>& x, auto& cursor) const {
-    take(system, before_, x, 1, cursor, {});
+    take(system, before_, x, 1, cursor, {}, 1);
     if (evaluates_to_open_) evaluate<T>(system, x);
     if (merges_) apply_known(system, first_, x, cursor);
   }
@@ -111,7 +109,7 @@ class prepared_word {
   template <class T, System S>
   [[gnu::noinline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
                                  auto& cursor) const {
-    take(system, run_, x, steps, cursor, {});
+    take(system, run_, x, steps, cursor, {}, threads_of(system));
   }
   /// The same of a model, watched: observe() is called with the synchronous state in y after `first`
   /// steps, and every `every` steps from there on.
@@ -131,7 +129,8 @@ class prepared_word {
                           .first = first,
                           .every = every,
                           .observe = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
-                          .context = const_cast<void*>(static_cast<const void*>(&see))});
+                          .context = const_cast<void*>(static_cast<const void*>(&see))},
+         threads_of(system));
   }
   /// What an open state is at its step. Cost: the word's evaluations_to_observe.
   template <class T, System S>
@@ -150,8 +149,8 @@ class prepared_word {
     if constexpr (is_noisy<decltype(cursor)>) {
       if (merges_half_steps_) merged_.begin(system, cursor, x);
     }
-    take(system, before_, x, 1, cursor, {});
-    take(system, plain_, x, 1, cursor, {});
+    take(system, before_, x, 1, cursor, {}, 1);
+    take(system, plain_, x, 1, cursor, {}, 1);
     end(system, x, cursor);
   }
 
@@ -228,10 +227,16 @@ class prepared_word {
     return result;
   }
 
+  /// Number of threads that share the steps of an open run.
+  static int threads_of(const auto& system) {
+    if constexpr (ErasedSystem<std::remove_cvref_t<decltype(system)>>) return system.threads();
+    return 1;
+  }
+
   /// Nothing of an empty program.
   template <class T, System S>
   void take(const S& system, const detail::step_program<C>& letters, flow_state<T, S::dimension>& x,
-            std::int64_t steps, auto& cursor, const detail::watch<T>& watched) const {
+            std::int64_t steps, auto& cursor, const detail::watch<T>& watched, int threads) const {
     if (letters.loop.empty()) return;
     const auto act = [&](int number) {
       if (number >= first_called) return apply_called(system, number, x, cursor.room);
@@ -249,7 +254,8 @@ class prepared_word {
       const detail::callback other{
           [](void* context, int number) { (*static_cast<decltype(act)*>(context))(number); },
           const_cast<void*>(static_cast<const void*>(&act))};
-      system.template kernels<T>().advance(x.q, x.p, x.f, cursor.room, letters, steps, other, watched);
+      system.template kernels<T>().advance(x.q, x.p, x.f, cursor.room, letters, steps, threads, other,
+                                           watched);
     } else {
       detail::state_in_place<T, S::dimension> in_place{x.q, x.p, x.f};
       detail::take_steps_of_word(system, in_place, cursor.room, letters, steps, act, watched);
@@ -300,7 +306,7 @@ class prepared_word {
     if constexpr (is_noisy<decltype(cursor)>) {
       if (merges_half_steps_) merged_.end(system, cursor, x);
     }
-    take(system, after_, x, 1, cursor, {});
+    take(system, after_, x, 1, cursor, {}, 1);
   }
 
   bool merges_;

@@ -49,7 +49,6 @@ struct step_program {
   std::vector<letter> last;  ///< of a step after which the run may be observed
   std::vector<letter> undo;  ///< what takes the first letter back, of an open run
   field reads = field::none;
-  int threads = 1;            ///< that share a step where the system allows it
   bool calls = false;         ///< there are letters of the bath, and calls between steps
   bool is_of_shears = false;  ///< all letters are drifts and kicks of any kind
   /// Coefficients of a loop that is drifts and kicks in turn, each force being read once: kernels keep the

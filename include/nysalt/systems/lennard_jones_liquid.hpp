@@ -21,7 +21,6 @@ struct lennard_jones_liquid_options {
   /// How many derivatives of a pair's potential are continuous at the cut-off: 0 to 3.
   int smoothness = 0;
   double skin = 0.3;  ///< of the neighbour list: how much farther than the cut-off it reaches
-  int threads = 1;    ///< that share each force
 };
 
 /// A liquid of N atoms of unit mass in a periodic cube of side L = (N/density)^{1/3}, each pair within the
@@ -51,8 +50,8 @@ class lennard_jones_liquid {
   static constexpr int lanes = 1;  ///< the pairs of an atom fill the processor's vectors
 
   /// Throws std::invalid_argument unless 2 <= atoms < 2^31, density, cut-off and skin are positive and
-  /// finite, the cut-off is at least 1, smoothness is from 0 to 3, threads >= 1, and the side at least twice
-  /// the cut-off and skin, as an atom would else have neighbours by two images.
+  /// finite, the cut-off is at least 1, smoothness is from 0 to 3, and the side at least twice the cut-off
+  /// and skin, as an atom would else have neighbours by two images.
   lennard_jones_liquid(Eigen::Index atoms, double density, const lennard_jones_liquid_options& options = {});
 
   lennard_jones_liquid(const lennard_jones_liquid& other);             ///< with no list yet
@@ -61,11 +60,16 @@ class lennard_jones_liquid {
   lennard_jones_liquid& operator=(lennard_jones_liquid&&) noexcept;    ///< with the other's list
   ~lennard_jones_liquid();
 
+  /// A liquid each of whose forces `threads` threads share, with no list yet. The bits are the same as on one
+  /// thread. Throws std::invalid_argument unless threads >= 1.
+  lennard_jones_liquid on_threads(int threads) const;
+
   Eigen::Index size() const { return 3 * atoms_; }
   Eigen::Index atoms() const { return atoms_; }                             ///< N
   double density() const { return density_; }                               ///< N/L^3
   double side() const { return side_; }                                     ///< L
   const lennard_jones_liquid_options& options() const { return options_; }  ///< as they were given
+  int threads() const { return threads_; }  ///< number of threads that share a force
 
   /// V(q). Cost: somewhat less than a force.
   double potential(const Eigen::VectorXd& q) const;
@@ -96,6 +100,7 @@ class lennard_jones_liquid {
   double density_;
   double side_;
   lennard_jones_liquid_options options_;
+  int threads_ = 1;
   mutable std::unique_ptr<scratch> scratch_;
 };
 

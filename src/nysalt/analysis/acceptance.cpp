@@ -55,7 +55,7 @@ acceptance_result acceptance(const model& system, const method& method, const in
     throw std::invalid_argument(sentence(
         "acceptance: H must be known, got {} without a potential; give the system one", describe(system)));
   }
-  collectively(*options.ranks, [&] { require_room(options, 1, 1); });
+  collectively(*options.execution.ranks, [&] { require_room(options, 1, 1); });
   if (!has_quadratic_kinetic(system)) {
     constexpr std::int64_t enough = 16;
     for (std::int64_t m = 0; m < std::min(enough, options.trajectories); ++m) {
@@ -67,11 +67,9 @@ acceptance_result acceptance(const model& system, const method& method, const in
                                                       .steps = options.steps,
                                                       .every = options.steps,
                                                       .seed = options.seed,
-                                                      .threads = options.threads,
-                                                      .progress = options.progress,
-                                                      .ranks = options.ranks});
+                                                      .execution = options.execution});
   for (double& rise : of_each) rise = rise <= 0.0 ? 1.0 : std::exp(-rise / temperature);
-  shard(options.trajectories, *options.ranks).gather(of_each);
+  shard(options.trajectories, *options.execution.ranks).gather(of_each);
 
   acceptance_result result{mean_and_error(of_each), of_each, {}};
   for (std::size_t m = 0; m < diverged.size(); ++m) {

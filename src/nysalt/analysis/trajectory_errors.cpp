@@ -30,7 +30,8 @@ void require_room(const trajectory_options& options, std::size_t methods, std::s
         options.trajectories, options.steps));
   }
   const std::size_t references = options.perturbation ? 3 : 2;
-  const double intervals = static_cast<double>(methods + references) * options.threads * default_lanes;
+  const double intervals =
+      static_cast<double>(methods + references) * options.execution.threads * default_lanes;
   const double numbers = intervals * static_cast<double>(steps_between_checks) * static_cast<double>(width);
   const std::size_t scored = methods + (options.null_model ? 1 : 0);
   const double scores = static_cast<double>(options.trajectories) * static_cast<double>(scored * measures);
@@ -38,7 +39,7 @@ void require_room(const trajectory_options& options, std::size_t methods, std::s
     throw std::invalid_argument(
         fmt::format("trajectory_errors: samples must fit into memory, got {} trajectories with {} numbers a "
                     "sample, on {} threads; take fewer",
-                    options.trajectories, width, options.threads));
+                    options.trajectories, width, options.execution.threads));
   }
 }
 
@@ -147,7 +148,7 @@ std::vector<trajectory_errors_result> trajectory_errors(const model& system, con
                                                         const trajectory_options& options) {
   if (measures.empty())
     throw std::invalid_argument("trajectory_errors: measures must be one or more, got none");
-  const shard share(options.trajectories, *options.ranks);
+  const shard share(options.trajectories, *options.execution.ranks);
   const std::int64_t checks = std::min(options.trajectories, most_checks);
   comparison compared{.reference = reference,
                       .methods = methods,
@@ -185,7 +186,7 @@ std::vector<trajectory_errors_result> trajectory_errors(const model& system, con
       runs.run();
       runs.store(found);
     };
-    for_each_lane_block(system, share, lanes_in<T>, options.threads, follow, options.progress);
+    for_each_lane_block(system, share, lanes_in<T>, options.execution, follow);
   });
 
   const auto start = ensemble(options.seed, 0);

@@ -169,7 +169,7 @@ class burn_in_pilot {
   /// Refers to the weights of the slowest mode, which may be empty.
   burn_in_pilot(const model& base, const initial_states& from, const pilot_plan& plan,
                 const burn_in_options& options, const Eigen::VectorXd& slowest)
-      : threads_(options.threads), count_(plan.count), slowest_(&slowest) {
+      : threads_(options.execution.threads), count_(plan.count), slowest_(&slowest) {
     for (int first = 0; first < plan.count; first += width) {
       const int here = std::min(width, plan.count - first);
       const state start = sound_starts<T>(base, from, options.seed, first, here);
@@ -190,7 +190,7 @@ class burn_in_pilot {
     const std::int64_t before = blocks_.front().run.step();
     result.duration = static_cast<double>(end - before) * chains().step();
     result.zero = zero_ = lane(potential_of(chains(), blocks_.front().run.synchronous()), 0);
-    for_each_trajectory(std::ssize(blocks_), threads_, [&](std::int64_t b) {
+    for_each_trajectory(std::ssize(blocks_), {.threads = threads_}, [&](std::int64_t b) {
       block& here = blocks_[static_cast<std::size_t>(b)];
       read_way(here, begin);
       follow(here, end, every, result);

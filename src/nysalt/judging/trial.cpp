@@ -102,7 +102,7 @@ accurate_motion follow_at(double step, const model& system, const states& starts
                          .steps = every * samples,
                          .every = 1,
                          .seed = options.seed,
-                         .threads = options.threads},
+                         .execution = {.threads = options.execution.threads}},
                         2 * n + 2, read, take);
   accurate_motion result;
   result.step = step;
@@ -174,7 +174,7 @@ std::vector<bool> are_unconfined(const trial_setting& setting, const states& at,
         {.trajectories = std::ssize(at),
          .steps = finer * setting.plan.steps,
          .every = finer * setting.plan.steps,
-         .threads = setting.options.threads},
+         .execution = {.threads = setting.options.execution.threads}},
         1, [](const auto&, std::span<T>) {}, [](auto&&...) {});
     for (std::size_t k = 0; k < at.size(); ++k) result[k] = result[k] && diverged_at[k].has_value();
     if (std::ranges::none_of(result, std::identity{})) break;
@@ -267,14 +267,15 @@ std::vector<course> run_trial(const trial_setting& setting, const method& method
   for (std::int64_t first = 0; first < plan.trajectories && lost * 2 <= first; first += block) {
     const std::int64_t count = std::min(block, plan.trajectories - first);
     courses.resize(static_cast<std::size_t>(first + count));
-    const auto diverged_at = integrate_ensemble<T>(stepper, all,
-                                                   {.trajectories = count,
-                                                    .steps = plan.steps,
-                                                    .every = watches ? every : plan.steps,
-                                                    .seed = setting.options.seed,
-                                                    .threads = setting.options.threads,
-                                                    .first = first},
-                                                   1, read, take);
+    const auto diverged_at =
+        integrate_ensemble<T>(stepper, all,
+                              {.trajectories = count,
+                               .steps = plan.steps,
+                               .every = watches ? every : plan.steps,
+                               .seed = setting.options.seed,
+                               .execution = {.threads = setting.options.execution.threads},
+                               .first = first},
+                              1, read, take);
     std::vector<std::size_t> diverged;
     for (std::size_t k = 0; k < diverged_at.size(); ++k) {
       const std::size_t m = static_cast<std::size_t>(first) + k;

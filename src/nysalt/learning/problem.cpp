@@ -161,7 +161,7 @@ void learning_problem::tell_facts() {
 
 shared_loss learning_problem::made(const loss_kind& kind, const flow_map_data& pairs,
                                    after_steps_options how) const {
-  how.threads = options.threads;
+  how.execution = {.threads = options.execution.threads};
   return kind.over_data({family, system, pairs, *measure, std::move(how), in_lanes()});
 }
 
@@ -172,9 +172,10 @@ shared_loss learning_problem::counted(const loss_kind& kind, const flow_map_data
 }
 
 objective learning_problem::watched(objective of_theta) const {
-  if (!options.progress) return of_theta;
-  return [of_theta = std::move(of_theta), progress = options.progress](const Eigen::VectorXd& theta) {
-    progress();
+  const progress_callback& progress = options.execution.progress;
+  if (!progress) return of_theta;
+  return [of_theta = std::move(of_theta), progress, passes = passes_](const Eigen::VectorXd& theta) {
+    progress((*passes)++);
     return of_theta(theta);
   };
 }
@@ -272,7 +273,7 @@ const judgement& learning_problem::judged(const method& method, double step) con
   auto judge = judges_->of_step.find(step);
   if (judge == judges_->of_step.end()) {
     const judging_options how{.steps = options.planned_steps,
-                              .threads = options.threads,
+                              .execution = {.threads = options.execution.threads},
                               .watches_energy = !chosen.kind->is_of_proposals};
     judge = judges_->of_step.emplace(step, step_judge(system, judges_->starts, step, how)).first;
   }

@@ -88,7 +88,7 @@ class learning_problem {
   void add_stage(const after_steps_options& stage, int every);
   /// A loss whose evaluations count.
   shared_loss counted(const loss_kind& kind, const flow_map_data& pairs, const after_steps_options& how);
-  /// The same, with the options' progress.
+  /// The same, with the options' progress: each call is a pass.
   objective watched(objective of_theta) const;
 
   struct judges;
@@ -98,6 +98,7 @@ class learning_problem {
   std::vector<shared_loss> counted_;  // those whose evaluations count
   Eigen::VectorXd motion_;            // mean square of each residual over the steps of the loss
   std::shared_ptr<judges> judges_;
+  std::shared_ptr<std::int64_t> passes_ = std::make_shared<std::int64_t>(0);  // passes that were reported
 };
 
 /// The fit of a learning problem, judged: over fewer steps where the data cannot be followed over all. Throws

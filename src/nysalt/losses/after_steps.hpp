@@ -171,7 +171,9 @@ class after_steps : public loss_on_data {
                                                          : std::ssize(steppers) * evaluations_of_window;
       evaluations_ += of_each * static_cast<std::int64_t>(part.end - part.begin);
     };
-    const auto pass = [&] { for_each_trajectory(std::ssize(*parts_), options_.threads, visit); };
+    const auto pass = [&] {
+      for_each_trajectory(std::ssize(*parts_), {.threads = options_.execution.threads}, visit);
+    };
     if (error_.may_throw) {
       collectively(share_.ranks(), pass);
     } else {

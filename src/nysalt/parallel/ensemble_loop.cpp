@@ -18,8 +18,10 @@
 
 namespace nysalt {
 
-void for_each_block(std::int64_t count, int width, int threads,
-                    const std::function<void(std::int64_t, int)>& body, const progress_callback& progress) {
+void for_each_block(std::int64_t count, int width, const execution& how,
+                    const std::function<void(std::int64_t, int)>& body) {
+  const int threads = how.threads;
+  const progress_callback& progress = how.progress;
   if (threads < 1) throw std::invalid_argument(fmt::format("threads must be at least one, got {}", threads));
   if (width < 1)
     throw std::invalid_argument(fmt::format("lanes of a block must be at least one, got {}", width));
@@ -77,10 +79,9 @@ void for_each_block(std::int64_t count, int width, int threads,
   if (thrown) std::rethrow_exception(thrown);
 }
 
-void for_each_trajectory(std::int64_t count, int threads, const std::function<void(std::int64_t)>& body,
-                         const progress_callback& progress) {
-  for_each_block(
-      count, 1, threads, [&](std::int64_t m, int) { body(m); }, progress);
+void for_each_trajectory(std::int64_t count, const execution& how,
+                         const std::function<void(std::int64_t)>& body) {
+  for_each_block(count, 1, how, [&](std::int64_t m, int) { body(m); });
 }
 
 }  // namespace nysalt

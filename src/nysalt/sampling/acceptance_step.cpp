@@ -72,11 +72,10 @@ proposal_acceptance acceptance_of_proposals(const model& system, const method& m
                                          .steps = static_cast<std::int64_t>(width),
                                          .every = 1,
                                          .seed = options.seed,
-                                         .threads = options.threads,
-                                         .ranks = options.ranks})
+                                         .execution = options.execution})
                     .of_each;
   for (double& rise : errors) rise /= options.temperature;
-  const shard mine(options.states, *options.ranks);
+  const shard mine(options.states, *options.execution.ranks);
   const auto first = static_cast<std::size_t>(mine.first());
   const auto end = first + static_cast<std::size_t>(mine.count());
   std::vector<double> of_each(static_cast<std::size_t>(options.states), 0.0);

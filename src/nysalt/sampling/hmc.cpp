@@ -38,7 +38,7 @@ void require_options(const model& system, const hmc_options& options) {
         sentence("hmc: chains times burn_in and draws must be at most 2^48 = {}, got {} times {} and {}",
                  most, options.chains, options.burn_in, options.draws));
   }
-  at_least("threads", options.threads, 1);
+  at_least("threads", options.execution.threads, 1);
   at_least("keep_every", options.keep_every, 0);
   if (options.diagonal_masses && !options.acceptance) {
     throw std::invalid_argument(

@@ -319,9 +319,10 @@ class sampler {
         target_(system),
         method_(method),
         options_(options),
-        mine_(options.chains, *options.ranks),
-        report_(progress_of_share(*options.ranks, mine_.count() * (options.burn_in + options.draws),
-                                  options.chains * (options.burn_in + options.draws), options.progress)) {
+        mine_(options.chains, *options.execution.ranks),
+        report_(progress_of_share(*options.execution.ranks, mine_.count() * (options.burn_in + options.draws),
+                                  options.chains * (options.burn_in + options.draws),
+                                  options.execution.progress)) {
     result_.step = options.step;
     const std::int64_t blocks = (mine_.count() + lanes_in<T> - 1) / lanes_in<T>;
     blocks_.resize(static_cast<std::size_t>(blocks));
@@ -361,7 +362,7 @@ class sampler {
     const auto visit = [&](const model& own, std::int64_t first, int count) {
       body(own, blocks_[static_cast<std::size_t>((first - mine_.first()) / lanes_in<T>)], first, count);
     };
-    for_each_lane_block(target_, mine_, lanes_in<T>, options_.threads, visit);
+    for_each_lane_block(target_, mine_, lanes_in<T>, {.threads = options_.execution.threads}, visit);
   }
 
   double evaluations(double trajectories, double steps) const {
@@ -506,10 +507,10 @@ class sampler {
     hmc_state result{done_, std::vector<double>(head + static_cast<std::size_t>(options_.chains) * width)};
     pass(result.numbers, false);
     std::vector<std::size_t> first_of_rank;
-    for (int r = 0; r <= options_.ranks->size(); ++r)
+    for (int r = 0; r <= options_.execution.ranks->size(); ++r)
       first_of_rank.push_back(head + static_cast<std::size_t>(mine_.first_of(r)) * width);
     first_of_rank.front() = 0;  // the head is of rank 0
-    all_gather_items(*options_.ranks, result.numbers, first_of_rank);
+    all_gather_items(*options_.execution.ranks, result.numbers, first_of_rank);
     return result;
   }
 

@@ -18,8 +18,8 @@
 namespace nysalt {
 
 struct lennard_jones_liquid::scratch {
-  scratch(Eigen::Index atoms, double side, const lennard_jones_liquid_options& options)
-      : list(atoms, side, options.cutoff, options.skin, options.threads) {}
+  scratch(Eigen::Index atoms, double side, const lennard_jones_liquid_options& options, int threads)
+      : list(atoms, side, options.cutoff, options.skin, threads) {}
 
   detail::neighbour_list list;
   std::vector<double> directions{};     // four an atom, by slots
@@ -34,18 +34,17 @@ using detail::reals;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
+[[noreturn]] void refuse(const char* what, const char* condition, const std::string& got) {
+  throw std::invalid_argument(sentence("lennard_jones_liquid: {} must be {}, got {}", what, condition, got));
+}
+
 void require_options(const lennard_jones_liquid_options& options) {
-  const auto refuse = [](const char* what, const char* condition, const std::string& got) {
-    throw std::invalid_argument(
-        sentence("lennard_jones_liquid: {} must be {}, got {}", what, condition, got));
-  };
   if (!(options.cutoff >= 1.0) || !std::isfinite(options.cutoff))
     refuse("the cut-off", "finite and at least 1", sentence("{}", options.cutoff));
   if (!(options.skin > 0.0) || !std::isfinite(options.skin))
     refuse("the skin", "positive and finite", sentence("{}", options.skin));
   if (options.smoothness < 0 || options.smoothness > detail::lennard_jones_pair::smoothest)
     refuse("smoothness", "from 0 to 3", sentence("{}", options.smoothness));
-  if (options.threads < 1) refuse("the number of threads", "at least 1", sentence("{}", options.threads));
 }
 
 /// The ways to some neighbours, and the inverse squares of the distances.
@@ -82,7 +81,8 @@ void for_each_atom(const detail::neighbour_list& list, int threads, const detail
           });
     }
   };
-  for_each_trajectory(list.blocks(), threads, std::cref(of_block));  // a copy would allocate at each force
+  for_each_trajectory(list.blocks(), {.threads = threads},
+                      std::cref(of_block));  // a copy would allocate at each force
 }
 
 reals only(const integers& mask, const reals& x) {
@@ -119,7 +119,11 @@ lennard_jones_liquid::lennard_jones_liquid(Eigen::Index atoms, double density,
 }
 
 lennard_jones_liquid::lennard_jones_liquid(const lennard_jones_liquid& other)
-    : atoms_(other.atoms_), density_(other.density_), side_(other.side_), options_(other.options_) {}
+    : atoms_(other.atoms_),
+      density_(other.density_),
+      side_(other.side_),
+      options_(other.options_),
+      threads_(other.threads_) {}
 lennard_jones_liquid& lennard_jones_liquid::operator=(const lennard_jones_liquid& other) {
   if (this != &other) *this = lennard_jones_liquid(other);
   return *this;
@@ -128,8 +132,15 @@ lennard_jones_liquid::lennard_jones_liquid(lennard_jones_liquid&&) noexcept = de
 lennard_jones_liquid& lennard_jones_liquid::operator=(lennard_jones_liquid&&) noexcept = default;
 lennard_jones_liquid::~lennard_jones_liquid() = default;
 
+lennard_jones_liquid lennard_jones_liquid::on_threads(int threads) const {
+  if (threads < 1) refuse("the number of threads", "at least 1", sentence("{}", threads));
+  lennard_jones_liquid result(*this);
+  result.threads_ = threads;
+  return result;
+}
+
 lennard_jones_liquid::scratch& lennard_jones_liquid::scratch_of_this() const {
-  if (!scratch_) scratch_ = std::make_unique<scratch>(atoms_, side_, options_);
+  if (!scratch_) scratch_ = std::make_unique<scratch>(atoms_, side_, options_, threads_);
   return *scratch_;
 }
 
@@ -138,7 +149,7 @@ void lennard_jones_liquid::force(const Eigen::VectorXd& q, Eigen::VectorXd& f) c
   if (!list.update(q)) return void(f.setConstant(not_a_number));
   const detail::lennard_jones_pair pair(side_, options_.cutoff, options_.smoothness);
   const auto with = [&](auto smoothness) {
-    for_each_atom(list, options_.threads, pair, [&](std::int64_t slot, const auto& pairs) {
+    for_each_atom(list, threads_, pair, [&](std::int64_t slot, const auto& pairs) {
       exact_sum x;
       exact_sum y;
       exact_sum z;
@@ -177,7 +188,7 @@ void lennard_jones_liquid::force_derivative(const Eigen::VectorXd& q, const Eige
   const detail::lennard_jones_pair pair(side_, options_.cutoff, options_.smoothness);
   const double* const directions = own.directions.data();
   const auto with = [&](auto smoothness) {
-    for_each_atom(list, options_.threads, pair, [&](std::int64_t slot, const auto& pairs) {
+    for_each_atom(list, threads_, pair, [&](std::int64_t slot, const auto& pairs) {
       exact_sum x;
       exact_sum y;
       exact_sum z;
@@ -212,7 +223,7 @@ double lennard_jones_liquid::sum_over_pairs(const Eigen::VectorXd& q, const auto
   own.sums_of_atoms.resize(static_cast<std::size_t>(atoms_));
   const detail::lennard_jones_pair pair(side_, options_.cutoff, options_.smoothness);
   const auto with = [&](auto smoothness) {
-    for_each_atom(list, options_.threads, pair, [&](std::int64_t slot, const auto& pairs) {
+    for_each_atom(list, threads_, pair, [&](std::int64_t slot, const auto& pairs) {
       exact_sum sum;
       pairs([&](const distances& d, const auto*) __attribute__((always_inline)) {
         sum.add(only(d.square < pair.limit, summand(pair, smoothness, d)));

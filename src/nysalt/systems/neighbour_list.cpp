@@ -96,7 +96,7 @@ neighbour_list::state neighbour_list::take(const Eigen::VectorXd& q) {
     }
     return state::outdated;
   }
-  for_each_trajectory(blocks(), threads_, [&](std::int64_t block) {
+  for_each_trajectory(blocks(), {.threads = threads_}, [&](std::int64_t block) {
     const double per_side = 1.0 / side_;
     const double farthest = 0x1p16 * side_;
     double most_moved = 0.0;
@@ -125,7 +125,7 @@ neighbour_list::state neighbour_list::take(const Eigen::VectorXd& q) {
 
 void neighbour_list::make(const Eigen::VectorXd& q) {
   sort_into_cells(q);
-  for_each_trajectory(blocks(), threads_, [&](std::int64_t block) { make_rows(block); });
+  for_each_trajectory(blocks(), {.threads = threads_}, [&](std::int64_t block) { make_rows(block); });
   ++made_;
 }
 

@@ -55,8 +55,7 @@ hmc_options hmc_options_of(const sample_command& command, const prepared_problem
                       .acceptance = command.acceptance,
                       .diagonal_masses = command.diagonal_masses,
                       .seed = seed_for(role::test, common.seed),
-                      .threads = common.threads,
-                      .ranks = &all_ranks()};
+                      .execution = {.threads = common.execution.threads, .ranks = &all_ranks()}};
   if (!command.length && !command.diagonal_masses) {
     refuse(
         "--length must be given without --diagonal-masses; a quarter of the slowest period is a good start");
@@ -324,7 +323,7 @@ int sample(const sample_command& command, const common_settings& common) {
     };
   }
   line.part("sampling");
-  options.progress = line.counter(command.chains * (command.burn_in + command.draws));
+  options.execution.progress = line.counter(command.chains * (command.burn_in + command.draws));
   const hmc_result found = hmc(system->definition().system, method, system->prepared_starts(), options,
                                [&](const hmc_draw& draw) { draws.take(draw); });
   line.clear();

@@ -265,15 +265,15 @@ int stability(const stability_command& command, const common_settings& common) {
     // A bath drives the initial states to its stationary distribution.
     prepare_starts(*system, common, shown, warnings);
     shown.part("judging the step");
-    const judgement& found = system->judged(target.method, *command.step, common.threads);
-    const auto rival = loses_fewest(target.method, *system, found, common.threads);
+    const judgement& found = system->judged(target.method, *command.step, common.execution.threads);
+    const auto rival = loses_fewest(target.method, *system, found, common.execution.threads);
     shown.clear();
     add_judgement(result, found);
     result.document["loses_fewest"] = to_json(rival);
     if (rival) result.text += "  " + in_words(*rival) + "\n";
     if (rotates) add_rotation(result, target.method, *system, *command.step);
     if (!rotates && !has_own_letters) {
-      add_steps(result, target.method, chart, *system, found, common.threads);
+      add_steps(result, target.method, chart, *system, found, common.execution.threads);
       marked = {system->description(), *command.step, system->frequency_bands()};
       if (marked->bands.empty()) marked->bands.push_back({0.0, found.highest_frequency});
     }

@@ -30,7 +30,7 @@ void add_of_program(CLI::App& program) {
 
 void add_common(CLI::App& command, common_settings& common) {
   add_number(command, "--seed", common.seed, "of all random numbers");
-  add_number(command, "--threads", common.threads, "at most N threads; results do not depend on it")
+  add_number(command, "--threads", common.execution.threads, "at most N threads; results do not depend on it")
       ->default_str("all cores");
   command.add_flag("--json", common.json, "one JSON document on standard output");
   command.fallthrough();  // for --config, which belongs to the program

@@ -33,7 +33,7 @@ trajectories_plan plan_of(const run_command& command, const prepared_problem& sy
   system.require_starts("--trajectories", count);
   require_at_least_one("--sample-every", command.sample_every);
   const std::int64_t steps = steps_within("--horizon", command.horizon, command.step);
-  return {command.step, steps, count, seed_for(role::test, common.seed), common.threads};
+  return {command.step, steps, count, seed_for(role::test, common.seed), common.execution.threads};
 }
 
 /// A method that is fitted to a frequency needs it, also without checks.

@@ -33,9 +33,12 @@ const fpu_law<3> law(chain);
 const auto reference = fine_steps(1e-3);
 
 flow_map_data data_of(std::int64_t trajectories, std::uint64_t seed) {
-  return make_flow_map_data(
-      chain, law, reference,
-      {.step = 0.03, .horizon = 0.5, .trajectories = trajectories, .seed = seed, .threads = 2});
+  return make_flow_map_data(chain, law, reference,
+                            {.step = 0.03,
+                             .horizon = 0.5,
+                             .trajectories = trajectories,
+                             .seed = seed,
+                             .execution = {.threads = 2}});
 }
 const flow_map_data& many() {
   static const auto data = data_of(20'000, 1'000'000);
@@ -44,7 +47,7 @@ const flow_map_data& many() {
 
 /// From its usual start, as there is one minimum.
 fit fit_of(const family& family, const flow_map_data& data, const flow_map_data& held_out) {
-  return learn(family, chain, data, held_out, {.loss = loss_named("state:1"), .threads = 2});
+  return learn(family, chain, data, held_out, {.loss = loss_named("state:1"), .execution = {.threads = 2}});
 }
 
 fit fit_of(const family& family, const flow_map_data& data) {
@@ -124,7 +127,7 @@ BOOST_AUTO_TEST_CASE(the_loss_is_larger_by_what_is_expected_and_that_falls_as_on
   // On new data, in the measure that many data tell.
   const metric measure(chain, many(), coordinates::qp);
   const auto unseen = data_of(4000, 2'000'000);
-  const after_steps loss(family, chain, unseen, state_error(measure), {.threads = 2});
+  const after_steps loss(family, chain, unseen, state_error(measure), {.execution = {.threads = 2}});
   const double least = loss.value(fit_of(family, many()).theta);
   std::vector<double> log_count, log_lost, log_expected, relative_errors;
   for (const std::int64_t trajectories : {25, 100, 400}) {

@@ -13,7 +13,7 @@ int main() {
   using namespace nysalt;
   const harmonic_oscillator system(1.0);
   std::array<bool, 8> bounded{};
-  for_each_trajectory(8, 2, [&](std::int64_t m) {
+  for_each_trajectory(8, {.threads = 2}, [&](std::int64_t m) {
     const phase_point<double, 1> start{vector<double, 1>(1.0 + static_cast<double>(m)),
                                        vector<double, 1>(0.0)};
     bounded[static_cast<std::size_t>(m)] = !integrate(system, verlet{}, 0.1, start, 1000).diverged_at;
