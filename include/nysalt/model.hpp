@@ -185,6 +185,32 @@ class model {
 
 namespace detail {
 
+/// The letters of a model, whose system is behind its kernels.
+template <>
+class letters_on<model> {
+ public:
+  explicit letters_on(const model& system) : system_(&system) {}
+
+  const std::vector<letter_facts>& declared() const { return system_->facts().own_letters; }
+  template <Served T>
+  bool serves(char name) const {
+    return system_->facts().serves<T>(name);
+  }
+  /// Throws std::logic_error where coefficients are not those of a kernel over T.
+  template <Served T, class C>
+  applied_letter<T> over(char name, const C* c, double h) const {
+    if constexpr (std::same_as<C, coefficient_of<T>>) {
+      return system_->kernels<T>().letter(name, c, h);
+    } else {
+      throw std::logic_error("letters_on: a model has its letters over the scalars of its kernels");
+    }
+  }
+  const void* held() const { return system_->held(); }
+
+ private:
+  const model* system_;
+};
+
 /// The force evaluations of a number of evaluations of which some are f'(q) v.
 inline std::int64_t evaluations_of(const auto& erased, std::int64_t all, std::int64_t derivatives) {
   return all + derivatives * (erased.facts().derivative_calls - 1);

@@ -400,7 +400,7 @@ model_facts facts_of(const S& system) {
   facts.has_velocity_over_slopes = HasVelocity<S, slopes>;
   facts.may_be_wrong = force_may_be_wrong<S>;
   facts.is_black_box = BlackBoxForce<S>;
-  facts.own_letters = letters_declared_by(system);
+  facts.own_letters = letters_on(system).declared();
   facts.derivative_calls = derivative_calls<S>;
   facts.derivative_source = derivative_source<S>();
   facts.letters_over_double = letters_served<S, double>();

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -269,8 +268,8 @@ class prepared_word {
   template <System S, class T, int Size>
   [[gnu::noinline]] void apply_called(const S& system, int number, flow_state<T, Size>& x, auto& room) const {
     const auto& prepared = called_[static_cast<std::size_t>(number - first_called)];
-    const void* held = &system;
-    if constexpr (ErasedSystem<S>) held = system.held();
+    const detail::letters_on letters(system);
+    const void* held = letters.held();
     const auto act = [&](const detail::applied_letter<T>& one) {
       if constexpr (Size == Eigen::Dynamic) {
         one(held, {x.q.data(), x.p.data(), &x.q, &x.p, &room});
@@ -280,11 +279,9 @@ class prepared_word {
     };
     if constexpr (detail::prepared_letter<C>::template serves<T>) {
       act(prepared.template over<T>());
-    } else if constexpr (!ErasedSystem<S>) {  // derivatives by the state, which are taken once in a while
+    } else {  // derivatives by the state, which are taken once in a while
       const auto& [name, c, h] = prepared.unfolded;
-      act(detail::letter_of_system<S, T>(name, c.data(), h));
-    } else {
-      throw std::logic_error("prepared_word: a model has its letters over the scalars of its kernels");
+      act(letters.template over<T>(name, c.data(), h));
     }
   }
   void apply_known(const auto& system, const letter& one, auto& x, auto& cursor) const {
