@@ -33,6 +33,7 @@ class model {
   static constexpr int dimension = Eigen::Dynamic;  ///< known at run time
   static constexpr int lanes = default_lanes;       ///< most trajectories side by side
   static constexpr bool is_erased = true;  ///< true: the members that the system offers are known at run time
+  static constexpr bool may_have_quadratic_kinetic = true;  ///< true: K is known at run time
 
   /// The model of a system, which is copied; it converts by itself. Cost: a copy, and one description.
   template <class S>
@@ -130,11 +131,11 @@ class model {
   }
   /// Force over numbers with one derivative: two derivatives are carried, the second zero.
   void force(const vector<dual<double, 1>, dimension>& q, vector<dual<double, 1>, dimension>& f) const {
-    with_one_slope(field::whole, q, f);
+    with_one_slope(q, f, [this](const auto& x, auto& result) { force(x, result); });
   }
   /// Soft force over numbers with one derivative.
   void soft_force(const vector<dual<double, 1>, dimension>& q, vector<dual<double, 1>, dimension>& f) const {
-    with_one_slope(field::soft, q, f);
+    with_one_slope(q, f, [this](const auto& x, auto& result) { soft_force(x, result); });
   }
   /// g = f'(q) v.
   template <detail::Served T>
@@ -148,11 +149,36 @@ class model {
   T potential(const vector<T, dimension>& q) const {
     return kernels<T>().potential(q);
   }
+  /// v = grad K(p).
+  template <detail::Served T>
+  void velocity(const vector<T, dimension>& p, vector<T, dimension>& v) const {
+    kernels<T>().velocity(p, v);
+  }
+  /// Velocity over numbers with one derivative.
+  void velocity(const vector<dual<double, 1>, dimension>& p, vector<dual<double, 1>, dimension>& v) const {
+    with_one_slope(p, v, [this](const auto& x, auto& result) { velocity(x, result); });
+  }
+  /// K(p), if H can be evaluated.
+  template <detail::Served T>
+  T kinetic_energy(const vector<T, dimension>& p) const {
+    return kernels<T>().kinetic_energy(p);
+  }
+  /// H(q, p), by one call of the kernel.
+  template <detail::Served T>
+  friend T energy(const model& system, const phase_point<T, dimension>& x) {
+    return system.kernels<T>().energy(x.q, x.p);
+  }
 
   /// g = f'(q) v of a black box, where f = f(q) is known.
-  void directional_derivative(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& f,
-                              Eigen::VectorXd& g) const {
-    system_->directional_derivative(q, v, f, g);
+  friend void directional_derivative(const model& system, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                     const Eigen::VectorXd& f, Eigen::VectorXd& g) {
+    system.system_->directional_derivative(q, v, f, g);
+  }
+  /// g = f'(q) v of a field, as of the system by its type.
+  template <field F, detail::Served T>
+  friend void force_along(const model& system, const vector<T, dimension>& q, const vector<T, dimension>& v,
+                          vector<T, dimension>& g, auto& room, double s = detail::part_of_displacement) {
+    system.kernels<T>().force_along(F, q, v, g, room, s);
   }
   /// K''(p), of a kinetic energy of the system's own.
   Eigen::MatrixXd kinetic_hessian(const Eigen::VectorXd& p) const;
@@ -160,8 +186,8 @@ class model {
   void own_kick(const Eigen::VectorXd& q, Eigen::VectorXd& p, double c) const { system_->own_kick(q, p, c); }
 
  private:
-  void with_one_slope(field of, const vector<dual<double, 1>, dimension>& q,
-                      vector<dual<double, 1>, dimension>& f) const {
+  static void with_one_slope(const vector<dual<double, 1>, dimension>& q,
+                             vector<dual<double, 1>, dimension>& f, const auto& function) {
     using T = detail::slopes;
     vector<T, dimension> lifted(q.size());
     vector<T, dimension> found(q.size());
@@ -169,7 +195,7 @@ class model {
       lifted[i] = T(q[i].value);
       lifted[i].derivative[0] = q[i].derivative[0];
     }
-    kernels<T>().force(of, lifted, found);
+    function(lifted, found);
     for (Eigen::Index i = 0; i < q.size(); ++i) {
       f[i].value = found[i].value;
       f[i].derivative[0] = found[i].derivative[0];

@@ -253,15 +253,15 @@ concept SystemOver = System<S> && (HasForce<S, T> || HasPotential<S, dual<T, det
 template <class S>
 concept SeparableSystem = SystemOver<S, double> && SystemOver<S, dual<double, 1>>;
 
-/// K = p M^-1 p / 2 with a diagonal M: what methods of Runge-Kutta-Nystrom type need for their order.
-template <class S>
-concept NystromSystem = SeparableSystem<S> && !HasKineticEnergy<S, double> && !HasVelocity<S, double>;
-
-/// K = p M^-1 p / 2, also of systems that need not be separable over double: order_probe, whose K is decided
-/// at run time, declares so itself.
+/// K = p M^-1 p / 2, also of systems that need not be separable over double: a model and order_probe, whose K
+/// is decided at run time, declare so themselves.
 template <class S>
 concept HasQuadraticKinetic = System<S> && ((!HasKineticEnergy<S, double> && !HasVelocity<S, double>) ||
                                             requires { requires S::may_have_quadratic_kinetic; });
+
+/// K = p M^-1 p / 2 with a diagonal M: what methods of Runge-Kutta-Nystrom type need for their order.
+template <class S>
+concept NystromSystem = SeparableSystem<S> && HasQuadraticKinetic<S>;
 
 /// H = H_0 + V_soft with a quadratic H_0 = p M^-1 p/2 + q K q/2 whose flow its modes give, and the rest by
 /// its force.
