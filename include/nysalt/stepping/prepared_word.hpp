@@ -2,6 +2,7 @@
 // A word with its coefficients and the step folded in, prepared for a system.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -112,25 +113,44 @@ class prepared_word {
                                  auto& cursor) const {
     take(system, run_, x, steps, cursor, {});
   }
-  /// The same of a model, watched: observe() is called with the synchronous state in y after `first`
-  /// steps, and every `every` steps from there on.
-  template <class T, ErasedSystem S>
-  void advance(const S& system, flow_state<T, S::dimension>& x, flow_state<T, S::dimension>& y,
-               std::int64_t steps, std::int64_t first, std::int64_t every, auto& cursor,
-               const auto& observe) const {
-    const auto see = [&] {
-      if (merges_ && is_called(run_.undo.front()))
-        apply_called(system, run_.undo.front().number, y, cursor.room);
-      end(system, y, cursor);
-      observe();
-    };
-    take(system, run_, x, steps, cursor,
-         detail::watch<T>{.q = &y.q,
-                          .p = &y.p,
-                          .first = first,
-                          .every = every,
-                          .observe = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
-                          .context = const_cast<void*>(static_cast<const void*>(&see))});
+  /// The same from a step on, watched: observe(n, y) is called with the synchronous state y at each step n
+  /// that `every` divides. Of a model the kernel calls back, in one virtual call for all steps.
+  template <class T, System S>
+  void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t step, std::int64_t steps,
+               std::int64_t every, auto& cursor, const auto& observe) const {
+    const std::int64_t end_of_steps = step + steps;
+    std::int64_t next = (step / every + 1) * every;
+    if constexpr (ErasedSystem<S>) {
+      if (next > end_of_steps) return advance(system, x, steps, cursor);  // without room for y
+      flow_state<T, S::dimension> y = x;
+      const auto see = [&] {
+        if (merges_ && is_called(run_.undo.front()))
+          apply_called(system, run_.undo.front().number, y, cursor.room);
+        end(system, y, cursor);
+        observe(next, y);
+        next += every;
+      };
+      take(system, run_, x, steps, cursor,
+           detail::watch<T>{.q = &y.q,
+                            .p = &y.p,
+                            .first = next - step,
+                            .every = every,
+                            .observe = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
+                            .context = const_cast<void*>(static_cast<const void*>(&see))});
+    } else {
+      // One call of the loop: a second one, where the system is known by its type, keeps g++ from inlining
+      // the force.
+      flow_state<T, S::dimension> y = x;
+      for (; step < end_of_steps; next += every) {
+        const std::int64_t until = std::min(end_of_steps, next);
+        advance(system, x, until - step, cursor);
+        step = until;
+        if (step < next) break;
+        y = x;
+        close(system, y, cursor);
+        observe(step, y);
+      }
+    }
   }
   /// What an open state is at its step. Cost: the word's evaluations_to_observe.
   template <class T, System S>
