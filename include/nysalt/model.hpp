@@ -40,7 +40,7 @@ class model {
     requires(!std::same_as<S, model> && SeparableSystem<S>)
   model(const S& system)  // NOLINT(google-explicit-constructor)
       : system_(detail::erased(system)),
-        facts_(std::make_shared<detail::model_facts>(detail::facts_of(system))),
+        facts_(std::make_shared<detail::model_facts>(detail::model_facts_of(system))),
         base_kind_(detail::kind_without_bath(system)) {
     detail::library_is_compiled_for<default_lanes>();
   }
@@ -78,11 +78,13 @@ class model {
   model on_threads(int threads) const {
     if (threads < 1)
       throw std::invalid_argument(sentence("model: threads must be at least 1, got {}", threads));
+    auto facts = std::make_shared<detail::model_facts>(*facts_);
+    facts->threads = threads;
     model result = *this;
-    result.threads_ = threads;
+    result.facts_ = std::move(facts);
     return result;
   }
-  int threads() const { return threads_; }  ///< number of threads that share a step of one trajectory
+  int threads() const { return facts_->threads; }  ///< number of threads that share a step of one trajectory
   /// The system, as the letters that it declares find it.
   const void* held() const { return system_->held(); }
   /// Functions of the sites of a LocalSystem, else null.
@@ -93,6 +95,9 @@ class model {
     result.system_ = system_->clone();
     return result;
   }
+  /// The model for one block of trajectories: of a black box, which counts its calls and may keep scratch of
+  /// its own, a separate one; else the same.
+  friend model own_copy(const model& system) { return system.facts().is_locked ? system.separate() : system; }
   /// Members that the system offers.
   const detail::model_facts& facts() const { return *facts_; }
   /// Force evaluations of this copy so far, of a black box.
@@ -102,13 +107,15 @@ class model {
   double inverse_mass(Eigen::Index i) const {
     return facts_->inverse_masses.empty() ? 1.0 : facts_->inverse_masses[static_cast<std::size_t>(i)];
   }
-  bool has_unit_mass() const { return facts_->inverse_masses.empty(); }  ///< no masses are declared
+  bool has_unit_mass() const { return facts_->has_unit_mass; }  ///< no masses are declared
   /// The square root of the mass of coordinate i.
-  double root_mass(Eigen::Index i) const {
-    return facts_->inverse_root_masses.empty() ? 1.0
-                                               : facts_->inverse_root_masses[static_cast<std::size_t>(i)];
+  friend double root_mass(const model& system, Eigen::Index i) {
+    const auto& roots = system.facts_->inverse_root_masses;
+    return roots.empty() ? 1.0 : roots[static_cast<std::size_t>(i)];
   }
-  normal_modes modes() const { return system_->modes(); }  ///< modes of the quadratic part, if has_modes()
+  normal_modes modes() const { return system_->modes(); }   ///< modes of the quadratic part, if has_modes()
+  bool has_modes() const { return facts_->has_modes; }      ///< the modes of a quadratic part are declared
+  double force_cost() const { return facts_->force_cost; }  ///< what a force costs, see nysalt::force_cost()
   /// Frequency bands that the system declares, or none.
   std::vector<frequency_band> frequency_bands() const {
     return system_->frequency_bands(is_in_bath_ ? &facts_->in : nullptr);
@@ -206,7 +213,6 @@ class model {
   std::shared_ptr<const detail::model_facts> facts_;
   std::string base_kind_;  // without a bath
   bool is_in_bath_ = true;
-  int threads_ = 1;
 };
 
 namespace detail {

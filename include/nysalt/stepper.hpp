@@ -202,7 +202,7 @@ class stepper {
   /// Throws std::invalid_argument if the system does not serve a letter.
   static surroundings_of_word surroundings(const S& system, const word& letters) {
     surroundings_of_word result;
-    if constexpr (ErasedSystem<S>) result.threads = system.threads();
+    result.threads = detail::facts_of(system).threads;
     if constexpr (HasBath<S>) result.heat_bath = static_cast<const bath&>(system.bath());
     require_served<S, C>(letters, system);
     if constexpr (HasQuadraticPart<S>) {

@@ -80,7 +80,7 @@ class burn_in_chains {
 
   /// Chains of a system that comes without its bath; temperature is kT, an energy.
   burn_in_chains(const model& base, double temperature, double friction, double step, std::uint64_t seed)
-      : system_(detail::own_copy(base).in(bath::of_temperature(friction, temperature))),
+      : system_(own_copy(base).in(bath::of_temperature(friction, temperature))),
         stepper_(make_stepper(system_, method(baoab{}), step, counter_noise(seed, noise_purpose::burn_in))) {}
   burn_in_chains(const burn_in_chains&) = delete;  // the stepper refers to the system
   burn_in_chains& operator=(const burn_in_chains&) = delete;
