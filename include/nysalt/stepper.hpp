@@ -2,7 +2,6 @@
 // The open run and the one loop through which every method steps.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
