@@ -164,9 +164,7 @@ template <System S>
 void directional_derivative(const S& system, const vector<double, S::dimension>& q,
                             const vector<double, S::dimension>& v, const vector<double, S::dimension>& f,
                             vector<double, S::dimension>& g) {
-  if constexpr (ErasedSystem<S>) {
-    system.directional_derivative(q, v, f, g);
-  } else if constexpr (HasForceDerivative<S>) {
+  if constexpr (HasForceDerivative<S>) {
     system.force_derivative(q, v, g);
   } else {
     auto at = q;
@@ -291,9 +289,7 @@ template <field F, class T, System S>
   requires ForceDerivativeOver<S, T, F>
 void force_along(const S& system, const vector<T, S::dimension>& q, const vector<T, S::dimension>& v,
                  vector<T, S::dimension>& g, auto& room, double s = detail::part_of_displacement) {
-  if constexpr (ErasedSystem<S>) {
-    system.template kernels<T>().force_along(F, q, v, g, room, s);
-  } else if constexpr (F == field::whole && HasForceDerivative<S, T>) {
+  if constexpr (F == field::whole && HasForceDerivative<S, T>) {
     system.force_derivative(q, v, g);
   } else if constexpr (F == field::whole && BlackBoxForce<S>) {
     if constexpr (is_dual<T>) {

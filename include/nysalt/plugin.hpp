@@ -198,7 +198,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
   (detail::take_piece<S>(pieces, members), ...);
   system_declaration result{.name = std::move(name), .title = std::move(title)};
   for (const auto& member : members) result.parameters.push_back(member.declared);
-  for (const letter_facts& own : detail::letters_declared_by(declared())) result.letters += own.letter;
+  for (const letter_facts& own : detail::letters_on(declared()).declared()) result.letters += own.letter;
   const auto spread_of = []<class Piece>(const Piece*) {
     if constexpr (detail::is_starts<Piece>)
       return detail::takes_spread<S>(static_cast<const Piece*>(nullptr));

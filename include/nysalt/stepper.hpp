@@ -2,7 +2,6 @@
 // The open run and the one loop through which every method steps.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -109,37 +108,13 @@ class stepper {
       throw std::invalid_argument(
           sentence("stepper: steps must be >= 0 and every >= 1, got {} and {}", steps, every));
     }
-    // Without an observation no room for one is needed. Only of a model: a second call of the loop,
-    // where the system is known by its type, keeps g++ from inlining the force.
-    if constexpr (ErasedSystem<S>) {
-      if ((run.step / every + 1) * every > run.step + steps) return advance(run, steps);
-    }
     flow_state<T, dimension> x = std::move(run.state);
-    flow_state<T, dimension> y = x;
-    const S& system = *system_;
-    const std::int64_t end = run.step + steps;
     auto cursor = cursor_at<T>(run.trajectory, run.step);
-    if (opens_now(run, steps)) letters_.open(system, x, cursor);
-    std::int64_t step = run.step;
-    if constexpr (ErasedSystem<S>) {
-      std::int64_t next = (step / every + 1) * every;
-      letters_.advance(system, x, y, steps, next - step, every, cursor, [&] {
-        observe(next, static_cast<const phase_point<T, dimension>&>(y));
-        next += every;
-      });
-    } else {
-      while (step < end) {
-        const std::int64_t next = std::min(end, (step / every + 1) * every);
-        letters_.advance(system, x, next - step, cursor);
-        step = next;
-        if (step % every != 0) continue;
-        y = x;
-        letters_.close(system, y, cursor);
-        observe(step, static_cast<const phase_point<T, dimension>&>(y));
-      }
-    }
+    if (opens_now(run, steps)) letters_.open(*system_, x, cursor);
+    letters_.advance(*system_, x, run.step, steps, every, cursor,
+                     [&](std::int64_t n, const phase_point<T, dimension>& y) { observe(n, y); });
     run.state = std::move(x);
-    run.step = end;
+    run.step += steps;
   }
 
   /// The state at the run's step, as a copy: looking does not change the run. Cost: the word's

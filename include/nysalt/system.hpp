@@ -4,6 +4,7 @@
 
 #include <cxxabi.h>
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstdlib>
 #include <memory>
@@ -253,15 +254,15 @@ concept SystemOver = System<S> && (HasForce<S, T> || HasPotential<S, dual<T, det
 template <class S>
 concept SeparableSystem = SystemOver<S, double> && SystemOver<S, dual<double, 1>>;
 
-/// K = p M^-1 p / 2 with a diagonal M: what methods of Runge-Kutta-Nystrom type need for their order.
-template <class S>
-concept NystromSystem = SeparableSystem<S> && !HasKineticEnergy<S, double> && !HasVelocity<S, double>;
-
-/// K = p M^-1 p / 2, also of systems that need not be separable over double: order_probe, whose K is decided
-/// at run time, declares so itself.
+/// K = p M^-1 p / 2, also of systems that need not be separable over double: a model and order_probe, whose K
+/// is decided at run time, declare so themselves.
 template <class S>
 concept HasQuadraticKinetic = System<S> && ((!HasKineticEnergy<S, double> && !HasVelocity<S, double>) ||
                                             requires { requires S::may_have_quadratic_kinetic; });
+
+/// K = p M^-1 p / 2 with a diagonal M: what methods of Runge-Kutta-Nystrom type need for their order.
+template <class S>
+concept NystromSystem = SeparableSystem<S> && HasQuadraticKinetic<S>;
 
 /// H = H_0 + V_soft with a quadratic H_0 = p M^-1 p/2 + q K q/2 whose flow its modes give, and the rest by
 /// its force.
@@ -279,23 +280,47 @@ template <class S>
 inline constexpr bool force_may_be_wrong = HasForce<S, double> || detail::CanKick<S, double, double> ||
                                            HasForceDerivative<S> || HasSoftForce<S> || HasVelocity<S, double>;
 
+namespace detail {
+/// What is known of every system: of a type by the concepts, and of a model at run time.
+struct system_facts {
+  bool has_energy = false;             ///< over double
+  bool has_quadratic_kinetic = false;  ///< K = p M^-1 p / 2
+  bool has_unit_mass = true;           ///< no masses are declared
+  bool is_black_box = false;           ///< the force is known for double only
+  bool is_locked = false;  ///< threads that share it call it one at a time, so that each takes a copy
+  int threads = 1;         ///< that share a step of one trajectory where the system allows it
+};
+
+template <System S>
+inline constexpr system_facts facts_of_type{.has_energy = HasEnergy<S>,
+                                            .has_quadratic_kinetic = NystromSystem<S>,
+                                            .has_unit_mass = !HasInverseMass<S>,
+                                            .is_black_box = BlackBoxForce<S>};
+
+template <System S>
+constexpr const system_facts& facts_of(const S& system) {
+  if constexpr (ErasedSystem<S>) {
+    return system.facts();
+  } else {
+    return facts_of_type<S>;
+  }
+}
+}  // namespace detail
+
 /// Whether H can be evaluated.
 template <System S>
 constexpr bool has_energy(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().has_energy;
-  return HasEnergy<S>;
+  return detail::facts_of(system).has_energy;
 }
 /// Whether K = p M^-1 p / 2.
 template <System S>
 constexpr bool has_quadratic_kinetic(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().has_quadratic_kinetic;
-  return NystromSystem<S>;
+  return detail::facts_of(system).has_quadratic_kinetic;
 }
 /// Whether the modes of its quadratic part are declared. A system whose modes take too much room at some
 /// sizes says so by a member `bool has_modes() const`.
 template <System S>
 constexpr bool has_modes(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().has_modes;
   if constexpr (HasModes<S> && requires {
                   { system.has_modes() } -> std::same_as<bool>;
                 }) {
@@ -306,8 +331,7 @@ constexpr bool has_modes(const S& system) {
 /// Whether its force is known for double only.
 template <System S>
 constexpr bool is_black_box(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().is_black_box;
-  return BlackBoxForce<S>;
+  return detail::facts_of(system).is_black_box;
 }
 
 /// Number of degrees of freedom.
@@ -326,9 +350,7 @@ Eigen::Index size(const S& system) {
 template <System S>
 double force_cost(const S& system) {
   const auto coordinates = static_cast<double>(size(system));
-  if constexpr (ErasedSystem<S>) {
-    return system.facts().force_cost;
-  } else if constexpr (HasForceCost<S>) {
+  if constexpr (HasForceCost<S>) {
     return system.force_cost();
   } else if constexpr (requires {
                          { system.base() } -> System;
@@ -336,6 +358,16 @@ double force_cost(const S& system) {
     return force_cost(system.base());
   } else {
     return HasForce<S, double> ? coordinates : 4.0 * coordinates * coordinates;
+  }
+}
+
+/// The square root of the mass of coordinate i, as 1/sqrt(1/m_i).
+template <System S>
+double root_mass(const S& system, Eigen::Index i) {
+  if constexpr (HasInverseMass<S>) {
+    return 1.0 / std::sqrt(system.inverse_mass(i));
+  } else {
+    return 1.0;
   }
 }
 

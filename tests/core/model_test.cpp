@@ -263,7 +263,7 @@ BOOST_AUTO_TEST_CASE(facts_are_those_of_the_concepts) {
       if constexpr (HasInverseMass<S>) {
         for (Eigen::Index i = 0; i < size(system); ++i) {
           BOOST_TEST(erased.inverse_mass(i) == system.inverse_mass(i));
-          BOOST_TEST(erased.root_mass(i) == 1.0 / std::sqrt(system.inverse_mass(i)));
+          BOOST_TEST(root_mass(erased, i) == 1.0 / std::sqrt(system.inverse_mass(i)));
         }
       }
       if constexpr (HasModes<S>) {
@@ -286,6 +286,52 @@ BOOST_AUTO_TEST_CASE(facts_are_those_of_the_concepts) {
   const model alone = model(warm).base();
   BOOST_TEST(!alone.bath().acts());
   BOOST_TEST(describe(alone) == describe(fixed_chain));
+}
+
+BOOST_AUTO_TEST_CASE(functions_of_a_model_have_the_bits_of_its_system) {
+  constexpr double reach = 1e-3;
+  const auto check = []<class S>(const S& system) {
+    constexpr int N = S::dimension;
+    const model erased(system);
+    const auto own = gathered<double, N>(starts_of(system));
+    const phase_point<double, Eigen::Dynamic> x{own.q, own.p};
+    auto found = x.q;
+    auto expected = own.q;
+    BOOST_TEST_CONTEXT(describe(system)) {
+      velocity<double>(system, own.p, expected);
+      velocity<double>(erased, x.p, found);
+      BOOST_TEST((found == expected));
+      lifted_room<double, N> own_room(own.q.size());
+      lifted_room<double, Eigen::Dynamic> room(own.q.size());
+      force_along<field::whole, double>(system, own.q, own.p, expected, own_room, reach);
+      force_along<field::whole, double>(erased, x.q, x.p, found, room, reach);
+      BOOST_TEST((found == expected));
+      if constexpr (BlackBoxForce<S>) {
+        auto at_first = own.q;
+        force<double>(system, own.q, at_first);
+        directional_derivative(system, own.q, own.p, at_first, expected);
+        directional_derivative(erased, x.q, x.p, Eigen::VectorXd(at_first), found);
+        BOOST_TEST((found == expected));
+      }
+      using D = dual<double, 1>;
+      auto slope = own.template cast<D>().p;
+      for (Eigen::Index i = 0; i < slope.size(); ++i) slope[i].derivative[0] = own.q[i];
+      auto expected_slope = slope;
+      velocity<D>(system, slope, expected_slope);
+      vector<D, Eigen::Dynamic> found_slope(slope.size());
+      velocity<D>(erased, vector<D, Eigen::Dynamic>(slope), found_slope);
+      for (Eigen::Index i = 0; i < slope.size(); ++i) {
+        BOOST_TEST(found_slope[i].value == expected_slope[i].value);
+        BOOST_TEST(found_slope[i].derivative[0] == expected_slope[i].derivative[0]);
+      }
+      if constexpr (HasEnergy<S>) {
+        BOOST_TEST(kinetic_energy<double>(erased, x.p) == kinetic_energy<double>(system, own.p));
+        BOOST_TEST(energy<double>(erased, x) == energy<double>(system, own));
+      }
+    }
+  };
+  for_each_type(check);
+  check(relativistic());
 }
 
 BOOST_AUTO_TEST_CASE(starts_are_typical_and_energetic_where_the_model_has_an_energy) {

@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(all_functions_of_a_shared_black_box_have_one_lock) {
     if (which == 0) force<double>(system, one, f);
     if (which == 1) static_cast<void>(system.potential(one));
     if (which == 2) static_cast<void>(system.kernels<double>().energy(one, one));
-    if (which == 3) system.directional_derivative(one, one, one, g);
+    if (which == 3) directional_derivative(system, one, one, one, g);
   };
   black_box_with_memory::meetings = 0;
   for_each_block(64, 1, {.threads = 4}, [&](std::int64_t m, int) {

@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
-#include <type_traits>
 
 #include "nysalt/communicator.hpp"
 #include "nysalt/core/sentence.hpp"
@@ -54,28 +53,22 @@ inline void require_trajectories(const char* who, std::int64_t count, std::int64
 template <class Source>
 concept OnSystem = requires { typename Source::system_type; };
 
-/// The system for one block of trajectories: a copy of a black box, which counts its calls and may keep
-/// scratch of its own, so that each block needs another; any other system itself.
+/// The system for one block of trajectories: itself. Of a model see model.hpp.
 template <System S>
   requires(!OnSystem<S>)
-std::conditional_t<ErasedSystem<S>, S, const S&> own_copy(const S& system) {
-  if constexpr (ErasedSystem<S>) {
-    if (is_black_box(system)) return system.separate();
-  }
+const S& own_copy(const S& system) {
   return system;
 }
 
-/// A stepper for one block of trajectories: of a black box, a stepper of a copy that it holds; else the one
-/// that it was made of, to which it refers.
+/// A stepper for one block of trajectories: of a locked system, a stepper of a copy that it holds; else the
+/// one that it was made of, to which it refers.
 template <class Stepper>
 class own_stepper {
  public:
   explicit own_stepper(const Stepper& shared) : stepper_(&shared) {
-    if constexpr (ErasedSystem<typename Stepper::system_type>) {
-      if (!is_black_box(shared.system())) return;
-      held_ = std::make_unique<held>(shared);
-      stepper_ = &held_->stepper;
-    }
+    if (!facts_of(shared.system()).is_locked) return;
+    held_ = std::make_unique<held>(shared);
+    stepper_ = &held_->stepper;
   }
 
   const Stepper& operator*() const { return *stepper_; }

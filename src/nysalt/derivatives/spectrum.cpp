@@ -88,7 +88,7 @@ const Eigen::VectorXd& force_jacobian::times(const Eigen::VectorXd& v) {
   if (differs_) {
     const double displacements = v.cwiseQuotient(lengths_).cwiseAbs().maxCoeff();
     v_ = v / displacements;
-    system_.directional_derivative(q_, v_, f_, g_);
+    directional_derivative(system_, q_, v_, f_, g_);
     g_ *= displacements;
   } else {
     system_.kernels<double>().force_along(field_, q_, v, g_, room_, detail::part_of_displacement);

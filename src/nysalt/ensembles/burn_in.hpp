@@ -80,7 +80,7 @@ class burn_in_chains {
 
   /// Chains of a system, which comes without its bath, in another bath.
   burn_in_chains(const model& base, const bath& heat_bath, double step, std::uint64_t seed)
-      : system_(detail::own_copy(base).in(heat_bath)),
+      : system_(own_copy(base).in(heat_bath)),
         stepper_(make_stepper(system_, method(baoab{}), step, counter_noise(seed, noise_purpose::burn_in))) {}
   burn_in_chains(const burn_in_chains&) = delete;  // the stepper refers to the system
   burn_in_chains& operator=(const burn_in_chains&) = delete;
