@@ -38,7 +38,7 @@ void run_ensemble(states& all, const auto& stepper, std::int64_t steps, int thre
       at(k) = {one.q, one.p};
     }
   };
-  for_each_block(static_cast<std::int64_t>(all.size()), default_lanes, threads, block);
+  detail::for_each_block(static_cast<std::int64_t>(all.size()), default_lanes, threads, block);
 }
 
 /// The two-stage step.

@@ -40,7 +40,7 @@ template <class T, class Stepper>
 class ensemble_run {
   static constexpr int N = Stepper::dimension;
   static constexpr int width = lanes_in<T>;
-  using runs = lockstep<Stepper, T>;
+  using runs = detail::lockstep<Stepper, T>;
   using state = phase_point<T, N>;
 
   struct block {
@@ -142,7 +142,7 @@ class ensemble_run {
   runs resumed(const Stepper& stepper, const state& start, int count, const saved_runs& saved,
                std::int64_t place) const {
     open_run<T, N> run{{start, start.q}, saved.step, static_cast<std::uint64_t>(first_ + place)};
-    first_in_lanes<T> lost;
+    detail::first_in_lanes<T> lost;
     const double* next_number = saved.numbers.data() + 3 * start.size() * place;
     for (int k = 0; k < count; ++k) {
       lost.set(k, saved.diverged_at[static_cast<std::size_t>(place + k)]);

@@ -19,12 +19,16 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Position of the pairs of one rank among the pairs of all ranks.
 struct shared_pairs {
   shard trajectories;  ///< distribution of the trajectories over ranks
   std::size_t first;   ///< number of the first pair at this rank, among all
   std::size_t total;   ///< pairs of all ranks
 };
+
+}  // namespace detail
 
 /// Pairs (start, finish) with finish one step later on the reference trajectory, trajectory by trajectory. If
 /// ranks share them, each has the pairs of its trajectories.
@@ -39,7 +43,7 @@ struct flow_map_data {
   int noise_parts = 0;
   /// Standard normal numbers of that noise: the numbers of pair n are noise[n noise_parts + k] for k from 0
   /// to noise_parts - 1.
-  vector_list noise;
+  detail::vector_list noise;
 
   /// Further states of the ensemble, beyond those that trajectories begin at, the most energetic of many
   /// among them: at all ranks the same. They are where frequencies are estimated.
@@ -50,7 +54,7 @@ struct flow_map_data {
   /// A few finishes again with the finer reference: {pair, finish}. They estimate the reference's own error.
   std::vector<std::pair<std::size_t, phase_point<double, Eigen::Dynamic>>> finer;
 
-  std::optional<shared_pairs> shared;  ///< null if this rank has all pairs
+  std::optional<detail::shared_pairs> shared;  ///< null if this rank has all pairs
 
   // Provenance of the data of all ranks.
   std::string system;                    ///< description of the system

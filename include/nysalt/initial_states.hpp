@@ -35,7 +35,7 @@ class initial_states {
     };
     if constexpr (requires { ensemble.size(); }) size_ = static_cast<std::int64_t>(ensemble.size());
     if constexpr (requires { ensemble.is_expensive(); }) is_expensive_ = ensemble.is_expensive();
-    using T = scalar_of_lanes<default_lanes>;
+    using T = detail::scalar_of_lanes<default_lanes>;
     if constexpr (requires { ensemble.template block<T>(std::uint64_t{}, std::int64_t{}, int{}); }) {
       is_expensive_ = true;
       several_ = [ensemble](std::uint64_t seed, std::int64_t first, int count) {

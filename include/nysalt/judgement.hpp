@@ -45,8 +45,12 @@ struct judging_options {
   bool watches_energy = true;  ///< false: only divergence counts, as for proposals of Hybrid Monte Carlo
 };
 
+namespace detail {
+
 /// Largest number of force evaluations of a trial: what `work` comes to.
 std::int64_t evaluations_of_trial(const model& system, const judging_options& options = {});
+
+}  // namespace detail
 
 /// Errors of the energy of trajectories, each the largest |H - H_0| over the median kinetic energy.
 struct energy_errors {

@@ -15,11 +15,12 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// The scalar of W lanes: a pack, or plain double for W = 1.
 template <int W>
 using scalar_of_lanes = std::conditional_t<W == 1, double, pack<double, std::max(W, 1)>>;
 
-namespace detail {
 template <System S>
 constexpr int most_lanes() {
   if constexpr (requires { S::lanes; }) {
@@ -33,7 +34,6 @@ constexpr int most_lanes() {
 template <class S, class T>
 concept DriftsOver = (!HasVelocity<S, double> && !HasKineticEnergy<S, double>) || HasVelocity<S, T> ||
                      HasKineticEnergy<S, dual<T, sweep<S::dimension>>>;
-}  // namespace detail
 
 /// Trajectories of this system that are stepped at a time: as many as suit the processor, or
 /// `static constexpr int lanes` of the system; one if its force is known for double only.
@@ -45,15 +45,21 @@ inline constexpr int lanes_of = [] {
   return 1;
 }();
 
+}  // namespace detail
+
 /// Trajectories that a scalar holds: the lanes of a pack, else one.
 template <class T>
 inline constexpr int lanes_in = 1;
 template <int W>
 inline constexpr int lanes_in<pack<double, W>> = W;  ///< number of lanes
 
+namespace detail {
+
 /// The type of a comparison of two T: a bool, or a mask of lanes.
 template <class T>
 using condition_of = decltype(T(0.0) < T(0.0));
+
+}  // namespace detail
 
 // One code for double, which has one lane, and for packs.
 inline double lane(double x, int) { return x; }                    ///< value of the only lane
@@ -125,6 +131,8 @@ void set_lane(phase_point<T, N>& x, int k, const phase_point<double, N>& value) 
   }
 }
 
+namespace detail {
+
 /// The lanes 0..count - 1.
 template <class T>
 condition_of<T> first_lanes(int count) {
@@ -132,6 +140,8 @@ condition_of<T> first_lanes(int count) {
   for (int k = 0; k < count; ++k) set_lane(result, k, true);
   return result;
 }
+
+}  // namespace detail
 
 /// States 0..count - 1 from make(k), one in each lane; lanes beyond them repeat the first.
 template <class T, int N>
@@ -177,6 +187,8 @@ T value_in_lanes(const F& f, const phase_point<T, N>& x) {
   }
 }
 
+namespace detail {
+
 /// The number of the first sample, or step, at which a condition held in each lane.
 template <class T>
 class first_in_lanes {
@@ -205,6 +217,8 @@ class first_in_lanes {
  private:
   std::array<std::optional<std::int64_t>, static_cast<std::size_t>(lanes_in<T>)> first_{};
 };
+
+}  // namespace detail
 
 /// H in each lane, also where the potential is known for double only.
 template <class T, HasEnergy S>

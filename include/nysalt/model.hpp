@@ -140,7 +140,7 @@ class model {
   template <detail::Served T>
   void force_derivative(const vector<T, dimension>& q, const vector<T, dimension>& v,
                         vector<T, dimension>& g) const {
-    lifted_room<T, dimension> room(size());
+    detail::lifted_room<T, dimension> room(size());
     kernels<T>().force_along(field::whole, q, v, g, room, detail::part_of_displacement);
   }
   /// V(q), if the system has a potential.

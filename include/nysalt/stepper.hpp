@@ -207,7 +207,7 @@ class stepper {
   }
 
  private:
-  using letters_type = prepared_word<C, dimension>;
+  using letters_type = detail::prepared_word<C, dimension>;
 
   /// Whether the run of a processed word is at its start, and leaves it.
   bool opens_now(const auto& run, std::int64_t steps) const {
@@ -218,14 +218,14 @@ class stepper {
     return false;
   }
   static letters_type letters_of(const S& system, const word& letters, const std::vector<C>& c, double step) {
-    const surroundings_of_word around = surroundings(system, letters);
+    const detail::surroundings_of_word around = surroundings(system, letters);
     if (acts_on(system)) return letters_type(system, letters, c, step, around);
     return letters_type(system, conservative_part(letters), conservative_part(letters, c), step, around);
   }
 
   /// Throws std::invalid_argument if the system does not serve a letter.
-  static surroundings_of_word surroundings(const S& system, const word& letters) {
-    surroundings_of_word result;
+  static detail::surroundings_of_word surroundings(const S& system, const word& letters) {
+    detail::surroundings_of_word result;
     if constexpr (ErasedSystem<S>) result.threads = system.threads();
     if constexpr (HasBath<S>) result.heat_bath = static_cast<const bath&>(system.bath());
     require_served<S, C>(letters, system);
@@ -237,11 +237,11 @@ class stepper {
 
   template <Scalar T>
   auto cursor_at(std::uint64_t trajectory, std::int64_t step) const {
-    using room = flow_room<T, dimension>;
+    using room = detail::flow_room<T, dimension>;
     if constexpr (may_be_noisy) {
       const bath& heat_bath = system_->bath();
       const Eigen::Index numbers = acts_ || dimension != Eigen::Dynamic ? size(*system_) : 0;
-      return noise_cursor<Noise, T, dimension, room>{
+      return detail::noise_cursor<Noise, T, dimension, room>{
           &noise_,
           trajectory,
           step,
@@ -250,7 +250,8 @@ class stepper {
           vector<T, dimension>(numbers),
           room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
     } else {
-      return quiet_cursor<room>{room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
+      return detail::quiet_cursor<room>{
+          room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
     }
   }
   void require_thermostat(std::string_view letters) const {

@@ -274,10 +274,14 @@ template <class S, class T = double>
 concept HasEnergy = HasPotential<S, T> && (HasKineticEnergy<S, T> || NystromSystem<S>);
 // clang-format on
 
+namespace detail {
+
 /// A potential from which all else comes by automatic differentiation can contradict nothing.
 template <class S>
 inline constexpr bool force_may_be_wrong = HasForce<S, double> || detail::CanKick<S, double, double> ||
                                            HasForceDerivative<S> || HasSoftForce<S> || HasVelocity<S, double>;
+
+}  // namespace detail
 
 /// Whether H can be evaluated.
 template <System S>

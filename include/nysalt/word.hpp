@@ -84,7 +84,7 @@ class word {
   /// Properties of letter i.
   constexpr const letter_facts& facts(std::size_t i) const {
     if (const letter_facts* found = own_letter(text[i])) return *found;
-    for (const letter_facts& known : letter_table) {
+    for (const letter_facts& known : detail::letter_table) {
       if (known.letter == text[i]) return known;
     }
     detail::refuse_unknown_letter(view(), text[i]);
@@ -269,10 +269,10 @@ constexpr word word_of() {
   };
   static_assert((are_told_apart(std::type_identity<L>()) && ...),
                 "nysalt: letters of one's own must have different names; name one of them otherwise");
-  static_assert(((detail::is_among<L, known_letters> || !detail::is_known_letter(L::letter)) && ...),
+  static_assert(((detail::is_among<L, detail::known_letters> || !detail::is_known_letter(L::letter)) && ...),
                 "nysalt: a letter of one's own takes a character that no known letter has");
   constexpr std::array letters{L::letter...};
-  constexpr std::array facts{facts_of_letter<L>()...};
+  constexpr std::array facts{detail::facts_of_letter<L>()...};
   return word(std::string_view(letters.data(), letters.size()), facts);
 }
 
@@ -345,7 +345,7 @@ std::vector<C> conservative_part(const word& letters, const std::vector<C>& all)
   std::size_t slot = 0;
   for (std::size_t i = 0; i < letters.length; ++i) {
     for (std::size_t k = 0; k < letters.slots_of(i); ++k, ++slot) {
-      if (letters.letter(i) != bath_letter) result.push_back(all[slot]);
+      if (letters.letter(i) != detail::bath_letter) result.push_back(all[slot]);
     }
   }
   return result;

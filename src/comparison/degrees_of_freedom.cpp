@@ -37,7 +37,7 @@ rates rates_of(const initial_value_problem& problem, std::int64_t count) {
     const double size = x.q.norm();
     const double scale = size > 0.0 ? 0.1 * size / std::sqrt(static_cast<double>(x.q.size())) : 1.0;
     auto q = x.q;
-    for (double& one : q) one += scale * (2.0 * uniform_by_bits(bits()) - 1.0);
+    for (double& one : q) one += scale * (2.0 * detail::uniform_by_bits(bits()) - 1.0);
     force<double>(system, q, f);
     if (!f.allFinite()) continue;
     found.q.push_back(q);

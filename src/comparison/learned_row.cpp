@@ -86,7 +86,7 @@ learned_row learned_row_from(const json& document, const std::string& method, co
     row.parameters.emplace_back(name, parameters.at(name).get<double>());
   }
   const auto theta = row.theta();
-  require_in_range(family, Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta)));
+  detail::require_in_range(family, Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta)));
   return row;
 }
 

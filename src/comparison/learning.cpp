@@ -19,7 +19,7 @@ namespace nysalt {
 double learning_options::horizon_at(double step) const {
   if (horizon) return *horizon;
   const loss_choice chosen = loss.empty() ? loss_choice{} : loss_named(loss);
-  if (chosen.kind->stages == after_each_step) return std::max(0.5, 10.0 * step);
+  if (chosen.kind->stages == detail::after_each_step) return std::max(0.5, 10.0 * step);
   constexpr double steps = 200.0;  // of more the mean error says no more, and in chaos less
   return steps * step;
 }

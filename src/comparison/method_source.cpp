@@ -315,7 +315,7 @@ std::optional<placement> placement_in(const method_source& source, const prepare
 
 int noise_parts(const method& method, const prepared_problem& system) {
   if (system.heat_bath().sigma() == 0.0) return 0;
-  return intervals_of_noise(method.letters(), method.coefficients()).parts;
+  return detail::intervals_of_noise(method.letters(), method.coefficients()).parts;
 }
 
 std::optional<placement> placement_asked(const std::string& text) {

@@ -334,7 +334,7 @@ void prepared_problem::require_sound_letters(const std::string& name, const nysa
     if (!found.passed()) refuse("cannot take {}: {}", name, found.report());
   }
   std::string letters = word.letters();
-  std::erase(letters, bath_letter);
+  std::erase(letters, detail::bath_letter);
   const nysalt::word conservative = word.with_letters(letters);
   const auto rates = rates_of_sum(base, conservative, times_of_slots(conservative), states, step);
   for (const auto& [which, rate] : {std::pair("q", rates[0]), std::pair("p", rates[1])}) {
@@ -367,14 +367,14 @@ std::optional<double> prepared_problem::frequency_along_starts(std::uint64_t see
 }
 
 bool prepared_problem::is_followed() const {
-  return size(made_.system) <= most_for_all_frequencies && !is_black_box(made_.system) &&
+  return size(made_.system) <= detail::most_for_all_frequencies && !is_black_box(made_.system) &&
          made_.frequency > 0.0 && std::isfinite(made_.frequency);
 }
 
 states_in_double prepared_problem::states_along_motion() const {
   const model system = made_.system.base();
   constexpr std::int64_t some = 64;
-  auto begun = typical_and_energetic_starts(system, made_.starts, 1, 0, some);
+  auto begun = detail::typical_and_energetic_starts(system, made_.starts, 1, 0, some);
   if (!is_followed()) return begun;
   constexpr double angle = 0.1;  // of the fastest motion in a step
   constexpr std::int64_t steps = 500;
@@ -412,7 +412,7 @@ const prepared_problem::seen_frequencies& prepared_problem::highest_seen() const
 const std::vector<frequency_band>& prepared_problem::bands_along_motion() const {
   return kept_in(bands_along_motion_, [&]() -> std::vector<frequency_band> {
     const model system = made_.system.base();
-    if (system.facts().has_bands || size(system) > most_for_all_frequencies || is_black_box(system))
+    if (system.facts().has_bands || size(system) > detail::most_for_all_frequencies || is_black_box(system))
       return {};
     std::vector<frequency_band> bands;
     const states_in_double states = states_along_motion();
@@ -426,16 +426,16 @@ const std::vector<frequency_band>& prepared_problem::bands_along_motion() const 
 }
 
 stability_guard prepared_problem::guard(const nysalt::word& word) const {
-  const auto states = typical_and_energetic_starts(made_.system, made_.starts, 1, 0, 64);
+  const auto states = detail::typical_and_energetic_starts(made_.system, made_.starts, 1, 0, 64);
   return {made_.system, states, word};
 }
 
 const judgement& prepared_problem::judged(const method& method, double step, int threads) const {
-  return judged_by(method, step, threads, evaluations_of_trial(made_.system));
+  return judged_by(method, step, threads, detail::evaluations_of_trial(made_.system));
 }
 
 const judgement& prepared_problem::judged_before(const method& method, const trajectories_plan& run) const {
-  const std::int64_t all = evaluations_of_trial(made_.system);
+  const std::int64_t all = detail::evaluations_of_trial(made_.system);
   const auto taken =
       static_cast<double>(run.count) * static_cast<double>(run.steps) * method.letters().evaluations_per_step;
   // A trial of all evaluations is some tenths of a second in lanes, if a force costs what it is taken to
@@ -469,7 +469,7 @@ const judgement& prepared_problem::judged_by(const method& method, double step, 
     return not_tried(fmt::format(
         "an evaluation of the force costs as much as {:.1e} coordinates, too much for a trial", cost));
   }
-  const std::int64_t all = evaluations_of_trial(made_.system);
+  const std::int64_t all = detail::evaluations_of_trial(made_.system);
   const std::int64_t fewest = std::int64_t{500} * method.letters().evaluations_per_step;
   if (evaluations < all && fewest > 5 * evaluations / 2) {
     return not_tried(

@@ -107,7 +107,7 @@ learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& pr
 
 int prepared_problem::noise_parts(const family& family) const {
   if (made_.system.bath().sigma() == 0.0) return 0;
-  return intervals_of_noise(family.letters, family.coefficients(family.starts.front().theta)).parts;
+  return detail::intervals_of_noise(family.letters, family.coefficients(family.starts.front().theta)).parts;
 }
 
 }  // namespace nysalt::program

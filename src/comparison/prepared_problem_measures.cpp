@@ -64,11 +64,11 @@ void prepared_problem::require_measure(const asked_metric& metric, const traject
       refuse(
           "the metric acceptance must be of a system without a bath, which changes H; leave --friction away");
     }
-    require_room(options_of(plan), 1, 1);
+    detail::require_room(options_of(plan), 1, 1);
     return;
   }
   const auto measure = measure_named(metric);
-  require_room(options_of(plan), 1, measure.width);
+  detail::require_room(options_of(plan), 1, measure.width);
   if (measure.needs_reference) reference().fine_step(plan.step, fine_step, noise_parts);
 }
 

@@ -264,7 +264,7 @@ void extend_data(const model& system, const initial_states& ensemble, const refe
   flow_map_data further = detail::make_some_pairs(system, ensemble, reference, of_further, all.beyond(there));
   detail::add_up(further);
   detail::append(data, std::move(further));
-  data.further_starts = typical_and_energetic_starts(
+  data.further_starts = detail::typical_and_energetic_starts(
       system, ensemble, options.seed, options.first + options.trajectories, options.trajectories);
   data.judged_starts = starts_to_judge(system, ensemble);
   data.shared.reset();

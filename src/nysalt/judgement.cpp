@@ -191,7 +191,7 @@ void decide(judgement& found, Eigen::Index size, double least_growth) {
 
 }  // namespace
 
-std::int64_t evaluations_of_trial(const model& system, const judging_options& options) {
+std::int64_t detail::evaluations_of_trial(const model& system, const judging_options& options) {
   constexpr double of_black_box = 2000.0;
   const double cost = is_black_box(system) ? of_black_box : force_cost(system);
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(static_cast<double>(options.work) / cost));
@@ -287,8 +287,8 @@ void add_linear(const stability_guard& guard, const nysalt::method& method, Eige
       found.margin = std::min(found.margin.value_or(margin), margin);
     }
   }
-  if (found.steps < long_run || found.trajectories == 0) return;
-  if (const auto near = near_resonance(word, coefficients, bands, found.step))
+  if (found.steps < detail::long_run || found.trajectories == 0) return;
+  if (const auto near = detail::near_resonance(word, coefficients, bands, found.step))
     found.resonance = in_words(*near);
 }
 
@@ -313,7 +313,7 @@ step_judge::step_judge(model system, const phase_points& starts, double step,
                                             .no_guard = {},
                                             .unconfined = {}});
   const model& of = made->system;
-  made->evaluations = evaluations_of_trial(of, options);
+  made->evaluations = detail::evaluations_of_trial(of, options);
   made->motion = detail::follow(of, made->starts, step, made->evaluations, options);
   try {
     made->guard = guard_of(of, made->motion, made->starts, made->evaluations, nysalt::word("BAB"));

@@ -147,7 +147,7 @@ surroundings surroundings_of(const system_settings& settings) {
 }
 
 /// The typed value of a parameter, as its declaration has it.
-parameter_value value_of(const declared_parameter& parameter, const std::string& text) {
+parameter_value value_of(const detail::declared_parameter& parameter, const std::string& text) {
   const std::string option = "--" + parameter.name;
   if (parameter.is_text()) return text;
   parameter_value value = parameter.is_whole() ? parameter_value(number_of<std::int64_t>(option, text))

@@ -43,8 +43,8 @@ json row_json(const comparison& all, std::size_t m, const row& line) {
   if (!one.reason.empty()) result["reason"] = one.reason;
   if (one.spread) {
     json quantiles = json::object();
-    for (std::size_t i = 0; i < shown_quantiles.size(); ++i) {
-      quantiles[fmt::format("{:g} %", 100.0 * shown_quantiles[i])] = number(one.spread->quantiles[i]);
+    for (std::size_t i = 0; i < detail::shown_quantiles.size(); ++i) {
+      quantiles[fmt::format("{:g} %", 100.0 * detail::shown_quantiles[i])] = number(one.spread->quantiles[i]);
     }
     result["median"] = number(one.spread->median.mean);
     result["median_standard_error"] = number(one.spread->median.standard_error);

@@ -220,8 +220,8 @@ BOOST_AUTO_TEST_CASE(an_error_is_the_mean_of_its_parts) {
 
 // Lane 1 is lost at the third sample; lane 2 holds nothing that counts; the others go on.
 BOOST_AUTO_TEST_CASE(a_sum_tells_where_which_lane_was_lost) {
-  errors_along<lanes> errors(position);
-  auto live = first_lanes<lanes>(default_lanes);
+  detail::errors_along<lanes> errors(position);
+  auto live = detail::first_lanes<lanes>(default_lanes);
   live.set(2, false);
   const std::vector<lanes> expected{lanes(1.0)};
   const auto add = [&](std::int64_t i, double lost) {

@@ -91,14 +91,14 @@ BOOST_AUTO_TEST_CASE(the_error_of_a_median_is_that_of_its_place) {
   for (int n = 0; n <= 100; ++n) uniform.push_back(n / 100.0);
   const auto rounding = tolerance(1e-14);
   const double error = 0.5 / std::sqrt(101.0);
-  BOOST_TEST(median_and_error(uniform).mean == 0.5, rounding);
-  BOOST_TEST(median_and_error(uniform).standard_error == error, rounding);
+  BOOST_TEST(detail::median_and_error(uniform).mean == 0.5, rounding);
+  BOOST_TEST(detail::median_and_error(uniform).standard_error == error, rounding);
   uniform.back() = INFINITY;
-  BOOST_TEST(median_and_error(uniform).standard_error == error, rounding);
+  BOOST_TEST(detail::median_and_error(uniform).standard_error == error, rounding);
   for (std::size_t n = 55; n <= 100; ++n) uniform[n] += 0.1;  // a gap among the places that count
-  BOOST_TEST(median_and_error(uniform).mean == 0.5, rounding);
-  BOOST_TEST(median_and_error(uniform).standard_error > 1.5 * error);
-  BOOST_TEST(std::isnan(median_and_error(numbers{7.0}).standard_error));
+  BOOST_TEST(detail::median_and_error(uniform).mean == 0.5, rounding);
+  BOOST_TEST(detail::median_and_error(uniform).standard_error > 1.5 * error);
+  BOOST_TEST(std::isnan(detail::median_and_error(numbers{7.0}).standard_error));
 }
 
 BOOST_AUTO_TEST_CASE(what_two_share_of_chance_cancels) {

@@ -484,12 +484,12 @@ BOOST_AUTO_TEST_CASE(the_loop_in_lanes_allocates_nothing) {
   using T = pack<double, 8>;
   const auto stepper = make_stepper(fixed, verlet(), .01);
   const auto start = sound_starts<T>(fixed, fpu_law<3>(fixed), 1, 0, 8);
-  lockstep<decltype(stepper), T> all(stepper, start, 8);
+  detail::lockstep<decltype(stepper), T> all(stepper, start, 8);
   struct sum_of_energies {
     T sum{0.0};
     static std::size_t width() { return 1; }
     static void read(const phase_point<T, 6>& x, std::span<T> numbers) { numbers[0] = fixed.stiff_energy(x); }
-    void see(std::int64_t, std::span<const T> numbers, const condition_of<T>&) { sum += numbers[0]; }
+    void see(std::int64_t, std::span<const T> numbers, const detail::condition_of<T>&) { sum += numbers[0]; }
   } measure;
   all.go_on(64, 1, measure);  // finds its room
   const auto before = allocations;

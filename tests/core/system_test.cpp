@@ -61,8 +61,8 @@ BOOST_AUTO_TEST_CASE(a_force_counts_one_and_each_call_of_a_black_box) {
   BOOST_TEST((evaluations_over<dual<double, 2>>(black_box_with_derivative()) == 3));
   // A potential that can be differentiated goes before differences.
   BOOST_TEST((evaluations_over<dual<double, 2>>(with_potential()) == 1));
-  BOOST_TEST(derivative_source<with_potential>() == std::string("automatic differentiation"));
-  BOOST_TEST(derivative_source<box>() == std::string("central differences of the force"));
+  BOOST_TEST(detail::derivative_source<with_potential>() == std::string("automatic differentiation"));
+  BOOST_TEST(detail::derivative_source<box>() == std::string("central differences of the force"));
   const box real;
   vector<dual<double, 2>, 1> q(dual<double, 2>(2.0));
   q[0].derivative = {1.0, 1e9};  // the second displacement is far too long

@@ -106,7 +106,7 @@ Eigen::VectorXd noise_between(std::uint64_t seed, std::uint64_t trajectory, std:
   std::vector<vector<double, 6>> each(static_cast<std::size_t>(to - from));
   for (auto& xi : each) counter_noise(seed).normals(noise_place{trajectory, from++, 0}, xi);
   vector<double, 6> whole;
-  coarse_graining(heat_bath.friction() * fine).over(std::span<const vector<double, 6>>(each), whole);
+  detail::coarse_graining(heat_bath.friction() * fine).over(std::span<const vector<double, 6>>(each), whole);
   return whole;
 }
 

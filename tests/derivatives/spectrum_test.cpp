@@ -30,8 +30,8 @@ Eigen::MatrixXd symmetric(draws& random, const Eigen::VectorXd& eigenvalues) {
   return basis * eigenvalues.asDiagonal() * basis.transpose();
 }
 
-spectrum_ends ends_of(const Eigen::MatrixXd& a, const Eigen::VectorXd& start) {
-  return ends_of_spectrum([&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return a * v; }, start);
+detail::spectrum_ends ends_of(const Eigen::MatrixXd& a, const Eigen::VectorXd& start) {
+  return detail::ends_of_spectrum([&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return a * v; }, start);
 }
 
 /// Products and projections round each entry of A by some n eps of its size.
@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(isolated_ends_are_not_passed_inwards) {
   const auto multiply = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return values.cwiseProduct(v); };
   draws random;
   for (int trial = 0; trial < 4; ++trial) {
-    const auto ends = ends_of_spectrum(multiply, random_vector(random, n));
+    const auto ends = detail::ends_of_spectrum(multiply, random_vector(random, n));
     BOOST_TEST(ends.highest >= 1.0);
     BOOST_TEST(ends.lowest <= -1.0);
     // By Rayleigh quotients of the Ritz vectors: the values themselves are inside.
@@ -244,7 +244,7 @@ BOOST_AUTO_TEST_CASE(a_kinetic_energy_of_any_kind_counts) {
 
 BOOST_AUTO_TEST_CASE(of_large_systems_the_highest_alone_is_known) {
   draws random;
-  const dynamic_potential large{most_for_all_frequencies + 1};
+  const dynamic_potential large{detail::most_for_all_frequencies + 1};
   const std::vector states{random.state(large, 0.5), random.state(large, 0.5)};
   const auto found = frequencies_of_states(large, states);
   BOOST_TEST(!found.are_complete);

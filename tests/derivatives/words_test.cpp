@@ -38,7 +38,7 @@ std::vector<double> triple_jump(const std::vector<double>& lengths, int n) {
 }
 
 taylor_orders of_verlet_steps(const std::vector<double>& lengths) {
-  return taylor_order_of(lengths, [](const auto& system, const auto& steps) {
+  return detail::taylor_order_of(lengths, [](const auto& system, const auto& steps) {
     auto x = system.start();
     for (const double h : steps) make_stepper(system, verlet(), h).step(x);
     return x;
@@ -61,9 +61,10 @@ taylor_orders order_in_other_coordinates(double c) {
 constexpr double pi = std::numbers::pi;
 
 method classical_word(std::string_view name) {
-  std::vector<classical_row> rows(std::begin(classical_table), std::end(classical_table));
-  rows.insert(rows.end(), std::begin(processed_table), std::end(processed_table));
-  return as_data(*std::ranges::find(rows, name, &classical_row::name));
+  std::vector<detail::classical_row> rows(std::begin(detail::classical_table),
+                                          std::end(detail::classical_table));
+  rows.insert(rows.end(), std::begin(detail::processed_table), std::end(detail::processed_table));
+  return detail::as_data(*std::ranges::find(rows, name, &detail::classical_row::name));
 }
 
 double rho(const method& method, double z) {
@@ -72,7 +73,7 @@ double rho(const method& method, double z) {
 
 /// The mean growth of (omega q)^2/2 + p^2/2 after n steps from independent normal omega q and p.
 double growth(const method& method, double z, int steps) {
-  const auto m = matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
+  const auto m = detail::matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
   const Eigen::Matrix2d step{{m.qq, m.qp * z}, {m.pq / z, m.pp}};
   Eigen::Matrix2d power = Eigen::Matrix2d::Identity();
   for (int n = 0; n < steps; ++n) power = step * power;
@@ -85,7 +86,7 @@ const std::vector<double> halves{0.5, 1.0, 0.5};
 double by_powers(const nysalt::word& word, const std::vector<double>& c, double theta, double k, int steps) {
   const auto times_k = [k](double x) { return k * x; };
   Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
-  for (const int i : {0, 1}) step_on_oscillator(word, c, theta, times_k, one(0, i), one(1, i));
+  for (const int i : {0, 1}) detail::step_on_oscillator(word, c, theta, times_k, one(0, i), one(1, i));
   const double omega = std::sqrt(theta * theta + k);
   one(0, 1) *= omega;
   one(1, 0) /= omega;
@@ -110,11 +111,11 @@ with_quadratic_part<linear_chain> two_modes(const Eigen::Matrix2d& rest) {
 double growth_of_step(const auto& system, const nysalt::word& word, const std::vector<double>& c, double h) {
   const method method("a step", word, c, {1, false, false});
   const phase_point<double, Eigen::Dynamic> anywhere{Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.3, 0.1)};
-  return std::log(spectral_radius(jacobian(step_map(system, method, h), anywhere)));
+  return std::log(spectral_radius(jacobian(detail::step_map(system, method, h), anywhere)));
 }
 
 std::optional<resonance> near(const method& method, const std::vector<frequency_band>& bands, double step) {
-  return near_resonance(method.letters(), method.coefficients(), bands, step);
+  return detail::near_resonance(method.letters(), method.coefficients(), bands, step);
 }
 
 /// Position Verlet in that many equal steps, whose phase at z is 2 n asin(z/(2 n)).
@@ -177,8 +178,8 @@ BOOST_AUTO_TEST_CASE(triple_jumps_gain_two_orders_each) {
 
 BOOST_AUTO_TEST_CASE(the_highest_order_means_this_or_more) {
   const auto exact = [](const auto& system, const auto&) { return system.flow(); };
-  const int highest = highest_taylor_order;
-  BOOST_TEST(in_words(taylor_order_of({1.0}, exact)) == in_words(taylor_orders{highest, highest}));
+  const int highest = detail::highest_taylor_order;
+  BOOST_TEST(in_words(detail::taylor_order_of({1.0}, exact)) == in_words(taylor_orders{highest, highest}));
 }
 
 // A slip in the sixth decimal: the order that is left depends on what the slip spares.
@@ -254,7 +255,7 @@ BOOST_AUTO_TEST_CASE(the_energy_grows_by_rho_times_the_square_of_a_sine) {
                            "chin4a", "chin4a_displaced"}) {
     const nysalt::method method = classical_word(name);
     for (const double z : {0.3, 0.9, 1.5}) {
-      const auto m = matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
+      const auto m = detail::matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
       const double angle = std::acos(m.half_trace());
       for (const int steps : {1, 2, 7}) {
         const double sine = std::sin(steps * angle);
@@ -349,7 +350,7 @@ BOOST_AUTO_TEST_CASE(growth_is_that_of_the_eigenvalues_of_a_step) {
       const Eigen::Matrix2d k = random.uniform(0.1, 3.0) * soft;
       const auto system = two_modes(k);
       const double expected = growth_of_step(system, word, c, h);
-      const double found = growth_of_pair(word, c, h * omega, h * h * k);
+      const double found = detail::growth_of_pair(word, c, h * omega, h * h * k);
       // Eigenvalues of a defective matrix err by the root of rounding, times entries of some tens.
       BOOST_TEST(std::abs(found - expected) < 1e-6,
                  letters << " at " << h << ": " << found << ", " << expected);
@@ -359,7 +360,7 @@ BOOST_AUTO_TEST_CASE(growth_is_that_of_the_eigenvalues_of_a_step) {
   BOOST_TEST(growing > 10);
   // At a difference resonance there is nothing.
   const double h = 2.0 * pi / (omega[1] - omega[0]);
-  BOOST_TEST(growth_of_pair(nysalt::word("SRS"), halves, h * omega, h * h * soft) < 1e-6);
+  BOOST_TEST(detail::growth_of_pair(nysalt::word("SRS"), halves, h * omega, h * h * soft) < 1e-6);
 }
 
 // Sixty-four steps turn by z to within z^3/(24 n^2), 0.3 % at 2 pi.

@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(the_whole_neither_moves_nor_turns) {
       const auto x = law(1, n);
       // A few roundings of each of at most six projections, of a sum over coordinates up to 2.
       BOOST_TEST(motion_of_the_whole(x, space) <= 50.0 * static_cast<double>(x.size()) * eps);
-      BOOST_TEST(x.q == cluster_at_rest(system));
+      BOOST_TEST(x.q == detail::cluster_at_rest(system));
     }
   }
 }

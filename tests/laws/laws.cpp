@@ -122,7 +122,7 @@ shears shears_at(const model& system, const any_state& x) {
     result.potential = std::max({result.potential, norm(soft), norm(whole - soft)});
   }
   if (has_quadratic_kinetic(system) && !is_black_box(system)) {
-    lifted_room<slopes, Eigen::Dynamic> room(x.size());
+    detail::lifted_room<slopes, Eigen::Dynamic> room(x.size());
     const auto f_along_f = [&](const auto& q, auto& g) {
       columns f = q;
       columns v = q;

@@ -111,8 +111,8 @@ BOOST_AUTO_TEST_CASE(the_same_is_learned_however_the_force_is_written) {
   BOOST_TEST(boxed.summary.full().find("central differences of the force") != std::string::npos);
 }
 
-static_assert(!force_may_be_wrong<by_potential>);
-static_assert(force_may_be_wrong<by_force> && force_may_be_wrong<by_black_box>);
+static_assert(!detail::force_may_be_wrong<by_potential>);
+static_assert(detail::force_may_be_wrong<by_force> && detail::force_may_be_wrong<by_black_box>);
 
 // It learns something all the same, and nothing else would tell.
 BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused_unless_asked_otherwise) {

@@ -19,7 +19,7 @@ namespace {
 
 using galaxy = in_bath<henon_heiles>;
 const family bathed_stages = two_stages_in(placement::symmetric);
-using parameters = parameters_of<nystrom>;
+using parameters = detail::parameters_of<nystrom>;
 
 constexpr double h = 0.5;
 const galaxy warm(henon_heiles(), bath::of_sigma(0.7, 0.1));

@@ -386,7 +386,7 @@ BOOST_AUTO_TEST_CASE(what_only_a_trial_sees_is_refused) {
   for (const Eigen::Index wells : {1, 12}) {
     const stiffening_wells system{wells};
     const initial_states starts = from_the_bottom(system);
-    const auto states = typical_and_energetic_starts(model(system), starts, 1, 0, 64);
+    const auto states = detail::typical_and_energetic_starts(model(system), starts, 1, 0, 64);
     BOOST_TEST(stability_guard(model(system), states, false)
                    .objection(method.letters(), method.coefficients(), step, met::often)
                    .empty());

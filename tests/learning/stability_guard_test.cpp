@@ -122,8 +122,8 @@ double largest_half_trace(const fit& found) {
   for (const auto& band : chain.frequency_bands()) {
     for (int n = 0; n <= 500; ++n) {
       const double omega = std::max(1e-3, band.low + (band.high - band.low) * n / 500.0);
-      const auto m = matrix_on_oscillator(four_kicks.letters, four_kicks.coefficients(found.theta),
-                                          std::pow(omega * found.summary.step, 2));
+      const auto m = detail::matrix_on_oscillator(four_kicks.letters, four_kicks.coefficients(found.theta),
+                                                  std::pow(omega * found.summary.step, 2));
       largest = std::max(largest, std::abs(m.half_trace()));
     }
   }
@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(gaps_below_the_highest_frequency_are_told) {
   BOOST_TEST(std::abs(gaps[0].high - std::sqrt(10.0)) < 1e-12);
   for (const double part : {0.001, 0.5, 0.999}) {
     const double z = gaps[0].low + part * (gaps[0].high - gaps[0].low);
-    const auto m = matrix_on_oscillator(two_stages, with_a_gap(), z * z);
+    const auto m = detail::matrix_on_oscillator(two_stages, with_a_gap(), z * z);
     BOOST_TEST(spectral_radius(Eigen::Matrix2d{{m.qq, m.qp}, {m.pq, m.pp}}) > 1.001);
   }
   BOOST_TEST(guard.gaps(two_stages, with_a_gap(), 2.0).empty());

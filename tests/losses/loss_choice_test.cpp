@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(what_is_learned_takes_larger_steps_than_all_formulas) {
     frequencies.push_back(
         std::exp(0.02 * std::numbers::sqrt2 * boost::math::erf_inv((k + 0.5) / 20.0 - 1.0)));
   }
-  const double acceptance = acceptance_at(energy_error_at(0.9) * 40.0 / dimensions);
+  const double acceptance = detail::acceptance_at(energy_error_at(0.9) * 40.0 / dimensions);
   const auto step_of = [&](const method& method, double from = 0.0) {
     return nysalt::gaussian_step(method, frequencies, acceptance, from) /
            method.letters().evaluations_per_step;
@@ -164,8 +164,8 @@ BOOST_AUTO_TEST_CASE(names_are_understood_and_told_again) {
     BOOST_TEST(static_cast<bool>(kind->over_data));
     BOOST_TEST((kind->asks_data() || !kind->counts_steps));
   }
-  BOOST_TEST(loss_patterns(true) == "state:K, energy:K");
-  BOOST_TEST(loss_patterns(false) == "trajectory, acceptance, gaussian_acceptance, covariance");
+  BOOST_TEST(detail::loss_patterns(true) == "state:K, energy:K");
+  BOOST_TEST(detail::loss_patterns(false) == "trajectory, acceptance, gaussian_acceptance, covariance");
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_name_is_refused) {

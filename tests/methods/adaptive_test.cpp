@@ -29,7 +29,7 @@ struct comparison {
 comparison against_rotation(const method& method, double z) {
   const word& word = method.letters();
   const auto c = method.coefficients();
-  const auto m = matrix_on_oscillator(word, c, z * z);
+  const auto m = detail::matrix_on_oscillator(word, c, z * z);
   double size = 1.0;
   for (std::size_t i = 0; i < word.length; ++i) {
     const double first = std::abs(c[word.first_slot(i)]);
@@ -117,7 +117,7 @@ struct with_rounding {
 /// rho by its definition, from the matrix of the step. With entries wrong by delta, B + C errs by
 /// 2 delta max(z, 1/z) and 1 - A^2 by 2 delta; both are doubled, for the closed form.
 with_rounding rho_of_step(const nysalt::word& word, const std::vector<double>& c, double x) {
-  const auto m = matrix_on_oscillator(word, c, x);
+  const auto m = detail::matrix_on_oscillator(word, c, x);
   const double z = std::sqrt(x);
   const double sum = m.qp * z + m.pq / z;
   const double rotation = 1.0 - m.half_trace() * m.half_trace();

@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(a_path_is_a_run_with_fresh_noise) {
     for (std::int64_t n = 0; n < 10; ++n) {
       counter_noise(7).normals(noise_place{3, 10 * part + n, 0}, fine[static_cast<std::size_t>(n)]);
     }
-    coarse_graining(2.0 * 0.01)
+    detail::coarse_graining(2.0 * 0.01)
         .over(std::span<const numbers>(fine), expected[static_cast<std::size_t>(part)]);
   }
   BOOST_TEST(distance(found.xi, expected) <= 10 * 4 * eps);

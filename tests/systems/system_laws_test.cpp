@@ -103,7 +103,7 @@ void check_in_bath(const S& alone) {
   static_assert(HasForceDerivative<W> == HasForceDerivative<S> && BlackBoxForce<W> == BlackBoxForce<S>);
   static_assert(HasKick<W, double> == HasKick<S, double>);
   static_assert(HasKick<counted<W>, double> == HasKick<counted<S>, double>);
-  static_assert(lanes_of<W> == lanes_of<S>);
+  static_assert(detail::lanes_of<W> == detail::lanes_of<S>);
   draws random;
   const W system(alone, some_bath);
   const auto x = random.state(alone, 0.5);
@@ -432,7 +432,8 @@ BOOST_AUTO_TEST_CASE(a_logistic_regression_is_finite_far_out_and_known_by_its_da
 
 static_assert(HasBath<in_bath<fpu_chain<3>>> && !HasBath<fpu_chain<3>>);
 static_assert(HasBath<counted<in_bath<fpu_chain<3>>>> && HasBath<in_bath<counted<fpu_chain<3>>>>);
-static_assert(lanes_of<in_bath<black_box>> == 1 && lanes_of<in_bath<pendulum>> == default_lanes);
+static_assert(detail::lanes_of<in_bath<black_box>> == 1 &&
+              detail::lanes_of<in_bath<pendulum>> == default_lanes);
 
 // With modes, masses, bands, kicks, a force alone; fixed and dynamic.
 BOOST_AUTO_TEST_CASE(in_a_bath_it_is_what_the_system_is) {

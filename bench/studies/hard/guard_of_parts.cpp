@@ -165,7 +165,7 @@ method r_respa_of(int inner) {
   }
   coefficients.push_back(0.5);
   return {fmt::format("r_respa({})", inner),
-          nested_word<0, 1, 2>.with_letters(letters),
+          detail::nested_word<0, 1, 2>.with_letters(letters),
           coefficients,
           {1, false, false}};
 }

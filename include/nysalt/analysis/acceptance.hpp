@@ -56,6 +56,8 @@ struct proposal_options {
   const communicator* ranks = &one_rank;  ///< ranks that share the states; changes no bit
 };
 
+namespace detail {
+
 /// Acceptance of proposals at a step.
 struct proposal_acceptance {
   estimate probability;         ///< probability over all states and durations
@@ -75,6 +77,8 @@ struct proposal_acceptance {
 /// steps of each state one step of the word, and one potential.
 proposal_acceptance acceptance_of_proposals(const model& system, const nysalt::method& method, double step,
                                             const initial_states& states, const proposal_options& options);
+
+}  // namespace detail
 
 /// A step with a standard error.
 struct acceptance_step {
@@ -96,11 +100,15 @@ acceptance_step step_at_acceptance(const model& system, const std::function<meth
 
 // Acceptance of Hybrid Monte Carlo where forces are linear, in closed form.
 
+namespace detail {
+
 /// The acceptance of Metropolis' rule where the energy error of proposals, over kT, is normal with the mean
 /// mu: erfc(sqrt(mu)/2), that is 2 Phi(-sqrt(mu/2)) [calvo_sanz_alonso_sanz_serna_2021]. As exp(-error) has
 /// the mean 1 the variance is 2 mu. That is the limit of many dimensions; of one oscillator the distribution
 /// is another.
 double acceptance_at(double energy_error);
+
+}  // namespace detail
 
 /// The mean energy error of an acceptance: the inverse of acceptance_at(). Throws std::invalid_argument
 /// unless 0 < acceptance < 1.

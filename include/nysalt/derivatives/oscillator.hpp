@@ -21,6 +21,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// (q, p) after one step of size 1 of the word without its bath, on q'' = -(theta^2 + k) q. R rotates by
 /// theta, S and H use k only, B and G all of it. times_k(x) is k x, so that k may be a number, the variable
 /// of a polynomial, or, for two modes, a matrix; theta is a number, or an array of two. With a step h: theta
@@ -75,12 +77,14 @@ inline oscillator_matrix<double> matrix_on_oscillator(const nysalt::word& word,
   return {word, coefficients, theta, 0.0, 1.0, [k](double x) { return k * x; }};
 }
 
+}  // namespace detail
+
 // trace/2 of a word on the harmonic oscillator, as a polynomial.
 
 /// trace/2 of step_on_oscillator() as a polynomial in k, low <= k <= high. The step is stable where it is
 /// within +-1.
-bernstein_polynomial half_trace(const nysalt::word& word, const std::vector<double>& coefficients,
-                                double theta, double low, double high);
+detail::bernstein_polynomial half_trace(const nysalt::word& word, const std::vector<double>& coefficients,
+                                        double theta, double low, double high);
 
 // By how much a symmetric word changes the energy of a harmonic oscillator, exactly.
 
@@ -115,6 +119,8 @@ struct resonance {
   int half_turns;       ///< k
 };
 
+namespace detail {
+
 /// Number of steps from which a run is long: in shorter ones nothing was seen of a resonance that is as far
 /// as resonance_distance or a few times nearer.
 inline constexpr std::int64_t long_run = 10'000;
@@ -130,10 +136,14 @@ inline constexpr double resonance_distance = 0.1;
 std::optional<resonance> near_resonance(const nysalt::word& word, const std::vector<double>& coefficients,
                                         const std::vector<frequency_band>& bands, double step);
 
+}  // namespace detail
+
 /// "a step turns the frequencies 49 to 51 by nearly 2 pi ..."
 std::string in_words(const resonance& near);
 
 // Growth of two coupled modes under a word with rotations.
+
+namespace detail {
 
 /// Logarithm of the spectral radius of one step on q'' = -(Theta^2 + K) q with Theta = diag(theta) and a
 /// symmetric 2 x 2 matrix K, see step_on_oscillator(); 0 where the step is stable. A symplectic matrix of
@@ -143,6 +153,8 @@ std::string in_words(const resonance& near);
 /// Infinite where a coefficient is not finite. Cost: four steps on two oscillators.
 double growth_of_pair(const nysalt::word& word, const std::vector<double>& coefficients,
                       const Eigen::Array2d& theta, const Eigen::Matrix2d& k);
+
+}  // namespace detail
 
 // Transient growth: how much a word with rotations magnifies an oscillation, by resonances above all.
 
@@ -156,6 +168,8 @@ double transient_growth(const nysalt::word& word, const std::vector<double>& coe
                         double k, std::int64_t steps);
 
 // Stability of a linear symplectic step, and how near it is to a loss of stability.
+
+namespace detail {
 
 /// Eigenvalues of a symplectic matrix of 2 n rows, in coordinates (q, p). Those on the unit circle have a
 /// Krein signature, the sign of i x^* Omega x of their vectors x; where two of opposite signature meet an
@@ -189,5 +203,7 @@ symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step);
 /// powers, and are 4 pi/3 apart at most there. At least 1; infinite where it grows beyond 10^6. Cost:
 /// log2(steps) products of matrices.
 double largest_power(const Eigen::MatrixXd& step, std::int64_t steps);
+
+}  // namespace detail
 
 }  // namespace nysalt

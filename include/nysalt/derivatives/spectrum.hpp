@@ -30,6 +30,8 @@ Eigen::MatrixXd kinetic_factor(const model& system, const Eigen::VectorXd& p);
 
 namespace nysalt {
 
+namespace detail {
+
 /// f'(q) v of a field at states of a motion. Differences of a black box go a part of how far the states lie
 /// apart.
 class force_jacobian {
@@ -57,7 +59,11 @@ class force_jacobian {
   Eigen::VectorXd lengths_;
 };
 
+}  // namespace detail
+
 // Both ends of a symmetric spectrum, from products with vectors only.
+
+namespace detail {
 
 /// Both ends of a spectrum, with approximate eigenvectors.
 struct spectrum_ends {
@@ -80,6 +86,8 @@ using symmetric_map = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 /// finite. Cost: some 8 to 40 products, and k^2 dot products for k.
 spectrum_ends ends_of_spectrum(const symmetric_map& multiply, const Eigen::VectorXd& start,
                                double relative_error = 0.01);
+
+}  // namespace detail
 
 // Extreme eigenvalues of the Hessian along the motion: stiffness and instability.
 
@@ -135,8 +143,12 @@ struct frequencies_along {
   }
 };
 
+namespace detail {
+
 /// Above this number of degrees of freedom only the highest frequency of a state is computed.
 inline constexpr Eigen::Index most_for_all_frequencies = 64;
+
+}  // namespace detail
 
 /// All frequencies of each state of a system of at most most_for_all_frequencies degrees of freedom; of a
 /// larger one with a quadratic kinetic energy the highest, known to 1 %; else none. Throws what

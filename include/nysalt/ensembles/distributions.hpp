@@ -120,7 +120,7 @@ class lennard_jones_law
   /// Throws std::invalid_argument if the temperature, an energy, is negative or not finite.
   lennard_jones_law(const lennard_jones<Space, Atoms>& system, double temperature)
       : detail::in_dimension<detail::struck_cluster, lennard_jones<Space, Atoms>::dimension>(
-            cluster_at_rest(system), system.space(), temperature) {}
+            detail::cluster_at_rest(system), system.space(), temperature) {}
 };
 
 /// A crystal that is heated: atoms on a face-centred cubic lattice that fills the box, with normal momenta of

@@ -58,6 +58,8 @@ struct drift {
   }
 };
 
+namespace detail {
+
 /// The flow of V(q) or of its soft part, p += c h force(q).
 template <field Field>
 struct kick_of {
@@ -111,10 +113,12 @@ struct kick_of {
   }
 };
 
+}  // namespace detail
+
 /// B: the flow of V(q).
-using kick = kick_of<field::whole>;
+using kick = detail::kick_of<field::whole>;
 /// S: the flow of V without its quadratic part, whose flow is a rotation.
-using soft_kick = kick_of<field::soft>;
+using soft_kick = detail::kick_of<field::soft>;
 
 }  // namespace nysalt
 

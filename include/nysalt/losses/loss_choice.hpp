@@ -41,8 +41,12 @@ struct loss_inputs {
 /// data choose nothing.
 enum class judge_of_minima { held_out_loss, held_out_end, training_loss };
 
+namespace detail {
+
 /// The error after K steps, from four states of each trajectory first, then from each.
 std::vector<after_steps_options> after_each_step(int K, int shortest);
+
+}  // namespace detail
 
 /// A kind of loss: what it needs, how it is made, and how it is judged.
 struct loss_kind {
@@ -57,7 +61,7 @@ struct loss_kind {
   bool is_shortened = false;     ///< over a quarter of the steps, and again, where no method follows the data
   /// Numbers of steps after which errors count, in trajectories of `shortest` steps or more: what a search
   /// minimises first, ..., and last the loss itself. K follows the name.
-  std::vector<after_steps_options> (*stages)(int K, int shortest) = after_each_step;
+  std::vector<after_steps_options> (*stages)(int K, int shortest) = detail::after_each_step;
   /// The loss over data; where the loss itself asks none, the estimate of what was learned from held-out
   /// data.
   std::function<std::unique_ptr<const loss_on_data>(const loss_inputs& from)> over_data;
@@ -98,12 +102,14 @@ loss_choice own_choice(const std::string& name, int steps, const window_error<do
 /// of losses(); and what own_error() does.
 template <SeparableSystem S, class Error>
 loss_choice loss_of(const S& system, const own_loss<Error>& own) {
-  return detail::own_choice(own.name, own.steps, own_error(system, own.error));
+  return detail::own_choice(own.name, own.steps, detail::own_error(system, own.error));
 }
 
 /// "state:5", "energy:10", "covariance"; K is 1 where it is not said. Throws std::invalid_argument for
 /// anything else.
 loss_choice loss_named(std::string_view text);
+
+namespace detail {
 
 /// Parses the name of a loss; empty for other text.
 std::optional<loss_choice> find_loss(std::string_view text);
@@ -111,5 +117,7 @@ std::optional<loss_choice> find_loss(std::string_view text);
 /// The names that loss_named() reads, such as "state:K, energy:K": of the losses that count steps, or of the
 /// others.
 std::string loss_patterns(bool count_steps);
+
+}  // namespace detail
 
 }  // namespace nysalt

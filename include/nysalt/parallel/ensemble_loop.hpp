@@ -15,6 +15,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Calls body(first, n) once for each block of n <= width consecutive trajectories first .. first + n - 1, of
 /// `count` in all, on at most `threads` threads at a time, in no certain order; only the last block is
 /// shorter. A body writes what it finds into the places of its trajectories; a sum over them is then taken by
@@ -29,6 +31,8 @@ namespace nysalt {
 void for_each_block(std::int64_t count, int width, int threads,
                     const std::function<void(std::int64_t, int)>& body,
                     const progress_callback& progress = {});
+
+}  // namespace detail
 
 /// Calls body(m) for m = 0 .. count - 1: blocks of one.
 void for_each_trajectory(std::int64_t count, int threads, const std::function<void(std::int64_t)>& body,

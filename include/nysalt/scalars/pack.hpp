@@ -261,11 +261,15 @@ static_assert(
     alignof(pack<double>) <= EIGEN_DEFAULT_ALIGN_BYTES || alignof(pack<double>) <= 16,
     "nysalt: Eigen aligns for less than a register of this target: define EIGEN_MAX_ALIGN_BYTES=64");
 
+namespace detail {
+
 /// Whether a type is a pack of any width.
 template <class T>
 inline constexpr bool is_pack = false;
 template <class T, int W>
 inline constexpr bool is_pack<pack<T, W>> = true;  ///< a pack is one
+
+}  // namespace detail
 template <class T, int W>
 inline constexpr bool has_functions<pack<T, W>> = true;  ///< below
 

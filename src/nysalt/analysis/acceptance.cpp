@@ -55,7 +55,7 @@ acceptance_result acceptance(const model& system, const method& method, const in
     throw std::invalid_argument(sentence(
         "acceptance: H must be known, got {} without a potential; give the system one", describe(system)));
   }
-  collectively(*options.ranks, [&] { require_room(options, 1, 1); });
+  collectively(*options.ranks, [&] { detail::require_room(options, 1, 1); });
   if (!has_quadratic_kinetic(system)) {
     constexpr std::int64_t enough = 16;
     for (std::int64_t m = 0; m < std::min(enough, options.trajectories); ++m) {
@@ -84,7 +84,7 @@ acceptance_result acceptance(const model& system, const method& method, const in
   return result;
 }
 
-double acceptance_at(double energy_error) {
+double detail::acceptance_at(double energy_error) {
   return energy_error > 0.0 ? std::erfc(0.5 * std::sqrt(energy_error)) : 1.0;
 }
 

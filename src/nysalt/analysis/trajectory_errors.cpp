@@ -22,8 +22,8 @@
 
 namespace nysalt {
 
-void require_room(const trajectory_options& options, std::size_t methods, std::size_t width,
-                  std::size_t measures) {
+void detail::require_room(const trajectory_options& options, std::size_t methods, std::size_t width,
+                          std::size_t measures) {
   if (options.steps < 1 || options.trajectories < 1) {
     throw std::invalid_argument(fmt::format(
         "trajectory_errors: trajectories and steps must be at least 1, got {} trajectories of {} steps",

@@ -155,7 +155,7 @@ double off(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::Vect
 
 double symplecticity_defect(const Eigen::MatrixXd& j) {
   const Eigen::Index n = j.rows() / 2;
-  const Eigen::MatrixXd omega = symplectic_form(n);
+  const Eigen::MatrixXd omega = detail::symplectic_form(n);
   const Eigen::ArrayXXd defect = (j.transpose() * omega * j - omega).array().abs();
   const Eigen::MatrixXd size = j.cwiseAbs().transpose() * omega.cwiseAbs() * j.cwiseAbs() + omega.cwiseAbs();
   return (size.array() > 0.0).select(defect / size.array(), 0.0).maxCoeff();

@@ -34,7 +34,7 @@ linear_letter linearise(const model& system, const nysalt::word& single, std::si
   const stepper<model, slopes> steps(system, single, coefficients, step);
   const Eigen::Index n = state.q.size();
   linear_letter result{Eigen::MatrixXd(2 * n, 2 * n), Eigen::VectorXd(n)};
-  constexpr Eigen::Index at_once = directions_at_a_time;
+  constexpr Eigen::Index at_once = detail::directions_at_a_time;
   for (Eigen::Index column = 0; column < 2 * n; column += at_once) {
     auto x = state.cast<slopes>();
     const Eigen::Index count = std::min(at_once, 2 * n - column);
@@ -113,8 +113,8 @@ word_on_parts::word_on_parts(const model& system, const phase_points& states, co
     why_not_ = "there are no states";
   } else if (word.is_processed()) {
     why_not_ = "it has a processor";
-  } else if (nysalt::size(system) > most_for_all_frequencies) {
-    why_not_ = sentence("of more than {} degrees of freedom", most_for_all_frequencies);
+  } else if (nysalt::size(system) > detail::most_for_all_frequencies) {
+    why_not_ = sentence("of more than {} degrees of freedom", detail::most_for_all_frequencies);
   } else {
     try {
       examine(system.base(), states, kinds_of(system.base(), word));
@@ -170,7 +170,7 @@ void word_on_parts::examine(const model& system, const phase_points& states,
                             const std::vector<nysalt::word>& kinds) {
   constexpr std::size_t enough = 8;  // for a mean, and to say how far they lie apart
   const std::size_t some = std::min(states.size(), enough);
-  force_jacobian jacobian(system, states);
+  detail::force_jacobian jacobian(system, states);
   std::vector<motion> motions(some);
   double momenta = 0.0;
   for (std::size_t k = 0; k < some; ++k) {
@@ -265,11 +265,11 @@ growth_of_energy word_on_parts::growth(const std::vector<double>& coefficients, 
     const Eigen::MatrixXd m = step(coefficients, by, state);
     growth_of_energy result{.early = 0.0, .late = 0.0, .state = state};
     if (m.size() == 0) return result;
-    result.late = excess(largest_power(m, steps));
+    result.late = excess(detail::largest_power(m, steps));
     // What is little as a whole has not grown.
     result.early = result.late <= growth_of_energy::smallest
                        ? result.late
-                       : excess(largest_power(m, std::min(steps, growth_of_energy::early_steps)));
+                       : excess(detail::largest_power(m, std::min(steps, growth_of_energy::early_steps)));
     return result;
   };
   growth_of_energy over_states;

@@ -76,7 +76,7 @@ double watched_interval::largest_at_begin() const {
 
 double watched_interval::tau() const {
   double longest = 0.0;
-  for (std::size_t i = 0; i < watched_numbers; ++i) {
+  for (std::size_t i = 0; i < detail::watched_numbers; ++i) {
     if (!counts(i)) continue;
     const auto n = static_cast<double>(mean[i].size());
     const discrepancy all = mean_over_chains(mean[i]);
@@ -131,7 +131,7 @@ void detail::refuse_discrepancy(const discrepancy& found, std::size_t i, const c
   throw std::runtime_error(
       fmt::format("gibbs: after a burn-in of {:.6g} the {} must {}, got a difference of {:.3g} +- {:.3g} kT; "
                   "burn in for longer",
-                  report.length, watched_names[i], what, found.mean, found.standard_error));
+                  report.length, detail::watched_names[i], what, found.mean, found.standard_error));
 }
 
 }  // namespace nysalt

@@ -35,14 +35,14 @@ discrepancy mean_over_chains(const std::vector<double>& x);
 
 /// Chains over an interval of time.
 struct watched_interval {
-  double duration = 0.0;                   ///< how long it is
-  double zero = 0.0;                       ///< the potential of which potentials are differences, an energy
-  of_watched<std::vector<double>> begin;   ///< at its beginning, one number a chain
-  of_watched<std::vector<double>> mean;    ///< over time, one a chain
-  of_watched<std::vector<double>> square;  ///< mean square over time, one a chain
-  std::vector<Eigen::VectorXd> force_square;  ///< mean square over time of each force, a vector a chain
-  std::vector<double> way_to_begin;           ///< |q - q_0|^2 at the beginning, one a chain
-  double way_to_end = 0.0;                    ///< its mean at the end
+  double duration = 0.0;  ///< how long it is
+  double zero = 0.0;      ///< the potential of which potentials are differences, an energy
+  detail::of_watched<std::vector<double>> begin;   ///< at its beginning, one number a chain
+  detail::of_watched<std::vector<double>> mean;    ///< over time, one a chain
+  detail::of_watched<std::vector<double>> square;  ///< mean square over time, one a chain
+  std::vector<Eigen::VectorXd> force_square;       ///< mean square over time of each force, a vector a chain
+  std::vector<double> way_to_begin;                ///< |q - q_0|^2 at the beginning, one a chain
+  double way_to_end = 0.0;                         ///< its mean at the end
 
   /// A random walk doubles its variance over an interval that begins where half the time is over.
   bool confined() const { return way_to_end < 1.5 * mean_over_chains(way_to_begin).mean; }
@@ -91,7 +91,8 @@ class burn_in_chains {
 
   /// Chains under way in the lanes of T, from these positions; lane 0 sees the noise of chain `first`.
   template <class T>
-  lockstep<stepper_type, T> open(phase_point<T, Eigen::Dynamic> start, std::int64_t first, int count) const {
+  detail::lockstep<stepper_type, T> open(phase_point<T, Eigen::Dynamic> start, std::int64_t first,
+                                         int count) const {
     draw_momenta(start, first, 0);
     return {stepper_, start, count, first};
   }
@@ -132,7 +133,7 @@ class burn_in_pilot {
     int first;
     int count;
     state start;
-    lockstep<burn_in_chains::stepper_type, T> run;
+    detail::lockstep<burn_in_chains::stepper_type, T> run;
   };
 
   /// Sums over an interval of time, as a Measure. Forces are not among the numbers that are read: these are
@@ -141,15 +142,15 @@ class burn_in_pilot {
     const burn_in_pilot& pilot;
     const burn_in_chains& chains;
     vector<T, Eigen::Dynamic> of_forces;
-    of_watched<T> sum{};
-    of_watched<T> squares{};
+    detail::of_watched<T> sum{};
+    detail::of_watched<T> squares{};
     double observations = 0.0;
 
-    static std::size_t width() { return watched_numbers; }
+    static std::size_t width() { return detail::watched_numbers; }
     void read(const state& x, std::span<T> out) { pilot.read(chains, x, out, of_forces); }
-    void see(std::int64_t, std::span<const T> seen, const condition_of<T>&) {
+    void see(std::int64_t, std::span<const T> seen, const detail::condition_of<T>&) {
       observations += 1.0;
-      for (std::size_t i = 0; i < watched_numbers; ++i) {
+      for (std::size_t i = 0; i < detail::watched_numbers; ++i) {
         sum[i] += seen[i];
         squares[i] += seen[i] * seen[i];
       }
@@ -230,14 +231,14 @@ class burn_in_pilot {
   }
 
   void follow(block& here, std::int64_t end, std::int64_t every, watched_interval& result) {
-    of_watched<T> begin;
+    detail::of_watched<T> begin;
     sums_over_time sums{*this, *here.chains, make_vector<T>(here.chains->system())};
     sums.read(here.run.synchronous(), begin);
     for (T& square : sums.of_forces) square = T(0.0);
     here.run.go_on(end, every, sums);
     for (int k = 0; k < here.count; ++k) {
       const auto chain = static_cast<std::size_t>(here.first + k);
-      for (std::size_t i = 0; i < watched_numbers; ++i) {
+      for (std::size_t i = 0; i < detail::watched_numbers; ++i) {
         result.begin[i][chain] = lane(begin[i], k);
         result.mean[i][chain] = sums.mean(sums.sum[i], k);
         result.square[i][chain] = sums.mean(sums.squares[i], k);
@@ -267,7 +268,8 @@ class burn_in_pilot {
             "gibbs: the motion of {} must be confined and the step small enough, got pilot chain {} that "
             "diverged at time {} with the step {}",
             describe(chains().system().base()), here.first + k,
-            in_digits(static_cast<double>(*lost) * chains().step(), 6), in_digits(chains().step(), 6));
+            detail::in_digits(static_cast<double>(*lost) * chains().step(), 6),
+            detail::in_digits(chains().step(), 6));
         throw chain_diverged(text, *lost);
       }
     }
@@ -369,10 +371,10 @@ class burn_in_search {
       if (interval.duration >= 32.0 * interval.tau() && !interval.is_cooling()) return interval;
       if (interval.duration > 32.0 * most) return std::nullopt;
     }
-    throw std::runtime_error(
-        sentence("gibbs: {} must become stationary within {} steps of {} with the friction {}; give another "
-                 "friction or more steps",
-                 describe(*base_), options_.most_steps, in_digits(step, 6), in_digits(friction, 6)));
+    throw std::runtime_error(sentence(
+        "gibbs: {} must become stationary within {} steps of {} with the friction {}; give another "
+        "friction or more steps",
+        describe(*base_), options_.most_steps, detail::in_digits(step, 6), detail::in_digits(friction, 6)));
   }
 
   /// The friction with the least tau, of omega/4, omega/16, ... with the highest frequency omega: strong
@@ -401,7 +403,7 @@ class burn_in_search {
       report.tau = std::max(coarse.tau(), fine.tau());
       report.confined = coarse.confined() && fine.confined();
       bool sound = true;
-      for (std::size_t i = 0; i < watched_numbers; ++i) {
+      for (std::size_t i = 0; i < detail::watched_numbers; ++i) {
         const discrepancy a = mean_over_chains(coarse.mean[i]);
         const discrepancy b = mean_over_chains(fine.mean[i]);
         report.bias[i] = {a.mean - b.mean, std::hypot(a.standard_error, b.standard_error)};
@@ -429,7 +431,7 @@ class burn_in_search {
     if (biased_++ < most_biased) return false;
     throw std::runtime_error(
         sentence("gibbs: the step must have no bias that shows, got {}; give a smaller one",
-                 in_digits(report.step, 6)));
+                 detail::in_digits(report.step, 6)));
   }
 
   static bool counts(const burn_in_report& report, std::size_t i) {
@@ -441,7 +443,7 @@ class burn_in_search {
     auto chains = pilot(report.friction, report.step, options_.pilots);
     chains.watch(report.steps, report.steps);
     const auto later = chains.watch(2 * report.steps, std::max<std::int64_t>(1, report.steps / 256));
-    for (std::size_t i = 0; i < watched_numbers; ++i) {
+    for (std::size_t i = 0; i < detail::watched_numbers; ++i) {
       std::vector<double> difference = later.begin[i];
       for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= later.mean[i][k];
       report.to_forget[i] = mean_over_chains(difference);

@@ -26,7 +26,7 @@ namespace {
 bool has_cheap_modes(const model& system) {
   if (!has_modes(system)) return false;
   const auto each = std::ssize(modal_coordinates::of(system)->entries()) / size(system);
-  return each <= most_for_all_frequencies;
+  return each <= detail::most_for_all_frequencies;
 }
 
 /// The coordinates that were asked for; else the energy coordinates where the loss is of them and they are
@@ -91,7 +91,7 @@ void require_served_with_slopes(const word& letters, const model& system, bool i
   if (in_lanes) {
     require_served<model, detail::lanes_with_slopes>(letters, system);
   } else {
-    require_served<model, dual<double, directions_at_a_time>>(letters, system);
+    require_served<model, dual<double, detail::directions_at_a_time>>(letters, system);
   }
 }
 

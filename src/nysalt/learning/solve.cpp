@@ -296,7 +296,8 @@ void solution::describe_search(fit_summary& summary) const {
   if (found_.unguarded) summary.unguarded = objection_to_unguarded();
   for (const Eigen::Index k : free_) {
     const bool is_held_there = std::ranges::find(best.free, k) == best.free.end();
-    if (is_held_there && std::abs(best.theta[k]) == farthest_parameter) summary.is_at_no_bound = false;
+    if (is_held_there && std::abs(best.theta[k]) == detail::farthest_parameter)
+      summary.is_at_no_bound = false;
   }
 }
 

@@ -254,7 +254,7 @@ std::string stability_guard::unstable(const nysalt::word& word, const std::vecto
     const double low = step * band.low;
     const double high = step * band.high;
     const auto trace = half_trace(word, coefficients, 0.0, low * low, high * high);
-    if (const auto x = where_larger(trace, 1.0 + excess)) {
+    if (const auto x = detail::where_larger(trace, 1.0 + excess)) {
       return fmt::format(
           "it is not linearly stable at z = {:.4g}, on the frequencies {:.4g} to {:.4g} of the system",
           std::sqrt(*x), band.low, band.high);
@@ -305,7 +305,7 @@ void stability_guard::watch_rotations(const model& system, const phase_points& s
   const auto part = modal_coordinates::of(system);
   watch_modes(part->frequencies(), hessian_spectrum(system, states, field::soft).highest_frequency());
   const Eigen::Index n = size(system);
-  if (n > most_for_all_frequencies) {
+  if (n > detail::most_for_all_frequencies) {
     description_ += "; pairs of modes are not examined";
     return;
   }
@@ -317,7 +317,7 @@ void stability_guard::watch_rotations(const model& system, const phase_points& s
   const normal_modes modes = system.modes();
   mean_soft_ = Eigen::MatrixXd::Zero(n, n);
   std::size_t number = 0;
-  force_jacobian jacobian(system, states, field::soft);
+  detail::force_jacobian jacobian(system, states, field::soft);
   for (const auto& state : states) {
     // Evenly spread: the k-th of those that are examined is the state count * k / enough.
     const bool is_examined = number * enough / count != (number + 1) * enough / count;
@@ -356,7 +356,7 @@ std::string stability_guard::objection(const nysalt::word& word, const std::vect
 
 namespace {
 /// What a spectrum shows, as the end of a sentence.
-std::string shown_by(const symplectic_spectrum& spectrum) {
+std::string shown_by(const detail::symplectic_spectrum& spectrum) {
   if (!std::isfinite(spectrum.growth)) return "a step is not finite";
   if (!spectrum.is_on_circle()) {
     return fmt::format("a step multiplies a mode by exp({:.3g}), at the phase {:.4g}", spectrum.growth,
@@ -374,13 +374,13 @@ std::string stability_guard::grown_on_parts(const std::vector<double>& coefficie
     const std::string how_much =
         std::isfinite(growth.late) ? fmt::format("by the factor {:.3g}", 1.0 + growth.late) : "without bound";
     return fmt::format("the linearised motion gains energy {} in {} steps: {}", how_much, steps_,
-                       shown_by(spectrum_of(parts_->step(coefficients, step, growth.state))));
+                       shown_by(detail::spectrum_of(parts_->step(coefficients, step, growth.state))));
   }
   // A perturbation that turns an eigenvalue by less than a radian in all steps may move two off the circle.
   // Two slow modes, or one and its conjugate, are of opposite signature and on either side of +1, without any
   // resonance: they are farther apart than one of them turns at least.
   if (parts_->has_mean()) {
-    const auto spectrum = spectrum_of(parts_->step(coefficients, step, parts_->states()));
+    const auto spectrum = detail::spectrum_of(parts_->step(coefficients, step, parts_->states()));
     const double too_near = std::min(2.0 / static_cast<double>(steps_), word_on_parts::least_turn);
     if (spectrum.krein_distance < too_near)
       return fmt::format("it is not strongly stable: {}", shown_by(spectrum));
@@ -399,8 +399,8 @@ std::vector<stability_window> stability_guard::gaps(const nysalt::word& word,
                                                     const std::vector<double>& coefficients,
                                                     double step) const {
   if (word.rotates() || word.has_own_letters()) return {};
-  return gaps_below(stability_windows(conservative_part(word), conservative_part(word, coefficients)),
-                    step * highest_frequency(bands_));
+  return detail::gaps_below(stability_windows(conservative_part(word), conservative_part(word, coefficients)),
+                            step * highest_frequency(bands_));
 }
 
 stability_guard::magnified_mode stability_guard::most_magnified(const nysalt::word& word,
@@ -427,7 +427,7 @@ stability_guard::resonant_pair stability_guard::most_resonant(const nysalt::word
     const Eigen::Array2d theta(step * all_modes_[static_cast<std::size_t>(i)],
                                step * all_modes_[static_cast<std::size_t>(j)]);
     const Eigen::Matrix2d k{{soft(i, i), soft(i, j)}, {soft(j, i), soft(j, j)}};
-    return growth_of_pair(word, coefficients, theta, step * step * k);
+    return detail::growth_of_pair(word, coefficients, theta, step * step * k);
   };
   for (Eigen::Index i = 0; i < mean_soft_.rows(); ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {

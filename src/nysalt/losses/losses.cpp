@@ -18,7 +18,7 @@
 
 namespace nysalt {
 
-std::vector<after_steps_options> after_each_step(int K, int shortest) {
+std::vector<after_steps_options> detail::after_each_step(int K, int shortest) {
   return {{.steps = {K}, .apart = std::max(1, shortest / 4)}, {.steps = {K}}};
 }
 
@@ -276,7 +276,7 @@ std::string loss_choice::description() const {
   return kind->counts_steps ? fmt::format("{}:{}", kind->name, steps) : kind->name;
 }
 
-std::optional<loss_choice> find_loss(std::string_view text) {
+std::optional<loss_choice> detail::find_loss(std::string_view text) {
   const auto colon = text.find(':');
   for (const auto& kind : losses()) {
     if (kind->name != text.substr(0, colon)) continue;
@@ -290,13 +290,13 @@ std::optional<loss_choice> find_loss(std::string_view text) {
 loss_choice usual_loss(const bath& around) { return around.acts() ? loss_named("state:1") : loss_choice{}; }
 
 loss_choice loss_named(std::string_view text) {
-  if (const auto found = find_loss(text)) return *found;
+  if (const auto found = detail::find_loss(text)) return *found;
   throw std::invalid_argument(
       fmt::format("unknown loss '{}': it is one of {} with the number K of steps, and {}", text,
-                  loss_patterns(true), loss_patterns(false)));
+                  detail::loss_patterns(true), detail::loss_patterns(false)));
 }
 
-std::string loss_patterns(bool count_steps) {
+std::string detail::loss_patterns(bool count_steps) {
   std::string all;
   for (const auto& kind : losses()) {
     if (kind->counts_steps != count_steps) continue;

@@ -18,8 +18,9 @@
 
 namespace nysalt {
 
-void for_each_block(std::int64_t count, int width, int threads,
-                    const std::function<void(std::int64_t, int)>& body, const progress_callback& progress) {
+void detail::for_each_block(std::int64_t count, int width, int threads,
+                            const std::function<void(std::int64_t, int)>& body,
+                            const progress_callback& progress) {
   if (threads < 1) throw std::invalid_argument(fmt::format("threads must be at least one, got {}", threads));
   if (width < 1)
     throw std::invalid_argument(fmt::format("lanes of a block must be at least one, got {}", width));
@@ -79,7 +80,7 @@ void for_each_block(std::int64_t count, int width, int threads,
 
 void for_each_trajectory(std::int64_t count, int threads, const std::function<void(std::int64_t)>& body,
                          const progress_callback& progress) {
-  for_each_block(
+  detail::for_each_block(
       count, 1, threads, [&](std::int64_t m, int) { body(m); }, progress);
 }
 

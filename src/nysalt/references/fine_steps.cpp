@@ -98,7 +98,7 @@ template <class T>
 struct summing_noise {
   static constexpr bool is_memoryless = false;
   const finer_noise* path;
-  const coarse_graining* coarse;
+  const detail::coarse_graining* coarse;
   vector<T, Eigen::Dynamic>* const* sum;
 
   void normals(const noise_place& at, vector<T, Eigen::Dynamic>& xi) const {
@@ -145,7 +145,7 @@ class path_run final : public reference_run<T> {
   model system_;
   double step_;
   finer_noise path_;
-  coarse_graining coarse_;
+  detail::coarse_graining coarse_;
   vector<T, Eigen::Dynamic>* sum_ = nullptr;
   stepper<model, double, summing_noise<T>> stepper_;
 };
