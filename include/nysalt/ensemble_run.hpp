@@ -117,7 +117,7 @@ class ensemble_run {
     if (saved != nullptr) require_fitting(*saved);
     blocks_.resize(static_cast<std::size_t>((count - 1) / width + 1));
     const auto make = [&](detail::own_stepper<Stepper> own, std::int64_t place, int here) {
-      const auto start = sound_starts<T>(stepper.system(), ensemble, seed, first + place, here);
+      const auto start = detail::sound_starts<T>(stepper.system(), ensemble, seed, first + place, here);
       runs run = saved == nullptr ? runs(*own, start, here, first + place)
                                   : resumed(*own, start, here, *saved, place);
       auto& made = blocks_[static_cast<std::size_t>(place / width)];
@@ -147,7 +147,7 @@ class ensemble_run {
     for (int k = 0; k < count; ++k) {
       lost.set(k, saved.diverged_at[static_cast<std::size_t>(place + k)]);
       for (auto* part : {&run.state.q, &run.state.p, &run.state.f}) {
-        for (T& number : *part) set_lane(number, k, *next_number++);
+        for (T& number : *part) detail::set_lane(number, k, *next_number++);
       }
     }
     return runs(stepper, start, count, std::move(run), lost);

@@ -103,11 +103,11 @@ std::int64_t steps_of_each(const data_options& options, Eigen::Index dimension);
 /// that no length of trajectories makes all of them starts, say.
 std::vector<std::size_t> spread_pairs(std::size_t all, std::size_t most);
 
-}  // namespace detail
-
 /// Largest number of trajectories: as many as fit into the memory of one rank, so that it does not
 /// depend on the number of ranks. Throws std::invalid_argument if one does not, or has no step.
 std::int64_t most_trajectories(data_options options, Eigen::Index dimension);
+
+}  // namespace detail
 
 /// Follows the reference from `trajectories` starts over floor(horizon/step) steps each, as many at a time as
 /// there are lanes; in a bath along paths whose noise is kept in parts of a step. Threads share the ensemble
@@ -121,11 +121,15 @@ std::int64_t most_trajectories(data_options options, Eigen::Index dimension);
 flow_map_data make_flow_map_data(const model& system, const initial_states& ensemble,
                                  const reference& reference, const data_options& options);
 
+namespace detail {
+
 /// Makes of data with fewer trajectories, or none, the data of the options, which were the same but for their
 /// number: only what is new is made. The pairs have the bits of those made at once; of finer finishes there
 /// are more. Ranks hand over trajectories that become another's. Throws what make_flow_map_data does. Cost:
 /// the trajectories that are new.
 void extend_data(const model& system, const initial_states& ensemble, const reference& reference,
                  const data_options& options, flow_map_data& data);
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -191,7 +191,7 @@ void force(const S& system, const vector<T, S::dimension>& q, vector<T, S::dimen
   } else if constexpr (HasPotential<S, dual<T, detail::sweep<S::dimension>>>) {
     gradient<T, S::dimension>([&](const auto& x) { return system.potential(x); }, q, -1.0, f);
   } else {  // a black box over dual<double, N>: f(q + e v) = f(q) + e f'(q) v
-    auto at = make_vector<double>(system);
+    auto at = detail::make_vector<double>(system);
     auto value = at;
     auto direction = at;
     auto result = at;

@@ -62,10 +62,14 @@ using condition_of = decltype(T(0.0) < T(0.0));
 }  // namespace detail
 
 // One code for double, which has one lane, and for packs.
-inline double lane(double x, int) { return x; }                    ///< value of the only lane
-inline bool lane(bool x, int) { return x; }                        ///< value of the only lane
+inline double lane(double x, int) { return x; }  ///< value of the only lane
+inline bool lane(bool x, int) { return x; }      ///< value of the only lane
+namespace detail {
+
 inline void set_lane(double& x, int, double value) { x = value; }  ///< assigns the only lane
 inline void set_lane(bool& x, int, bool value) { x = value; }      ///< assigns the only lane
+
+}  // namespace detail
 /// The number in lane k.
 template <int W>
 double lane(const pack<double, W>& x, int k) {
@@ -73,9 +77,11 @@ double lane(const pack<double, W>& x, int k) {
 }
 /// Whether lane k is set.
 template <int W>
-bool lane(const lane_mask<W>& x, int k) {
+bool lane(const detail::lane_mask<W>& x, int k) {
   return x[k];
 }
+namespace detail {
+
 /// Puts a number into lane k.
 template <int W>
 void set_lane(pack<double, W>& x, int k, double value) {
@@ -83,18 +89,17 @@ void set_lane(pack<double, W>& x, int k, double value) {
 }
 /// Sets or clears lane k.
 template <int W>
-void set_lane(lane_mask<W>& x, int k, bool value) {
+void set_lane(detail::lane_mask<W>& x, int k, bool value) {
   x.set(k, value);
 }
 
 inline bool both(bool a, bool b) { return a && b; }  ///< a and b
 /// The lanes in which both hold.
 template <int W>
-lane_mask<W> both(const lane_mask<W>& a, const lane_mask<W>& b) {
+detail::lane_mask<W> both(const detail::lane_mask<W>& a, const detail::lane_mask<W>& b) {
   return a & b;
 }
 
-namespace detail {
 /// f of the scalar that holds as many trajectories as the system takes side by side.
 template <System S>
 decltype(auto) with_scalar_of(const S& system, const auto& f) {
@@ -122,6 +127,8 @@ phase_point<double, N> lane(const phase_point<T, N>& x, int k) {
   }
   return result;
 }
+namespace detail {
+
 /// Puts a state into lane k.
 template <class T, int N>
 void set_lane(phase_point<T, N>& x, int k, const phase_point<double, N>& value) {
@@ -131,8 +138,6 @@ void set_lane(phase_point<T, N>& x, int k, const phase_point<double, N>& value) 
   }
 }
 
-namespace detail {
-
 /// The lanes 0..count - 1.
 template <class T>
 condition_of<T> first_lanes(int count) {
@@ -140,8 +145,6 @@ condition_of<T> first_lanes(int count) {
   for (int k = 0; k < count; ++k) set_lane(result, k, true);
   return result;
 }
-
-}  // namespace detail
 
 /// States 0..count - 1 from make(k), one in each lane; lanes beyond them repeat the first.
 template <class T, int N>
@@ -151,9 +154,11 @@ phase_point<T, N> gather(int count, const auto& make) {
   return result;
 }
 
+}  // namespace detail
+
 /// Mask of the lanes in which all of q and p are finite: x - x is 0 there, and NaN elsewhere.
 template <int W, int N>
-lane_mask<W> is_finite(const phase_point<pack<double, W>, N>& x) {
+detail::lane_mask<W> is_finite(const phase_point<pack<double, W>, N>& x) {
   pack<double, W> sum(0.0);
   for (Eigen::Index i = 0; i < x.size(); ++i) sum += (x.q[i] - x.q[i]) + (x.p[i] - x.p[i]);
   return sum == 0.0;
@@ -182,7 +187,7 @@ T value_in_lanes(const F& f, const phase_point<T, N>& x) {
     return f(x);
   } else {
     T result(0.0);
-    for (int k = 0; k < lanes_in<T>; ++k) set_lane(result, k, f(lane(x, k)));
+    for (int k = 0; k < lanes_in<T>; ++k) detail::set_lane(result, k, f(lane(x, k)));
     return result;
   }
 }
@@ -218,8 +223,6 @@ class first_in_lanes {
   std::array<std::optional<std::int64_t>, static_cast<std::size_t>(lanes_in<T>)> first_{};
 };
 
-}  // namespace detail
-
 /// H in each lane, also where the potential is known for double only.
 template <class T, HasEnergy S>
 T energy_in_lanes(const S& system, const phase_point<T, S::dimension>& x) {
@@ -229,5 +232,7 @@ T energy_in_lanes(const S& system, const phase_point<T, S::dimension>& x) {
     return value_in_lanes<T>([&](const auto& y) { return energy<double>(system, y); }, x);
   }
 }
+
+}  // namespace detail
 
 }  // namespace nysalt

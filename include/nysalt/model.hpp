@@ -30,8 +30,8 @@ void library_is_compiled_for();
 /// stepped one trajectory at a time.
 class model {
  public:
-  static constexpr int dimension = Eigen::Dynamic;  ///< known at run time
-  static constexpr int lanes = default_lanes;       ///< most trajectories side by side
+  static constexpr int dimension = Eigen::Dynamic;     ///< known at run time
+  static constexpr int lanes = detail::default_lanes;  ///< most trajectories side by side
   static constexpr bool is_erased = true;  ///< true: the members that the system offers are known at run time
 
   /// The model of a system, which is copied; it converts by itself. Cost: a copy, and one description.
@@ -41,7 +41,7 @@ class model {
       : system_(detail::erased(system)),
         facts_(std::make_shared<detail::model_facts>(detail::facts_of(system))),
         base_kind_(detail::kind_without_bath(system)) {
-    detail::library_is_compiled_for<default_lanes>();
+    detail::library_is_compiled_for<detail::default_lanes>();
   }
 
   Eigen::Index size() const { return facts_->size; }                      ///< degrees of freedom

@@ -84,14 +84,14 @@ void take_piece(const Piece&, std::vector<member_parameter<S>>&) {}
 
 template <class S, class F>
 void take_observable(const observable_of_system<F>& piece, const S& system,
-                     std::vector<named_observable>& to) {
+                     std::vector<initial_value_problem::named_observable>& to) {
   const auto value = [system, f = piece.value]<class T>(const phase_point<T, Eigen::Dynamic>& x) -> T {
     return f(system, of_dimension<S::dimension>(x));
   };
   to.push_back({piece.name, value});
 }
 template <class S, class Piece>
-void take_observable(const Piece&, const S&, std::vector<named_observable>&) {}
+void take_observable(const Piece&, const S&, std::vector<initial_value_problem::named_observable>&) {}
 
 template <class Piece>
 inline constexpr bool is_starts = false;
@@ -222,7 +222,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
       has_size = has_size || member.declared.is_size;
       if (!member.declared.is_size) listed_of_kind += (listed_of_kind.empty() ? "" : ", ") + text;
     }
-    std::vector<named_observable> observables;
+    std::vector<initial_value_problem::named_observable> observables;
     double highest = 0.0;
     std::vector<initial_states> law;
     const auto take = [&]<class Piece>(const Piece& piece) {

@@ -76,7 +76,7 @@ class stepper {
   template <SteppedBy<C> T>
   open_run<T, dimension> open(const phase_point<T, dimension>& x, std::uint64_t trajectory = 0) const {
     require_size(x);
-    open_run<T, dimension> run{{{x.q, x.p}, make_vector<T>(*system_)}, 0, trajectory};
+    open_run<T, dimension> run{{{x.q, x.p}, detail::make_vector<T>(*system_)}, 0, trajectory};
     for (Eigen::Index i = 0; i < run.state.f.size(); ++i)
       run.state.f[i] = T(0.0);      // a checkpoint has no noise
     if (is_processed_) return run;  // which advance() opens
@@ -175,7 +175,7 @@ class stepper {
   template <SteppedBy<C> T>
   void step(phase_point<T, dimension>& x, std::uint64_t trajectory = 0, std::int64_t n = 0) const {
     require_size(x);
-    flow_state<T, dimension> state{{std::move(x.q), std::move(x.p)}, make_vector<T>(*system_)};
+    flow_state<T, dimension> state{{std::move(x.q), std::move(x.p)}, detail::make_vector<T>(*system_)};
     step(state, trajectory, n);
     x = {std::move(state.q), std::move(state.p)};
   }
@@ -230,7 +230,7 @@ class stepper {
     if constexpr (HasBath<S>) result.heat_bath = static_cast<const bath&>(system.bath());
     require_served<S, C>(letters, system);
     if constexpr (HasQuadraticPart<S>) {
-      if (letters.reads_modes) result.part = modal_coordinates::of(system);
+      if (letters.reads_modes) result.part = detail::modal_coordinates::of(system);
     }
     return result;
   }

@@ -69,12 +69,6 @@ class parameter_values {
   std::vector<std::pair<std::string, parameter_value>> all_;
 };
 
-/// A function of a state, by name.
-struct named_observable {
-  std::string name;                              ///< name in --observables
-  detail::over_scalars<detail::of_state> value;  ///< function of one state, or of those in the lanes of packs
-};
-
 namespace detail {
 
 template <class T>
@@ -124,6 +118,13 @@ model put_in(const S& system, const bath& in) {
 
 /// A system that is made of its parameters.
 struct initial_value_problem {
+  /// A function of a state, by name.
+  struct named_observable {
+    std::string name;  ///< name in --observables
+    detail::over_scalars<detail::of_state>
+        value;  ///< function of one state, or of those in the lanes of packs
+  };
+
   nysalt::model system;    ///< system in its bath
   initial_states starts;   ///< the initial distribution
   double frequency = 0.0;  ///< the highest of the motion, rare starts included; 0: not known

@@ -27,7 +27,7 @@ rates rates_of(const initial_value_problem& problem, std::int64_t count) {
   const model& system = problem.system;
   std::mt19937_64 bits{1};
   rates found;
-  auto f = make_vector<double>(system);
+  auto f = detail::make_vector<double>(system);
   for (std::int64_t n = 0; n < count; ++n) {
     const auto x = sound_start(system, problem.starts, 1, n % problem.starts.size());
     if (n < problem.starts.size()) {

@@ -57,7 +57,7 @@ learned_scheme learn_enough(const prepared_problem& system, learn_plan plan, pro
     learned.emplace(system.learn(plan, shown.counter(trajectories)));
     return learned->fit;
   };
-  const auto course = until_enough(plan.how.trajectories, enough, learn);
+  const auto course = detail::until_enough(plan.how.trajectories, enough, learn);
   learned->course = course;
   return *learned;
 }

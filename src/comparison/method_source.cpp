@@ -41,7 +41,7 @@ bool is_file_name(const std::string& text) {
 
 }  // namespace
 
-method_source find_method(const std::string& typed, const held_methods& held,
+method_source find_method(const std::string& typed, const std::map<std::string, std::string>& held,
                           const std::vector<letter_facts>& of_system) {
   if (of_letters(typed) != typed) {  // reports show the name in every format
     refuse(

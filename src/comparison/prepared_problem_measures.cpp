@@ -98,7 +98,7 @@ std::vector<double> prepared_problem::values_at_starts(const trajectories_plan& 
   std::vector<double> values;
   nysalt::detail::with_scalar_of(made_.system, [&]<class T>(T) {
     for (std::int64_t m = 0; m < std::min(plan.count, enough); m += lanes_in<T>) {
-      const auto x = sound_starts<T>(made_.system, *starts_, plan.seed, m, lanes_in<T>);
+      const auto x = detail::sound_starts<T>(made_.system, *starts_, plan.seed, m, lanes_in<T>);
       for (int k = 0; k < lanes_in<T>; ++k) values.push_back(value(lane(x, k)));
     }
   });
@@ -162,7 +162,7 @@ std::function<void()> prepared_problem::timed_run(const method& method, const tr
     std::vector<phase_point<T, Eigen::Dynamic>> starts;
     for (std::int64_t m = 0; m < plan.count; m += lanes_in<T>) {
       const auto count = static_cast<int>(std::min<std::int64_t>(lanes_in<T>, plan.count - m));
-      starts.push_back(sound_starts<T>(made_.system, *starts_, plan.seed, m, count));
+      starts.push_back(detail::sound_starts<T>(made_.system, *starts_, plan.seed, m, count));
     }
     return [stepper, starts = std::move(starts), steps = plan.steps] {
       for (const auto& start : starts) {

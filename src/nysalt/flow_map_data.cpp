@@ -240,12 +240,12 @@ flow_map_data make_flow_map_data(const model& system, const initial_states& ense
                                  const reference& reference, const data_options& options) {
   detail::steps_of_each(options, size(system));
   flow_map_data data;
-  extend_data(system, ensemble, reference, options, data);
+  detail::extend_data(system, ensemble, reference, options, data);
   return data;
 }
 
-void extend_data(const model& system, const initial_states& ensemble, const reference& reference,
-                 const data_options& options, flow_map_data& data) {
+void detail::extend_data(const model& system, const initial_states& ensemble, const reference& reference,
+                         const data_options& options, flow_map_data& data) {
   const std::int64_t there = data.share().total();
   if (there >= options.trajectories) return;
   const auto began = std::chrono::steady_clock::now();
@@ -277,7 +277,7 @@ void extend_data(const model& system, const initial_states& ensemble, const refe
   data.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
 
-std::int64_t most_trajectories(data_options options, Eigen::Index dimension) {
+std::int64_t detail::most_trajectories(data_options options, Eigen::Index dimension) {
   options.trajectories = 1;
   const auto steps = static_cast<double>(detail::steps_of_each(options, dimension));
   return static_cast<std::int64_t>(detail::numbers_in_memory /

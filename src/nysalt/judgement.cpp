@@ -193,7 +193,7 @@ void decide(judgement& found, Eigen::Index size, double least_growth) {
 
 std::int64_t detail::evaluations_of_trial(const model& system, const judging_options& options) {
   constexpr double of_black_box = 2000.0;
-  const double cost = is_black_box(system) ? of_black_box : force_cost(system);
+  const double cost = detail::is_black_box(system) ? of_black_box : force_cost(system);
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(static_cast<double>(options.work) / cost));
 }
 
@@ -230,8 +230,8 @@ struct step_judge::known {
   judging_options options;
   std::int64_t evaluations;
   accurate_motion motion;
-  std::optional<stability_guard> guard;  // for words of drifts and kicks
-  std::string no_guard;                  // why there is none
+  std::optional<detail::stability_guard> guard;  // for words of drifts and kicks
+  std::string no_guard;                          // why there is none
   mutable detail::unconfined_starts unconfined;
 };
 
@@ -257,22 +257,22 @@ phase_points states_of(const accurate_motion& motion, const states& starts, Eige
   return result;
 }
 
-stability_guard guard_of(const model& system, const accurate_motion& motion, const states& starts,
-                         std::int64_t evaluations, const nysalt::word& word) {
+detail::stability_guard guard_of(const model& system, const accurate_motion& motion, const states& starts,
+                                 std::int64_t evaluations, const nysalt::word& word) {
   std::size_t typical = 0;
   const phase_points at = states_of(motion, starts, size(system), evaluations, typical);
   return {system, at, word, linear_steps, typical == 0 ? at.size() : typical};
 }
 
 /// What linear theory says of the method; nothing where the force has no derivatives.
-void add_linear(const stability_guard& guard, const nysalt::method& method, Eigen::Index size,
+void add_linear(const detail::stability_guard& guard, const nysalt::method& method, Eigen::Index size,
                 judgement& found) {
   const nysalt::word& word = method.letters();
   const auto& coefficients = method.coefficients();
   const auto& bands = guard.frequencies(met::often);
   found.frequencies = guard.description();
-  constexpr double wider = 1.0 + stability_guard::widened;
-  constexpr double narrower = 1.0 - stability_guard::widened;
+  constexpr double wider = 1.0 + detail::stability_guard::widened;
+  constexpr double narrower = 1.0 - detail::stability_guard::widened;
   for (const auto& band : guard.frequencies()) {
     found.highest_frequency = std::max(found.highest_frequency, band.high / wider);
   }

@@ -217,7 +217,7 @@ std::string csv_of(const comparison& all) {
     for (const row& line : all.rows()) {
       const measurement& one = line.measurements[m];
       const baseline& against = baseline_of(all, m, line);
-      const distribution_of_errors spread = spread_of(one);
+      const method_error::distribution spread = spread_of(one);
       const auto& quantiles = spread.quantiles;
       result.add({all.metrics()[m].text(),
                   line.method,

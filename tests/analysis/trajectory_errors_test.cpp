@@ -522,7 +522,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
 // one measure of this width, and 1.2e9 with two.
 BOOST_AUTO_TEST_CASE(several_measures_must_fit_into_memory) {
   error_measure wide = by_state;
-  wide.width = 600'000'000 / (3 * 64 * default_lanes);
+  wide.width = 600'000'000 / (3 * 64 * pack<double>::lanes);
   const std::vector two{wide, wide};
   const trajectory_options options{.step = .02, .steps = 5, .trajectories = 1};
   const auto judge = [&](std::span<const error_measure> measures) {

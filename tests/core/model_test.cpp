@@ -52,7 +52,7 @@ void add_state(std::vector<double>& all, const auto& x) {
 start_states starts_of(const auto& system) {
   draws random;
   start_states all;
-  for (int k = 0; k < default_lanes; ++k) {
+  for (int k = 0; k < pack<double>::lanes; ++k) {
     const auto x = random.state(system, 0.5);
     all.push_back({x.q, x.p});
   }
@@ -60,7 +60,7 @@ start_states starts_of(const auto& system) {
 }
 template <class R, int N>
 phase_point<R, N> gathered(const start_states& starts) {
-  return gather<R, N>(lanes_in<R>, [&](int k) -> phase_point<double, N> {
+  return detail::gather<R, N>(lanes_in<R>, [&](int k) -> phase_point<double, N> {
     const auto& x = starts[static_cast<std::size_t>(k)];
     return {x.q, x.p};
   });
@@ -255,7 +255,7 @@ BOOST_AUTO_TEST_CASE(facts_are_those_of_the_concepts) {
       BOOST_TEST(has_modes(erased) == HasModes<S>);
       BOOST_TEST(erased.facts().has_quadratic_part == HasQuadraticPart<S>);
       BOOST_TEST(erased.facts().has_bands == HasFrequencyBands<S>);
-      BOOST_TEST(is_black_box(erased) == BlackBoxForce<S>);
+      BOOST_TEST(detail::is_black_box(erased) == BlackBoxForce<S>);
       BOOST_TEST(erased.facts().derivative_calls == detail::derivative_calls<S>);
       BOOST_TEST(erased.facts().derivative_source == std::string(detail::derivative_source<S>()));
       BOOST_TEST(erased.facts().in_lanes == (detail::lanes_of<S> > 1 && SystemOver<S, lanes>));
@@ -324,7 +324,7 @@ BOOST_AUTO_TEST_CASE(packs_are_refused_by_a_system_of_one_lane) {
     return detail::with_scalar_of(system, []<class T>(T) { return lanes_in<T>; });
   };
   BOOST_TEST(lanes_taken_by(erased) == 1);
-  BOOST_TEST(lanes_taken_by(fixed_chain) == default_lanes);
+  BOOST_TEST(lanes_taken_by(fixed_chain) == pack<double>::lanes);
 }
 
 BOOST_AUTO_TEST_CASE(copies_share_a_copy_of_the_system_and_a_separate_one_has_its_own) {

@@ -24,8 +24,8 @@ struct lonely_kick : kick {
 std::string as_text(const auto& evaluations, std::size_t length) {
   std::string text;
   for (std::size_t i = 0; i < length; ++i) {
-    const evaluation one = evaluations[i];
-    text += one == evaluation::shared ? 's' : one == evaluation::unshared ? 'u' : '-';
+    const detail::evaluation one = evaluations[i];
+    text += one == detail::evaluation::shared ? 's' : one == detail::evaluation::unshared ? 'u' : '-';
   }
   return text;
 }
@@ -103,9 +103,10 @@ BOOST_AUTO_TEST_CASE(a_word_of_flows_is_the_word_of_their_names) {
 }
 
 BOOST_AUTO_TEST_CASE(a_palindrome_follows_from_its_first_coefficients) {
-  BOOST_TEST((palindrome<3>({}) == std::array{0.5, 1.0, 0.5}));
-  BOOST_TEST((palindrome<5>({0.25}) == std::array{0.25, 0.5, 0.5, 0.5, 0.25}));
-  BOOST_TEST((palindrome<7>({0.125, 0.25}) == std::array{0.125, 0.25, 0.375, 0.5, 0.375, 0.25, 0.125}));
+  BOOST_TEST((detail::palindrome<3>({}) == std::array{0.5, 1.0, 0.5}));
+  BOOST_TEST((detail::palindrome<5>({0.25}) == std::array{0.25, 0.5, 0.5, 0.5, 0.25}));
+  BOOST_TEST(
+      (detail::palindrome<7>({0.125, 0.25}) == std::array{0.125, 0.25, 0.375, 0.5, 0.375, 0.25, 0.125}));
 }
 
 BOOST_AUTO_TEST_CASE(letters_and_words_that_cannot_be_are_refused) {

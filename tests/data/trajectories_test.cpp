@@ -224,7 +224,7 @@ BOOST_AUTO_TEST_CASE(more_trajectories_of_the_same_are_those_made_at_once) {
   flow_map_data grown;
   for (const std::int64_t trajectories : {5, 13, 21}) {
     options.trajectories = trajectories;
-    extend_data(warm, law, fine_paths(fine), options, grown);
+    detail::extend_data(warm, law, fine_paths(fine), options, grown);
     BOOST_TEST(grown.trajectories() == static_cast<std::size_t>(trajectories));
     require_valid(grown, warm);
   }
@@ -235,7 +235,7 @@ BOOST_AUTO_TEST_CASE(more_trajectories_of_the_same_are_those_made_at_once) {
     BOOST_TEST((finish.p - grown.finish[pair].p).norm() < 0.01 * (finish.p - grown.start[pair].p).norm());
   }
   options.trajectories = 4;
-  extend_data(warm, law, fine_paths(fine), options, grown);
+  detail::extend_data(warm, law, fine_paths(fine), options, grown);
   BOOST_TEST(grown.trajectories() == 21U);  // there are enough
 }
 

@@ -23,7 +23,7 @@ using windows = std::vector<stability_window>;
 
 /// The eigenvalues' largest absolute value, from the exact Jacobian of a step.
 double spectral_radius(const method& method, double z) {
-  const Eigen::MatrixXd step = jacobian(detail::step_map(unit_oscillator, method, z), at_one);
+  const Eigen::MatrixXd step = detail::jacobian(detail::step_map(unit_oscillator, method, z), at_one);
   return test::spectral_radius(step);
 }
 

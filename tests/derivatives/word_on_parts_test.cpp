@@ -133,7 +133,7 @@ constexpr std::int64_t steps = 20'000;
 struct examined {
   two_parts system;
   nysalt::word word = respa.letters();
-  stability_guard guard;
+  detail::stability_guard guard;
   explicit examined(const two_parts& of, std::int64_t plan = steps, const phase_points& states = of_two)
       : system(of), guard(system, states, word, plan) {
     BOOST_REQUIRE(guard.parts() != nullptr);
@@ -239,8 +239,8 @@ BOOST_AUTO_TEST_CASE(the_product_of_linearised_letters_has_the_eigenvalues_of_a_
   BOOST_TEST(one.guard.parts()->is_known());
   BOOST_TEST(one.guard.parts()->has_mean());
   for (const double h : {0.1, 0.31, 0.47}) {
-    const Eigen::MatrixXd step = jacobian(detail::step_map(one.system, respa, h),
-                                          state{Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.3, 0.4)});
+    const Eigen::MatrixXd step = detail::jacobian(
+        detail::step_map(one.system, respa, h), state{Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.3, 0.4)});
     const auto exact = detail::spectrum_of(step);
     const auto found = detail::spectrum_of(one.step(h));
     // Rounding of 2 * 16 letters, by the condition of the eigenvalues, some 10.
@@ -283,7 +283,7 @@ BOOST_AUTO_TEST_CASE(the_guard_admits_a_difference_resonance) {
   const examined pair(pair_coupled_by(1e-5, of_other_ratio));
   // Nearer than a guard that ignores signatures would admit.
   constexpr double met = 1e-5;
-  static_assert(met < 2.0 / steps && met < word_on_parts::least_turn);
+  static_assert(met < 2.0 / steps && met < detail::word_on_parts::least_turn);
   // h (omega_1 - omega_2) = 2 pi at 1.396, moved by less than 6 % by the phases of Verlet.
   const double difference = step_where_cosines_meet(pair, 1.30, 1.42);
   BOOST_TEST(closest_phases(pair.step(difference)) <= met);
@@ -358,7 +358,7 @@ BOOST_AUTO_TEST_CASE(of_two_growths_a_refused_one_is_the_worse) {
   for (int k = 0; k < 2000; ++k) {
     const auto drawn = [&] {
       const auto [low, high] = std::minmax({std::pow(10.0, power(bits)), std::pow(10.0, power(bits))});
-      return growth_of_energy{.early = low, .late = high};
+      return detail::growth_of_energy{.early = low, .late = high};
     };
     const auto one = drawn();
     const auto other = drawn();
@@ -381,7 +381,7 @@ BOOST_AUTO_TEST_CASE(states_that_lie_far_apart_have_no_mean_of_however_many_coor
             state{Eigen::VectorXd::Constant(size, k == 5 ? elsewhere : 1.0), Eigen::VectorXd::Ones(size)});
       }
       const two_parts system(wells, wells);
-      const word_on_parts parts(system, states, respa.letters());
+      const detail::word_on_parts parts(system, states, respa.letters());
       BOOST_TEST(parts.has_mean() == (elsewhere < 2.0));
     }
   }
@@ -390,8 +390,8 @@ BOOST_AUTO_TEST_CASE(states_that_lie_far_apart_have_no_mean_of_however_many_coor
 BOOST_AUTO_TEST_CASE(what_is_not_analysed_is_said_and_admitted) {
   const examined pair(pair_coupled_by(0.5));
   constexpr word with_turns = word_of<lettered::turn, kick_of_part<0>, lettered::turn>();
-  const stability_guard guard(with_letters<two_parts, lettered::turn>(pair.system), of_two, with_turns,
-                              steps);
+  const detail::stability_guard guard(with_letters<two_parts, lettered::turn>(pair.system), of_two,
+                                      with_turns, steps);
   BOOST_TEST(guard.parts() == nullptr);
   BOOST_TEST(guard.description().find("was not analysed, as the letter t is neither") != std::string::npos,
              guard.description());
@@ -405,7 +405,8 @@ BOOST_AUTO_TEST_CASE(what_is_not_analysed_is_said_and_admitted) {
   BOOST_TEST(pair.objection(0.1).empty());
   // An ordinary word is examined as ever.
   const nysalt::word ordinary("BAB");
-  const stability_guard of_bands(pair.system, of_two, ordinary, steps);
-  BOOST_TEST(of_bands.description() == stability_guard(pair.system, of_two, false, steps).description());
+  const detail::stability_guard of_bands(pair.system, of_two, ordinary, steps);
+  BOOST_TEST(of_bands.description() ==
+             detail::stability_guard(pair.system, of_two, false, steps).description());
   BOOST_TEST(!of_bands.objection(ordinary, {0.5, 1.0, 0.5}, 0.3).empty());
 }

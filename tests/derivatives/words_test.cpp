@@ -68,7 +68,7 @@ method classical_word(std::string_view name) {
 }
 
 double rho(const method& method, double z) {
-  return energy_error_on_oscillator(method.letters(), method.coefficients(), z);
+  return detail::energy_error_on_oscillator(method.letters(), method.coefficients(), z);
 }
 
 /// The mean growth of (omega q)^2/2 + p^2/2 after n steps from independent normal omega q and p.
@@ -111,10 +111,11 @@ with_quadratic_part<linear_chain> two_modes(const Eigen::Matrix2d& rest) {
 double growth_of_step(const auto& system, const nysalt::word& word, const std::vector<double>& c, double h) {
   const method method("a step", word, c, {1, false, false});
   const phase_point<double, Eigen::Dynamic> anywhere{Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.3, 0.1)};
-  return std::log(spectral_radius(jacobian(detail::step_map(system, method, h), anywhere)));
+  return std::log(spectral_radius(detail::jacobian(detail::step_map(system, method, h), anywhere)));
 }
 
-std::optional<resonance> near(const method& method, const std::vector<frequency_band>& bands, double step) {
+std::optional<detail::resonance> near(const method& method, const std::vector<frequency_band>& bands,
+                                      double step) {
   return detail::near_resonance(method.letters(), method.coefficients(), bands, step);
 }
 
@@ -228,8 +229,8 @@ BOOST_AUTO_TEST_CASE(what_is_no_number_is_not_consistent) {
 
 // On the oscillator this one has order 6 (see methods/laws_test.cpp).
 BOOST_AUTO_TEST_CASE(an_accident_on_the_oscillator_does_not_count) {
-  const auto c = palindrome<11>({0.18685656311551122, 0.5642486163110636,  //
-                                 0.5520581660514783, -0.23936270217732913});
+  const auto c = detail::palindrome<11>({0.18685656311551122, 0.5642486163110636,  //
+                                         0.5520581660514783, -0.23936270217732913});
   BOOST_TEST(orders("BABABABABAB", {c.begin(), c.end()}) == "4 and 4");
 }
 
@@ -238,7 +239,7 @@ BOOST_AUTO_TEST_CASE(an_accident_on_the_oscillator_does_not_count) {
 BOOST_AUTO_TEST_CASE(traces_are_the_known_ones) {
   const auto are = [](const char* letters, const std::vector<double>& c, double theta, double low,
                       double high, double at_low, double at_high) {
-    const auto trace = half_trace(nysalt::word(letters), c, theta, low, high);
+    const auto trace = detail::half_trace(nysalt::word(letters), c, theta, low, high);
     BOOST_TEST(std::abs(trace.at_low() - at_low) < 10.0 * eps, letters);
     BOOST_TEST(std::abs(trace.at_high() - at_high) < 100.0 * eps, letters);
   };
@@ -297,7 +298,7 @@ BOOST_AUTO_TEST_CASE(beyond_the_window_it_is_infinite_and_words_that_are_no_plai
   for (const char* name : {"impulse", "baoab", "takahashi_imada_processed"}) {
     BOOST_TEST(refuses([&] { rho(classical_word(name), 0.5); }, {"no rotation", "no processor"}));
   }
-  BOOST_TEST(refuses([] { energy_error_on_oscillator(nysalt::word("BAB"), {0.5, 1.0}, 0.5); }, {}));
+  BOOST_TEST(refuses([] { detail::energy_error_on_oscillator(nysalt::word("BAB"), {0.5, 1.0}, 0.5); }, {}));
 }
 
 // The formula lets n t come to pi/2, which some n of 200 do to within a few degrees.
@@ -308,7 +309,7 @@ BOOST_AUTO_TEST_CASE(it_is_that_of_all_powers) {
     const double theta = n % 5 == 0 ? 0.0 : random.uniform(0.1, 7.0);
     const double k = random.uniform(0.01, 4.0);
     const double expected = by_powers(nysalt::word("RSR"), halves, theta, k, 200);
-    const double found = transient_growth(nysalt::word("RSR"), halves, theta, k, 200);
+    const double found = detail::transient_growth(nysalt::word("RSR"), halves, theta, k, 200);
     if (expected > 1e6) ++unstable;
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", theta " << theta << ", k " << k) {
       if (expected < 1e6) BOOST_TEST(std::abs(found - expected) <= 0.05 * expected);
@@ -324,17 +325,18 @@ BOOST_AUTO_TEST_CASE(impulses_grow_linearly_at_a_resonance) {
   const double k = 0.09;
   const double per_step = k / std::sqrt(pi * pi + k);
   for (const std::int64_t steps : {1000, 10'000}) {
-    const double found = transient_growth(nysalt::word("SRS"), {0.5, 1.0, 0.5}, pi, k, steps);
+    const double found = detail::transient_growth(nysalt::word("SRS"), {0.5, 1.0, 0.5}, pi, k, steps);
     const double g = per_step * static_cast<double>(steps);
     // Rounding of pi makes t some 2e-9, and the error (n t)^2.
     BOOST_TEST(std::abs(found / (0.5 * g + std::sqrt(1.0 + 0.25 * g * g)) - 1.0) < 1e-8);
   }
-  BOOST_TEST(transient_growth(nysalt::word("RSR"), halves, 0.9 * pi, k, 10'000) < 1.1);
+  BOOST_TEST(detail::transient_growth(nysalt::word("RSR"), halves, 0.9 * pi, k, 10'000) < 1.1);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_exact_magnifies_nothing_and_what_is_no_number_is_not_within_a_bound) {
-  BOOST_TEST(transient_growth(nysalt::word("R"), {1.0}, 2.0, 1e-30, 10'000) <= 1.0 + 1e-9);
-  BOOST_TEST(!(transient_growth(nysalt::word("RSR"), {0.5, std::nan(""), 0.5}, 2.0, 0.1, 100) <= 1e300));
+  BOOST_TEST(detail::transient_growth(nysalt::word("R"), {1.0}, 2.0, 1e-30, 10'000) <= 1.0 + 1e-9);
+  BOOST_TEST(
+      !(detail::transient_growth(nysalt::word("RSR"), {0.5, std::nan(""), 0.5}, 2.0, 0.1, 100) <= 1e300));
 }
 
 BOOST_AUTO_TEST_CASE(growth_is_that_of_the_eigenvalues_of_a_step) {
@@ -392,7 +394,7 @@ BOOST_AUTO_TEST_CASE(a_band_is_near_where_one_of_its_frequencies_is) {
 }
 
 BOOST_AUTO_TEST_CASE(in_words_it_says_which) {
-  const std::string text = in_words(*near(many_steps(64), {{49.0, 51.0}}, 0.118));
+  const std::string text = detail::in_words(*near(many_steps(64), {{49.0, 51.0}}, 0.118));
   for (const char* words : {"2 pi", "10 %", "49 to 51"})
     BOOST_TEST(text.find(words) != std::string::npos, text);
 }

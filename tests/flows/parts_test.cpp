@@ -347,7 +347,7 @@ BOOST_AUTO_TEST_CASE(cyclotron_verlet_is_symplectic_and_boris_keeps_volume) {
   constexpr double rounding = 6.0 * 100.0 * 100.0 * eps;
   BOOST_TEST(symplecticity_defect(trap, cyclotron_verlet(), 0.2, ion) <= rounding);
   BOOST_TEST(symplecticity_defect(trap, boris(), 0.2, ion) > 1e-3);
-  const double volume = determinant(jacobian(detail::step_map(trap, boris(), 0.2), ion));
+  const double volume = determinant(detail::jacobian(detail::step_map(trap, boris(), 0.2), ion));
   BOOST_TEST(std::abs(volume - 1.0) <= rounding);
 }
 

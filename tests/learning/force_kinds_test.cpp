@@ -61,7 +61,7 @@ const data_sets& pendulums() {
 double allowed(const flow_map_data& data, const Eigen::VectorXd& theta, double relative) {
   const metric measure(exact, data, coordinates::qp);
   const after_steps<> loss(two_stages, exact, data, state_error(measure));
-  const symmetric_eigen of_loss(hessian(objective_of(loss), theta));
+  const symmetric_eigen of_loss(hessian(detail::objective_of(loss), theta));
   const double jacobian = std::sqrt(0.5 * of_loss.values[1]);  // the Hessian is 2 J^T J and a little more
   return 2.0 * std::sqrt(loss.value(theta)) * 2.0 * jacobian * relative / of_loss.values[0];
 }

@@ -259,7 +259,7 @@ BOOST_AUTO_TEST_CASE(errors_are_withheld_where_single_trajectories_make_the_curv
                               .random_starts = 0});
     problem.over_data = std::make_shared<const sixty_blocks>(curvature_of_two);
     problem.over_held_out = problem.over_data;
-    problem.loss = objective_of(*problem.over_data);
+    problem.loss = detail::objective_of(*problem.over_data);
     problem.stages.clear();
     problem.one_step_before = {};
     problem.facts.trajectory_steps = problem.facts.loss_steps;

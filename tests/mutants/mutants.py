@@ -257,9 +257,9 @@ mutant(65, "O at the end of a step comes first, with the coefficients as they we
        ("return letters.with_letters(text + o);", "return letters.with_letters(MUTANT ? o + text : text + o);"))
 mutant(66, "the force of a run that is taken up again is lost", HEADERS + "ensemble_run.hpp",
        "core invariance programs",
-       ("for (T& number : *part) set_lane(number, k, *next_number++);",
+       ("for (T& number : *part) detail::set_lane(number, k, *next_number++);",
         "for (T& number : *part) {\n"
-        "          set_lane(number, k, MUTANT && part == &run.state.f ? 0.0 : *next_number);\n"
+        "          detail::set_lane(number, k, MUTANT && part == &run.state.f ? 0.0 : *next_number);\n"
         "          ++next_number;\n"
         "        }"))
 mutant(67, "before an observation the force is not kept that the first letter is taken back with",

@@ -17,7 +17,7 @@ template <field F, Scalar T, System S>
 vector<T, S::dimension> along(const S& system, const vector<T, S::dimension>& q,
                               const vector<T, S::dimension>& v) {
   detail::lifted_room<T, S::dimension> room(q.size());
-  auto g = make_vector<T>(system);
+  auto g = detail::make_vector<T>(system);
   detail::force_along<F, T>(system, q, v, g, room);
   return g;
 }
@@ -83,7 +83,7 @@ double off_springs(const springs<N>& system) {
     const T before = i > 0 ? q[i - 1] : T(0.0);
     const T behind = i + 1 < N ? q[i + 1] : T(0.0);
     const T difference = f[i] - (before - q[i] * 2.0 + behind);
-    for (int k = 0; k < default_lanes; ++k) {
+    for (int k = 0; k < pack<double>::lanes; ++k) {
       off = std::max({off, std::abs(lane(difference.value, k)), std::abs(lane(difference.derivative[0], k)),
                       std::abs(lane(difference.derivative[1], k))});
     }
@@ -107,7 +107,7 @@ template <Scalar T, class S>
 void check_by_hand(const S& system, const Eigen::VectorXd& q) {
   static_assert(HasForceDerivative<S, T> && !HasForceDerivative<automatic<S>, T>);
   draws random;
-  auto at = make_vector<T>(system);
+  auto at = detail::make_vector<T>(system);
   auto v = at;
   for (Eigen::Index i = 0; i < at.size(); ++i) {
     at[i] = T(q[i] + random.uniform(-0.02, 0.02));
@@ -214,7 +214,7 @@ phase_point<T, N> dressed(const phase_point<double, N>& x) {
 /// kick is p += c force(q), to the bit: then a run does not depend on where the word may use it.
 template <Scalar T, Scalar C, System S>
 bool kick_is_force(const S& system, const phase_point<T, S::dimension>& x, const C& c) {
-  auto f = make_vector<T>(system);
+  auto f = detail::make_vector<T>(system);
   force<T>(system, x.q, f);
   auto expected = x.p;
   for (Eigen::Index i = 0; i < f.size(); ++i) expected[i] += f[i] * c;
@@ -334,7 +334,7 @@ BOOST_AUTO_TEST_CASE(a_derivative_counts_what_is_called) {
   const auto evaluations = [](const auto& system) {
     using S = std::decay_t<decltype(system)>;
     const counted<S> watched(system);
-    auto q = make_vector<double>(system);
+    auto q = detail::make_vector<double>(system);
     q.setConstant(0.3);
     along<field::whole, double>(watched, q, q);
     return watched.evaluations;

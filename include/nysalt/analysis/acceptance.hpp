@@ -114,12 +114,16 @@ double acceptance_at(double energy_error);
 /// unless 0 < acceptance < 1.
 double energy_error_at(double acceptance);
 
+namespace detail {
+
 /// The mean of (H' - H)/kT over proposals of random duration on oscillators of these frequencies, from their
 /// canonical distribution: half the sum of energy_error_on_oscillator() at h omega, as sin^2 is 1/2 on
 /// average. It is exact as trajectories become long. Infinite where the method is not stable on one of them.
 /// Throws std::invalid_argument if the method is not symmetric, and what energy_error_on_oscillator() throws.
 /// Cost: one energy_error_on_oscillator() for each frequency.
 double gaussian_energy_error(const method& method, std::span<const double> frequencies, double step);
+
+}  // namespace detail
 
 /// The step up to which proposals are accepted with this probability: from `from` it grows by 2 % at a time
 /// until the acceptance falls below it, or shrinks until it does not, and what lies between is halved. Where

@@ -25,7 +25,7 @@ namespace nysalt {
 /// is kT, by equipartition. In units of energy. T is double or a pack.
 template <class T, SystemOver<T> S>
 T kinetic_temperature(const S& system, const phase_point<T, S::dimension>& x) {
-  auto v = make_vector<T>(system);
+  auto v = detail::make_vector<T>(system);
   velocity<T>(system, x.p, v);
   T sum(0.0);
   for (Eigen::Index i = 0; i < x.size(); ++i) sum += x.p[i] * v[i];
@@ -38,7 +38,7 @@ T kinetic_temperature(const S& system, const phase_point<T, S::dimension>& x) {
 /// Cost: one force.
 template <class T, SystemOver<T> S>
 T half_step_kinetic_temperature(const S& system, double step, const phase_point<T, S::dimension>& x) {
-  auto f = make_vector<T>(system);
+  auto f = detail::make_vector<T>(system);
   force<T>(system, x.q, f);
   phase_point<T, S::dimension> between = x;
   for (Eigen::Index i = 0; i < x.size(); ++i) between.p[i] += f[i] * (0.5 * step);
@@ -274,7 +274,7 @@ gathered_statistics ensemble_statistics(const Stepper& stepper, const E& ensembl
       }
     };
     const std::int64_t samples = detail::samples_of_trajectory(options, wanted);
-    const state start = sound_starts<T>(stepper.system(), ensemble, options.seed, options.first, 1);
+    const state start = detail::sound_starts<T>(stepper.system(), ensemble, options.seed, options.first, 1);
     // Any number near the mean, the same for all.
     const double seen_first = lane(value_in_lanes<T>(observable, start), 0);
     const double centre = std::isfinite(seen_first) ? seen_first : 0.0;

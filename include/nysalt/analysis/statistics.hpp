@@ -204,6 +204,8 @@ double sampling_floor(std::span<const histogram> ensembles);
 
 // Weights of the samples of a trajectory in a mean over time.
 
+namespace detail {
+
 /// Weights of samples at t_i = i h, i = 0 .. n: all from the first on alike, or the weights of the mean over
 /// [0, T] by the trapezoidal rule, T within the last step: what is sampled is linear between two samples, and
 /// its part up to T counts. Then methods of other steps have means over the very same interval of time. For
@@ -236,6 +238,8 @@ class sample_weights {
   bool is_alike_ = true;
   double last_ = 1.0;
 };
+
+}  // namespace detail
 
 // Integrated autocorrelation time: the number of samples that count for one.
 
@@ -379,6 +383,13 @@ class autocovariance_along {
 /// one group after the other; from G groups a standard error is itself known to 1/sqrt(2 (G - 1)) of it.
 class autocovariance {
  public:
+  /// A distance of two autocovariances with a standard error.
+  struct distance {
+    double rms;             ///< root mean square difference over the lags 1..L
+    double standard_error;  ///< standard error of rms
+    double floor;           ///< expected rms of sampling error only
+  };
+
   /// Autocovariance with one term a group of independent trajectories, all with one centre; `interval` is the
   /// time between samples. Groups without a trajectory do not count. Throws std::invalid_argument if there is
   /// no group or their lags differ.
@@ -413,18 +424,11 @@ class autocovariance {
 
 // The distance between two autocovariances.
 
-/// A distance of two autocovariances with a standard error.
-struct acf_distance {
-  double rms;             ///< root mean square difference over the lags 1..L
-  double standard_error;  ///< standard error of rms
-  double floor;           ///< expected rms of sampling error only
-};
-
 /// rms = sqrt(1/L sum_{k=1..L} (rho_a(k) - rho_b(k))^2) of the normalised autocovariances, with the standard
 /// error of independent ensembles; floor^2 = 1/L sum_k (error_a(k)^2 + error_b(k)^2), the mean of rms^2 if
 /// both have one distribution. If a and b share starts or noise, error and floor are larger than needed.
 /// Throws std::invalid_argument if lags or intervals (to 1e-9 relative, as steps are typed in decimals)
 /// differ, and like autocovariance::normalised.
-acf_distance acf_error(const autocovariance& a, const autocovariance& b);
+autocovariance::distance acf_error(const autocovariance& a, const autocovariance& b);
 
 }  // namespace nysalt

@@ -84,23 +84,23 @@ inline constexpr std::array shown_quantiles{0.05, 0.25, 0.5, 0.75, 0.95};
 
 }  // namespace detail
 
-/// Spread of the errors of single trajectories about the one number that is made of them: each is the error
-/// that this trajectory would have without the others, in the unit of the whole.
-struct distribution_of_errors {
-  tail largest{};     ///< largest score; the error is the mean of the scores
-  estimate median{};  ///< median with its standard error
-  std::array<double, detail::shown_quantiles.size()> quantiles{};  ///< scores at shown_quantiles
-};
-
 /// Error and cost of a method.
 struct method_error {
+  /// Spread of the errors of single trajectories about the one number that is made of them: each is the error
+  /// that this trajectory would have without the others, in the unit of the whole.
+  struct distribution {
+    tail largest{};     ///< largest score; the error is the mean of the scores
+    estimate median{};  ///< median with its standard error
+    std::array<double, detail::shown_quantiles.size()> quantiles{};  ///< scores at shown_quantiles
+  };
+
   estimate error;                                ///< mean over the trajectories that did not diverge
   std::int64_t diverged = 0;                     ///< number of trajectories that diverged
   std::vector<diverged_trajectory> diverged_at;  ///< steps of divergence, in the order of the trajectories
   double evaluations_per_time = 0.0;             ///< force evaluations per unit time, start-up included
-  std::vector<double> of_each{};    ///< contribution of each trajectory to the error; NaN if it diverged
-  std::vector<double> own{};        ///< the error of each by itself, in the unit of the whole; NaN likewise
-  distribution_of_errors spread{};  ///< spread of the trajectories that did not diverge
+  std::vector<double> of_each{};  ///< contribution of each trajectory to the error; NaN if it diverged
+  std::vector<double> own{};      ///< the error of each by itself, in the unit of the whole; NaN likewise
+  distribution spread{};          ///< spread of the trajectories that did not diverge
 };
 
 // Errors of methods, and of their reference, along many trajectories by one measure.

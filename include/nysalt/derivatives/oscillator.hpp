@@ -81,10 +81,14 @@ inline oscillator_matrix<double> matrix_on_oscillator(const nysalt::word& word,
 
 // trace/2 of a word on the harmonic oscillator, as a polynomial.
 
+namespace detail {
+
 /// trace/2 of step_on_oscillator() as a polynomial in k, low <= k <= high. The step is stable where it is
 /// within +-1.
 detail::bernstein_polynomial half_trace(const nysalt::word& word, const std::vector<double>& coefficients,
                                         double theta, double low, double high);
+
+}  // namespace detail
 
 // By how much a symmetric word changes the energy of a harmonic oscillator, exactly.
 
@@ -98,8 +102,6 @@ struct energy_defect {
 energy_defect energy_defect_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
                                           double z);
 
-}  // namespace detail
-
 /// Energy error rho of a symmetric word at z = h omega. With the matrix [[A, B], [C, A]] of a step in (omega
 /// q, p),
 ///   rho = (B + C)^2 / (2 (1 - A^2)):
@@ -110,7 +112,11 @@ energy_defect energy_defect_on_oscillator(const nysalt::word& word, const std::v
 double energy_error_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
                                   double z);
 
+}  // namespace detail
+
 // Distance of the steps of a word from half turns of a stiff oscillation.
+
+namespace detail {
 
 /// A step of a word turns a stiff oscillation by nearly k half turns, and small nonlinear errors add up from
 /// step to step.
@@ -118,8 +124,6 @@ struct resonance {
   frequency_band band;  ///< frequency band that holds the resonant frequency
   int half_turns;       ///< k
 };
-
-namespace detail {
 
 /// Number of steps from which a run is long: in shorter ones nothing was seen of a resonance that is as far
 /// as resonance_distance or a few times nearer.
@@ -136,10 +140,10 @@ inline constexpr double resonance_distance = 0.1;
 std::optional<resonance> near_resonance(const nysalt::word& word, const std::vector<double>& coefficients,
                                         const std::vector<frequency_band>& bands, double step);
 
-}  // namespace detail
-
 /// "a step turns the frequencies 49 to 51 by nearly 2 pi ..."
 std::string in_words(const resonance& near);
+
+}  // namespace detail
 
 // Growth of two coupled modes under a word with rotations.
 
@@ -158,6 +162,8 @@ double growth_of_pair(const nysalt::word& word, const std::vector<double>& coeff
 
 // Transient growth: how much a word with rotations magnifies an oscillation, by resonances above all.
 
+namespace detail {
+
 /// Largest |M^n| of n = 1 .. steps steps on q'' = -(theta^2 + k) q, k > 0, in the norm of its energy, which
 /// the motion itself conserves; see step_on_oscillator(). Stable or not is too coarse a question where words
 /// rotate: at h omega = j pi the impulse method has the trace 2 (-1)^j for every soft force, and grows
@@ -166,6 +172,8 @@ double growth_of_pair(const nysalt::word& word, const std::vector<double>& coeff
 /// whichever is first; cosh and sinh where it is unstable. NaN where a coefficient is. Cost: a step.
 double transient_growth(const nysalt::word& word, const std::vector<double>& coefficients, double theta,
                         double k, std::int64_t steps);
+
+}  // namespace detail
 
 // Stability of a linear symplectic step, and how near it is to a loss of stability.
 

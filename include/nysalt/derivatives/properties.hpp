@@ -12,6 +12,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Exact Jacobian of a map of phase space at x, rows and columns ordered (q, p). The map takes a
 /// phase_point<dual<double, 1>, N>& and changes it in place. Cost: 2 N evaluations of the map.
 template <int N>
@@ -30,8 +32,6 @@ Eigen::MatrixXd jacobian(const auto& map, const phase_point<double, N>& x) {
   }
   return result;
 }
-
-namespace detail {
 
 /// One plain step of a method as a map of phase space, over any scalar.
 template <System S>
@@ -57,7 +57,7 @@ inline Eigen::MatrixXd symplectic_form(Eigen::Index n) {
 template <int N>
 double symplecticity_defect(const auto& map, const phase_point<double, N>& x) {
   const Eigen::MatrixXd omega = detail::symplectic_form(x.size());
-  const Eigen::MatrixXd j = jacobian(map, x);
+  const Eigen::MatrixXd j = detail::jacobian(map, x);
   return (j.transpose() * omega * j - omega).cwiseAbs().maxCoeff();
 }
 

@@ -115,6 +115,8 @@ stiffness_range hessian_spectrum(const model& system, const phase_points& states
 
 // All frequencies of the linearised motion at a state, for any separable Hamiltonian.
 
+namespace detail {
+
 /// Frequencies of the linearised motion at (q, p), from low to high: square roots of the eigenvalues of
 /// K''(p) V''(q), 0 where negative. Empty where K''(p) is not positive semidefinite. Throws
 /// std::invalid_argument if a derivative is not finite, and std::logic_error if grad K cannot be
@@ -143,17 +145,15 @@ struct frequencies_along {
   }
 };
 
-namespace detail {
-
 /// Above this number of degrees of freedom only the highest frequency of a state is computed.
 inline constexpr Eigen::Index most_for_all_frequencies = 64;
-
-}  // namespace detail
 
 /// All frequencies of each state of a system of at most most_for_all_frequencies degrees of freedom; of a
 /// larger one with a quadratic kinetic energy the highest, known to 1 %; else none. Throws what
 /// frequencies_at() and hessian_spectrum() do. Cost: for each state one frequencies_at(), or 8 to 40
 /// directional derivatives.
 frequencies_along frequencies_of_states(const model& system, const phase_points& states);
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -30,10 +30,6 @@ struct burn_in_options {
   int threads = 1;                       ///< threads for the pilots; changes no bit
 };
 
-/// The observed quantities, all in units of kT: the kinetic temperature between two steps, the virial
-/// -sum_i q_i f_i / N, whose mean is 1 where the motion is confined, V/N, and the energy of the slowest mode
-/// where it is known, else 0.
-enum class watched : std::uint8_t { kinetic, virial, potential, slowest };
 namespace detail {
 
 inline constexpr std::size_t watched_numbers = 4;  ///< number of watched observables
@@ -47,17 +43,22 @@ using of_watched = std::array<T, watched_numbers>;
 
 }  // namespace detail
 
-/// A mean over independent chains whose expectation is 0, and its standard error.
-struct discrepancy {
-  double mean = 0.0;            ///< mean over chains
-  double standard_error = 0.0;  ///< standard error of that mean
-  /// Whether the mean is significant: 4.5 standard errors, which chance exceeds once in 150'000 times. One
-  /// whose numbers have overflowed is.
-  bool shows() const { return !(std::abs(mean) <= 4.5 * standard_error && std::isfinite(standard_error)); }
-};
-
 /// Length and parameters of a burn-in, and what the pilots showed.
 struct burn_in_report {
+  /// The observed quantities, all in units of kT: the kinetic temperature between two steps, the virial
+  /// -sum_i q_i f_i / N, whose mean is 1 where the motion is confined, V/N, and the energy of the slowest
+  /// mode where it is known, else 0.
+  enum class watched : std::uint8_t { kinetic, virial, potential, slowest };
+
+  /// A mean over independent chains whose expectation is 0, and its standard error.
+  struct discrepancy {
+    double mean = 0.0;            ///< mean over chains
+    double standard_error = 0.0;  ///< standard error of that mean
+    /// Whether the mean is significant: 4.5 standard errors, which chance exceeds once in 150'000 times. One
+    /// whose numbers have overflowed is.
+    bool shows() const { return !(std::abs(mean) <= 4.5 * standard_error && std::isfinite(standard_error)); }
+  };
+
   double friction = 0.0;   ///< friction of the chains; the distribution of q does not depend on it
   double step = 0.0;       ///< h of BAOAB
   std::int64_t steps = 0;  ///< steps of every chain

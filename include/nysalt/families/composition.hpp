@@ -89,7 +89,7 @@ struct symmetric_composition : composition<(static_cast<int>(Length) - 3) / 2> {
 
   template <Scalar C>
   static std::array<C, Length> coefficients(const std::array<C, free>& theta) {
-    return palindrome<Length, C>(theta);
+    return detail::palindrome<Length, C>(theta);
   }
 
   /// The parameters that a classical method of this word has.

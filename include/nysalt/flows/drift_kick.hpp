@@ -42,7 +42,7 @@ struct drift {
       }
       for (Eigen::Index i = 0; i < n; ++i) x.q[i] += x.p[i] * c;
     } else if constexpr (HasVelocity<S, double> || HasKineticEnergy<S, double>) {
-      auto v = make_vector<T>(system);
+      auto v = detail::make_vector<T>(system);
       velocity<T>(system, x.p, v);
       for (Eigen::Index i = 0; i < n; ++i) x.q[i] += v[i] * c;
     } else if constexpr (HasInverseMass<S>) {

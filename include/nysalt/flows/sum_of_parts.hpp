@@ -63,7 +63,7 @@ class sum_of_parts {
   void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     nysalt::force<T>(part<0>(), q, f);
     if constexpr (parts > 1) {
-      auto of_part = make_vector<T>(part<0>());
+      auto of_part = detail::make_vector<T>(part<0>());
       const auto add = [&](const auto& one) {
         nysalt::force<T>(one, q, of_part);
         for (Eigen::Index i = 0; i < f.size(); ++i) f[i] += of_part[i];

@@ -26,21 +26,6 @@ struct after_steps_options {
   int threads = 1;            ///< changes no bit
 };
 
-/// From what a loss over data is made. The loss copies the data, and refers to the metric.
-struct loss_inputs {
-  const nysalt::family& family;  ///< family to fit
-  const model& system;           ///< system that the data are of
-  const flow_map_data& data;     ///< data to sum over
-  const metric& measure;         ///< weights of an error of the state
-  after_steps_options how;       ///< steps after which an error counts
-  bool in_lanes;                 ///< whether windows are in lanes
-};
-
-/// The criterion that is least for the best of several minima: the loss on held-out data; the state's error
-/// at the ends of held-out trajectories; or the loss on the data that were learned from, so that held-out
-/// data choose nothing.
-enum class judge_of_minima { held_out_loss, held_out_end, training_loss };
-
 namespace detail {
 
 /// The error after K steps, from four states of each trajectory first, then from each.
@@ -50,6 +35,21 @@ std::vector<after_steps_options> after_each_step(int K, int shortest);
 
 /// A kind of loss: what it needs, how it is made, and how it is judged.
 struct loss_kind {
+  /// From what a loss over data is made. The loss copies the data, and refers to the metric.
+  struct inputs {
+    const nysalt::family& family;  ///< family to fit
+    const model& system;           ///< system that the data are of
+    const flow_map_data& data;     ///< data to sum over
+    const metric& measure;         ///< weights of an error of the state
+    after_steps_options how;       ///< steps after which an error counts
+    bool in_lanes;                 ///< whether windows are in lanes
+  };
+
+  /// The criterion that is least for the best of several minima: the loss on held-out data; the state's error
+  /// at the ends of held-out trajectories; or the loss on the data that were learned from, so that held-out
+  /// data choose nothing.
+  enum class judge_of_minima { held_out_loss, held_out_end, training_loss };
+
   std::string name;          ///< name, as in "state:K"
   bool counts_steps = true;  ///< the number K of steps follows the name
   bool needs_modes = false;  ///< whether the loss needs the modes of the system
@@ -64,7 +64,7 @@ struct loss_kind {
   std::vector<after_steps_options> (*stages)(int K, int shortest) = detail::after_each_step;
   /// The loss over data; where the loss itself asks none, the estimate of what was learned from held-out
   /// data.
-  std::function<std::unique_ptr<const loss_on_data>(const loss_inputs& from)> over_data;
+  std::function<std::unique_ptr<const loss_on_data>(const inputs& from)> over_data;
   /// The loss of a step, if it asks no data; else nullptr.
   objective (*without_data)(const model& system, const nysalt::family& family, double step) = nullptr;
 

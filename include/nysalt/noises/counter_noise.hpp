@@ -305,6 +305,10 @@ template <int Trajectories, class T>
   }
 }
 
+/// Numbers of one trajectory, or of several in lanes.
+template <class T>
+concept DoubleOrPack = std::same_as<T, double> || is_pack<T>;
+
 }  // namespace detail
 
 /// Independent standard normal numbers, a pure function of seed and counter, independent of T, of the number
@@ -314,8 +318,7 @@ template <int Trajectories, class T>
 ///   trajectory mod 2^32,  trajectory div 2^32 + 2^16 (step div 2^32),  step mod 2^32,  slot + 2^24 purpose.
 /// T is double or pack<double, W>. Least cost a number: pack<double>, or double if there are many. Throws
 /// std::invalid_argument if trajectory, step or slot are out of range.
-template <class T>
-  requires std::same_as<T, double> || detail::is_pack<T>
+template <detail::DoubleOrPack T>
 [[gnu::noinline]] void standard_normals(std::uint64_t seed, const noise_counter& first, std::span<T> out) {
   using detail::words;
   constexpr int lanes = lanes_in<T>;

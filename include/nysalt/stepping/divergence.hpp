@@ -22,6 +22,8 @@ struct diverged_trajectory {
   std::int64_t step = 0;        ///< the first bad one
 };
 
+namespace detail {
+
 /// Detects divergence: not finite, or |H - H_0| > 1e3 max(|H_0|, K_0, |q grad V|, N kT) with the values at
 /// the start, energies that do not vanish together where H_0 does by chance. Without an energy only the
 /// first, and likewise where these are all 0, and in a bath that heats without end (noise, but no friction).
@@ -90,5 +92,7 @@ class divergence {
   T most_{};
   T last_{};
 };
+
+}  // namespace detail
 
 }  // namespace nysalt

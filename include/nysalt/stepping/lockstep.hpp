@@ -18,6 +18,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// What is measured of trajectories side by side in the lanes of T:
 /// width()                how many numbers are read of a state
 /// read(x, numbers)       writes them to a span; of lanes that are lost too
@@ -30,8 +32,6 @@ concept Measure = requires(M& measure, const phase_point<T, N>& x, std::span<T> 
   measure.read(x, numbers);
   measure.see(n, read, live);
 };
-
-namespace detail {
 
 /// The trajectories in the lanes of T, all at the same step. Each has the bits of a run of its own: one
 /// that diverges drops out, and the others go on.

@@ -97,7 +97,7 @@ double energy_error_at(double acceptance) {
   return root * root;
 }
 
-double gaussian_energy_error(const method& method, std::span<const double> frequencies, double step) {
+double detail::gaussian_energy_error(const method& method, std::span<const double> frequencies, double step) {
   if (!method.symmetric) {
     throw std::invalid_argument(
         sentence("gaussian_energy_error: the method must be reversible, got {}; take a symmetric method",
@@ -106,7 +106,7 @@ double gaussian_energy_error(const method& method, std::span<const double> frequ
   const auto coefficients = method.coefficients();
   double sum = 0.0;
   for (const double omega : frequencies) {
-    sum += 0.5 * energy_error_on_oscillator(method.letters(), coefficients, step * omega);
+    sum += 0.5 * detail::energy_error_on_oscillator(method.letters(), coefficients, step * omega);
     if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();
   }
   return sum;
@@ -119,7 +119,9 @@ double gaussian_step(const method& method, std::span<const double> frequencies, 
   if (!(fastest > 0.0)) {
     throw std::invalid_argument("gaussian_step: a frequency must be positive, got none");
   }
-  const auto holds = [&](double step) { return gaussian_energy_error(method, frequencies, step) <= most; };
+  const auto holds = [&](double step) {
+    return detail::gaussian_energy_error(method, frequencies, step) <= most;
+  };
   constexpr double growth = 1.02;
   const double least = 0.01 / fastest;
   double low = std::max(least, from);

@@ -175,7 +175,7 @@ void histogram::require_bins_of(const histogram& other) const {
       bins_.count, bins_.low, bins_.high, other.bins_.count, other.bins_.low, other.bins_.high));
 }
 
-sample_weights::sample_weights(double step, std::int64_t samples, double horizon)
+detail::sample_weights::sample_weights(double step, std::int64_t samples, double horizon)
     : samples_(samples),
       is_alike_(false),
       last_(horizon / std::abs(step) - static_cast<double>(samples - 1)) {
@@ -266,7 +266,7 @@ std::vector<double> autocovariance::normalised(const detail::autocovariance_sums
   return rho;
 }
 
-acf_distance acf_error(const autocovariance& a, const autocovariance& b) {
+autocovariance::distance acf_error(const autocovariance& a, const autocovariance& b) {
   if (a.lags() != b.lags() || std::abs(a.interval() - b.interval()) > 1e-9 * std::abs(a.interval())) {
     throw std::invalid_argument(
         fmt::format("acf_error: both autocovariances must have the same lags, got {} lags of {} and {} "

@@ -30,7 +30,7 @@ void detail::require_room(const trajectory_options& options, std::size_t methods
         options.trajectories, options.steps));
   }
   const std::size_t references = options.perturbation ? 3 : 2;
-  const double intervals = static_cast<double>(methods + references) * options.threads * default_lanes;
+  const double intervals = static_cast<double>(methods + references) * options.threads * pack<double>::lanes;
   const double numbers = intervals * static_cast<double>(steps_between_checks) * static_cast<double>(width);
   const std::size_t scored = methods + (options.null_model ? 1 : 0);
   const double scores = static_cast<double>(options.trajectories) * static_cast<double>(scored * measures);

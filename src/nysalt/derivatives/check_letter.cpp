@@ -212,7 +212,8 @@ letter_check check_letter(const model& system, char letter, const phase_points& 
   return judge_letter(letters.facts(0), trials);
 }
 
-void require_sound_letters(const model& system, const word& letters, const phase_points& points, double h) {
+void detail::require_sound_letters(const model& system, const word& letters, const phase_points& points,
+                                   double h) {
   for (const letter_facts& own : letters.own()) {
     const letter_check found = check_letter(system, own.letter, points, h);
     if (!found.passed()) throw std::invalid_argument(found.report());

@@ -136,7 +136,7 @@ class trace_of_word {
         .half_trace();
   }
   detail::bernstein_polynomial on(double low, double high) const {
-    return half_trace(word_, c_, 0.0, low, high);
+    return detail::half_trace(word_, c_, 0.0, low, high);
   }
 
   /// Relative, of sums without cancellation: each letter rounds twice, and is passed by two columns and both

@@ -16,8 +16,9 @@
 
 namespace nysalt {
 
-detail::bernstein_polynomial half_trace(const nysalt::word& word, const std::vector<double>& coefficients,
-                                        double theta, double low, double high) {
+detail::bernstein_polynomial detail::half_trace(const nysalt::word& word,
+                                                const std::vector<double>& coefficients, double theta,
+                                                double low, double high) {
   const auto times_k = [](const detail::bernstein_polynomial& x) { return x.times_x(); };
   const detail::bernstein_polynomial one(low, high, 1.0);
   const detail::bernstein_polynomial zero(low, high, 0.0);
@@ -78,17 +79,18 @@ energy_defect energy_defect_on_oscillator(const nysalt::word& word, const std::v
 
 }  // namespace detail
 
-double energy_error_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
-                                  double z) {
+double detail::energy_error_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
+                                          double z) {
   const turn_of_step turn = turn_of_plain(word, coefficients, z);
   const double rotation = turn.rotation();
   if (!(rotation > 0.0)) return std::numeric_limits<double>::infinity();
   return 0.5 * turn.defect * turn.defect / rotation;
 }
 
-std::optional<resonance> detail::near_resonance(const nysalt::word& word,
-                                                const std::vector<double>& coefficients,
-                                                const std::vector<frequency_band>& bands, double step) {
+std::optional<detail::resonance> detail::near_resonance(const nysalt::word& word,
+                                                        const std::vector<double>& coefficients,
+                                                        const std::vector<frequency_band>& bands,
+                                                        double step) {
   if (word.rotates()) return std::nullopt;
   constexpr int samples = 16;
   for (const auto& band : bands) {
@@ -100,14 +102,14 @@ std::optional<resonance> detail::near_resonance(const nysalt::word& word,
       if (!(std::abs(z - half_turns * std::numbers::pi) < width)) continue;
       const double trace = std::abs(detail::matrix_on_oscillator(word, coefficients, z * z).half_trace());
       if (trace > std::cos(std::min(width, 0.5 * std::numbers::pi))) {
-        return resonance{band, static_cast<int>(half_turns)};
+        return detail::resonance{band, static_cast<int>(half_turns)};
       }
     }
   }
   return std::nullopt;
 }
 
-std::string in_words(const resonance& near) {
+std::string detail::in_words(const detail::resonance& near) {
   return fmt::format(
       "a step turns oscillations of the frequencies {:.4g} to {:.4g} by {}pi, to within {:g} %: in runs of "
       "more "
@@ -158,8 +160,8 @@ double spectral_norm(const Matrix& m) {
 
 }  // namespace
 
-double transient_growth(const nysalt::word& word, const std::vector<double>& coefficients, double theta,
-                        double k, std::int64_t steps) {
+double detail::transient_growth(const nysalt::word& word, const std::vector<double>& coefficients,
+                                double theta, double k, std::int64_t steps) {
   const auto m = detail::matrix_on_oscillator(word, coefficients, k, theta);
   // M - trace/2 = (a, b; c, -a) in (omega q, p); its determinant is sin^2 t.
   const double omega = std::sqrt(theta * theta + k);

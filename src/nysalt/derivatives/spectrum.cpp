@@ -244,13 +244,14 @@ std::vector<double> frequencies_of(const model& system, detail::force_jacobian& 
 
 }  // namespace
 
-std::vector<double> frequencies_at(const model& system, const phase_point<double, Eigen::Dynamic>& state) {
+std::vector<double> detail::frequencies_at(const model& system,
+                                           const phase_point<double, Eigen::Dynamic>& state) {
   detail::force_jacobian jacobian(system, std::vector{state});
   return frequencies_of(system, jacobian, state);
 }
 
-frequencies_along frequencies_of_states(const model& system, const phase_points& states) {
-  frequencies_along result;
+detail::frequencies_along detail::frequencies_of_states(const model& system, const phase_points& states) {
+  detail::frequencies_along result;
   const auto& facts = system.facts();
   if (facts.size <= detail::most_for_all_frequencies && facts.has_differentiable_velocity) {
     result.are_complete = true;

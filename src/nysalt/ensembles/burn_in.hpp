@@ -31,7 +31,7 @@
 namespace nysalt {
 
 /// Mean over independent numbers and its standard error.
-discrepancy mean_over_chains(const std::vector<double>& x);
+burn_in_report::discrepancy mean_over_chains(const std::vector<double>& x);
 
 /// Chains over an interval of time.
 struct watched_interval {
@@ -49,13 +49,15 @@ struct watched_interval {
   /// Mean potential energy of the half of the chains that have gone farther, less that of the other half.
   /// Where the motion is not confined it is 0 if the potential is the same wherever chains go, as that of
   /// angles and of a centre of mass. Where chains leave the potential behind there is no Gibbs distribution.
-  discrepancy potential_of_the_far() const;
+  burn_in_report::discrepancy potential_of_the_far() const;
   /// Largest share of chains, over all coordinates, that met no force there while others did. A random walk
   /// along a half-line does not return within an interval that doubles its time with the probability
   /// 2/pi arcsin(1/sqrt(2)) = 1/2; along a direction that repeats itself all chains meet the same forces.
   double share_without_force() const;
   /// Whether number i is meaningful: the virial is where the motion is confined.
-  bool counts(std::size_t i) const { return i != static_cast<std::size_t>(watched::virial) || confined(); }
+  bool counts(std::size_t i) const {
+    return i != static_cast<std::size_t>(burn_in_report::watched::virial) || confined();
+  }
 
   /// Whether the bath still cools what began at higher energies, all chains alike, which tau() does not see:
   /// the kinetic temperature, or the virial, is above that of the bath, and falls. Numbers that have
@@ -166,7 +168,7 @@ class burn_in_pilot {
       : threads_(options.threads), count_(count), slowest_(&slowest) {
     for (int first = 0; first < count; first += width) {
       const int here = std::min(width, count - first);
-      const state start = sound_starts<T>(base, from, options.seed, first, here);
+      const state start = detail::sound_starts<T>(base, from, options.seed, first, here);
       const auto own =
           std::make_shared<const burn_in_chains>(base, temperature, friction, step, options.seed);
       blocks_.push_back({own, first, here, start, own->open(start, first_noise + first, here)});
@@ -204,7 +206,7 @@ class burn_in_pilot {
   void read(const burn_in_chains& chains, const state& x, std::span<T> out,
             vector<T, Eigen::Dynamic>& squares_of_forces) const {
     const model& system = chains.system();
-    auto f = make_vector<T>(system);
+    auto f = detail::make_vector<T>(system);
     auto p = x.p;
     force<T>(system, x.q, f);
     T virial(0.0);
@@ -232,7 +234,7 @@ class burn_in_pilot {
 
   void follow(block& here, std::int64_t end, std::int64_t every, watched_interval& result) {
     detail::of_watched<T> begin;
-    sums_over_time sums{*this, *here.chains, make_vector<T>(here.chains->system())};
+    sums_over_time sums{*this, *here.chains, detail::make_vector<T>(here.chains->system())};
     sums.read(here.run.synchronous(), begin);
     for (T& square : sums.of_forces) square = T(0.0);
     here.run.go_on(end, every, sums);
@@ -287,7 +289,7 @@ class burn_in_pilot {
 /// frequency: then the slowest motion is none of them. Cost: that of modes().
 inline Eigen::VectorXd slowest_mode(const model& system) {
   if (!has_modes(system)) return {};
-  const auto modes = modal_coordinates::of(system);
+  const auto modes = detail::modal_coordinates::of(system);
   const auto omega = std::ranges::min_element(modes->frequencies());
   if (!(*omega > 0.0)) return {};
   const auto slowest = omega - modes->frequencies().begin();
@@ -308,7 +310,7 @@ void require_burn_in(const burn_in_options& options);
 /// others, or no chain met a force.
 void refuse_escape(const watched_interval& later, const model& system);
 /// Throws std::runtime_error where a discrepancy of number i shows; `what` says what it is.
-void refuse_discrepancy(const discrepancy& found, std::size_t i, const char* what,
+void refuse_discrepancy(const burn_in_report::discrepancy& found, std::size_t i, const char* what,
                         const burn_in_report& report);
 
 }  // namespace detail
@@ -404,14 +406,14 @@ class burn_in_search {
       report.confined = coarse.confined() && fine.confined();
       bool sound = true;
       for (std::size_t i = 0; i < detail::watched_numbers; ++i) {
-        const discrepancy a = mean_over_chains(coarse.mean[i]);
-        const discrepancy b = mean_over_chains(fine.mean[i]);
+        const burn_in_report::discrepancy a = mean_over_chains(coarse.mean[i]);
+        const burn_in_report::discrepancy b = mean_over_chains(fine.mean[i]);
         report.bias[i] = {a.mean - b.mean, std::hypot(a.standard_error, b.standard_error)};
-        if (i == static_cast<std::size_t>(watched::potential))
+        if (i == static_cast<std::size_t>(burn_in_report::watched::potential))
           report.bias[i].mean +=
               (coarse.zero - fine.zero) / (temperature_ * static_cast<double>(size(*base_)));
         // The momenta of the chains are not used.
-        if (i != static_cast<std::size_t>(watched::kinetic) && counts(report, i))
+        if (i != static_cast<std::size_t>(burn_in_report::watched::kinetic) && counts(report, i))
           sound = sound && !report.bias[i].shows();
       }
       if (sound) return true;
@@ -435,7 +437,7 @@ class burn_in_search {
   }
 
   static bool counts(const burn_in_report& report, std::size_t i) {
-    return i != static_cast<std::size_t>(watched::virial) || report.confined;
+    return i != static_cast<std::size_t>(burn_in_report::watched::virial) || report.confined;
   }
 
   /// Fresh pilots at the end of the burn-in against equipartition, and against themselves later.
@@ -447,7 +449,7 @@ class burn_in_search {
       std::vector<double> difference = later.begin[i];
       for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= later.mean[i][k];
       report.to_forget[i] = mean_over_chains(difference);
-      if (i < static_cast<std::size_t>(watched::potential)) {
+      if (i < static_cast<std::size_t>(burn_in_report::watched::potential)) {
         report.excess[i] = mean_over_chains(later.begin[i]);
         report.excess[i].mean -= 1.0;
       }

@@ -21,7 +21,7 @@ std::vector<state> starts_made_in_lanes(const model& system, const initial_state
     for (std::int64_t n = 0; n < most; n += lanes_in<T>) {
       const auto count = static_cast<int>(std::min<std::int64_t>(lanes_in<T>, most - n));
       try {
-        const auto block = sound_starts<T>(system, ensemble, seed, first + n, count);
+        const auto block = detail::sound_starts<T>(system, ensemble, seed, first + n, count);
         for (int k = 0; k < count; ++k) made.push_back(lane(block, k));
       } catch (const std::exception&) {
         if (n == 0) throw;

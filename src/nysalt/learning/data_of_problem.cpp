@@ -353,7 +353,7 @@ std::vector<std::size_t> stiffest_pairs(const model& system, const flow_map_data
   {
     const auto motion = starts_of(data, size(system), detail::spread_pairs(data.all_pairs(), most));
     detail::force_jacobian jacobian(system, motion);
-    auto v = make_vector<double>(system);
+    auto v = detail::make_vector<double>(system);
     std::mt19937_64 bits{1};
     auto chance = v;
     for (double& x : chance) x = detail::uniform_by_bits(bits()) - 0.5;

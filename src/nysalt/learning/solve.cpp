@@ -49,7 +49,7 @@ method learned_method(const learning_problem& problem, const Eigen::VectorXd& th
           family.letters,
           family.coefficients(theta),
           {family.order, family.symmetric, family.requires_quadratic_kinetic},
-          method_validity{problem.data.step, problem.data.system, kind_of(problem.system),
+          method_validity{problem.data.step, problem.data.system, detail::kind_of(problem.system),
                           is_of_data ? problem.data.energies : std::nullopt}};
 }
 

@@ -167,8 +167,9 @@ class after_steps : public loss_on_data {
         }
       }
       result[trajectory] = sum * weight_;
-      const std::int64_t of_each = is_black_box(watched) ? watched.calls() / std::ssize(part.entries)
-                                                         : std::ssize(steppers) * evaluations_of_window;
+      const std::int64_t of_each = detail::is_black_box(watched)
+                                       ? watched.calls() / std::ssize(part.entries)
+                                       : std::ssize(steppers) * evaluations_of_window;
       evaluations_ += of_each * static_cast<std::int64_t>(part.end - part.begin);
     };
     const auto pass = [&] { for_each_trajectory(std::ssize(*parts_), options_.threads, visit); };
@@ -197,7 +198,7 @@ class after_steps : public loss_on_data {
   }
 
   static flow_state<C, N> make_state(const model& system) {
-    return {{make_vector<C>(system), make_vector<C>(system)}, make_vector<C>(system)};
+    return {{detail::make_vector<C>(system), detail::make_vector<C>(system)}, detail::make_vector<C>(system)};
   }
 
   /// The coefficients with their derivatives along two parameters at a time, in all lanes.

@@ -153,7 +153,7 @@ void stationary_covariance::split_at_bath() {
   }
 }
 
-objective objective_of(const stationary_covariance& loss, const family& family) {
+objective detail::objective_of(const stationary_covariance& loss, const family& family) {
   return [=](const Eigen::VectorXd& theta) {
     return loss.at(family.coefficients(theta), family.jacobian(theta));
   };
