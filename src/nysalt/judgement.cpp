@@ -269,7 +269,7 @@ void add_linear(const detail::stability_guard& guard, const nysalt::method& meth
                 judgement& found) {
   const nysalt::word& word = method.letters();
   const auto& coefficients = method.coefficients();
-  const auto& bands = guard.frequencies(met::often);
+  const auto& bands = guard.frequencies(detail::met::often);
   found.frequencies = guard.description();
   constexpr double wider = 1.0 + detail::stability_guard::widened;
   constexpr double narrower = 1.0 - detail::stability_guard::widened;
@@ -277,7 +277,7 @@ void add_linear(const detail::stability_guard& guard, const nysalt::method& meth
     found.highest_frequency = std::max(found.highest_frequency, band.high / wider);
   }
   found.linear_objection = guard.objection(word, coefficients, found.step,
-                                           shows_rare_states(found, size) ? met::often : met::ever);
+                                           shows_rare_states(found, size) ? detail::met::often : detail::met::ever);
   if (word.has_own_letters()) return;
   if (!word.reads_modes) {
     const auto chart = chart_stability(word, coefficients);
@@ -289,7 +289,7 @@ void add_linear(const detail::stability_guard& guard, const nysalt::method& meth
   }
   if (found.steps < detail::long_run || found.trajectories == 0) return;
   if (const auto near = detail::near_resonance(word, coefficients, bands, found.step))
-    found.resonance = in_words(*near);
+    found.resonance = detail::in_words(*near);
 }
 
 }  // namespace

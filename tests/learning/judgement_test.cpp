@@ -388,7 +388,7 @@ BOOST_AUTO_TEST_CASE(what_only_a_trial_sees_is_refused) {
     const initial_states starts = from_the_bottom(system);
     const auto states = detail::typical_and_energetic_starts(model(system), starts, 1, 0, 64);
     BOOST_TEST(detail::stability_guard(model(system), states, false)
-                   .objection(method.letters(), method.coefficients(), step, met::often)
+                   .objection(method.letters(), method.coefficients(), step, detail::met::often)
                    .empty());
     const judgement found =
         judge(model(system), starts_to_judge(model(system), starts), method, step, {.steps = 2000});

@@ -218,7 +218,7 @@ BOOST_AUTO_TEST_CASE(undeclared_frequencies_that_lie_far_apart_are_bands) {
     BOOST_TEST(bands[0].high < 10.0);
     BOOST_TEST(48.0 < bands[1].low);
     BOOST_TEST(bands[1].high < 53.0);
-    BOOST_TEST(guard.frequencies(met::often).size() == 2U);
+    BOOST_TEST(guard.frequencies(detail::met::often).size() == 2U);
   }
   // Unstable between z = 2.58 and 3.16: the stiff band may lie beyond, but not within.
   BOOST_TEST(guard.admits(two_stages, with_a_gap(), 3.5 / 50.0));

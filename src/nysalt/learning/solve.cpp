@@ -73,7 +73,7 @@ class solution {
   }
 
  private:
-  std::string objection_of_guard(const Eigen::VectorXd& theta, met which) const {
+  std::string objection_of_guard(const Eigen::VectorXd& theta, detail::met which) const {
     return problem_.guard.objection(family_.letters, family_.coefficients(theta), problem_.facts.step, which);
   }
   const judgement& judged(const Eigen::VectorXd& theta) const {
@@ -122,7 +122,7 @@ solution::solution(const learning_problem& problem)
   free_ = detail::free_parameters(family_, options_);
   starts_ = detail::starts_of(family_, options_, problem_, free_);
   if (!(frequency_ > 0.0)) {
-    for (const auto& band : problem_.guard.frequencies(met::often)) {
+    for (const auto& band : problem_.guard.frequencies(detail::met::often)) {
       frequency_ = std::max(frequency_, band.high);
     }
   }
@@ -145,11 +145,11 @@ search_task solution::task_of() const {
                    .judge = [this](const Eigen::VectorXd& theta) { return problem_.judge(theta); },
                    .admits =
                        [this](const Eigen::VectorXd& theta) {
-                         return !options_.guarded || objection_of_guard(theta, met::often).empty();
+                         return !options_.guarded || objection_of_guard(theta, detail::met::often).empty();
                        },
                    .admits_at_edge =
                        [this](const Eigen::VectorXd& theta) {
-                         return !options_.guarded || objection_of_guard(theta, met::ever).empty();
+                         return !options_.guarded || objection_of_guard(theta, detail::met::ever).empty();
                        },
                    .free = free_,
                    .max_iterations = options_.max_iterations};
@@ -303,12 +303,12 @@ void solution::describe_search(fit_summary& summary) const {
 
 std::string solution::objection_to_unguarded() const {
   const Eigen::VectorXd& theta = found_.unguarded->theta;
-  std::string text = objection_of_guard(theta, met::often);
+  std::string text = objection_of_guard(theta, detail::met::often);
   if (text.empty()) {
     const judgement& found = judged(theta);
     if (!found.holds()) text = found.reason;
   }
-  return text.empty() ? objection_of_guard(theta, met::ever) : text;
+  return text.empty() ? objection_of_guard(theta, detail::met::ever) : text;
 }
 
 std::optional<spread_of_minimum> solution::describe_curvature(fit_summary& summary) const {

@@ -102,9 +102,9 @@ void detail::stability_guard::scan_along(const detail::frequencies_along& along,
     extend(along, typical);
   } else if (highest_along_ > 0.0) {
     estimate(along, typical);
-    description_ = fmt::format("estimated {} along {} states", in_words(bands_), count);
-    if (in_words(often_) != in_words(bands_))
-      description_ += fmt::format(", {} in nine tenths of them", in_words(often_));
+    description_ = fmt::format("estimated {} along {} states", nysalt::in_words(bands_), count);
+    if (nysalt::in_words(often_) != nysalt::in_words(bands_))
+      description_ += fmt::format(", {} in nine tenths of them", nysalt::in_words(often_));
   } else if (has_quadratic_kinetic && count == 0) {
     throw std::invalid_argument(
         "stability_guard: frequency_bands() must be declared, or states given to estimate them from, got "
