@@ -30,8 +30,8 @@ void library_is_compiled_for();
 /// stepped one trajectory at a time.
 class model {
  public:
-  static constexpr int dimension = Eigen::Dynamic;  ///< known at run time
-  static constexpr int lanes = default_lanes;       ///< most trajectories side by side
+  static constexpr int dimension = Eigen::Dynamic;     ///< known at run time
+  static constexpr int lanes = detail::default_lanes;  ///< most trajectories side by side
   static constexpr bool is_erased = true;  ///< true: the members that the system offers are known at run time
   static constexpr bool may_have_quadratic_kinetic = true;  ///< true: K is known at run time
 
@@ -42,7 +42,7 @@ class model {
       : system_(detail::erased(system)),
         facts_(std::make_shared<detail::model_facts>(detail::model_facts_of(system))),
         base_kind_(detail::kind_without_bath(system)) {
-    detail::library_is_compiled_for<default_lanes>();
+    detail::library_is_compiled_for<detail::default_lanes>();
   }
 
   Eigen::Index size() const { return facts_->size; }                      ///< degrees of freedom
@@ -148,7 +148,7 @@ class model {
   template <detail::Served T>
   void force_derivative(const vector<T, dimension>& q, const vector<T, dimension>& v,
                         vector<T, dimension>& g) const {
-    lifted_room<T, dimension> room(size());
+    detail::lifted_room<T, dimension> room(size());
     kernels<T>().force_along(field::whole, q, v, g, room, detail::part_of_displacement);
   }
   /// V(q), if the system has a potential.

@@ -75,7 +75,7 @@ class stepper {
   template <SteppedBy<C> T>
   open_run<T, dimension> open(const phase_point<T, dimension>& x, std::uint64_t trajectory = 0) const {
     require_size(x);
-    open_run<T, dimension> run{{{x.q, x.p}, make_vector<T>(*system_)}, 0, trajectory};
+    open_run<T, dimension> run{{{x.q, x.p}, detail::make_vector<T>(*system_)}, 0, trajectory};
     for (Eigen::Index i = 0; i < run.state.f.size(); ++i)
       run.state.f[i] = T(0.0);      // a checkpoint has no noise
     if (is_processed_) return run;  // which advance() opens
@@ -150,7 +150,7 @@ class stepper {
   template <SteppedBy<C> T>
   void step(phase_point<T, dimension>& x, std::uint64_t trajectory = 0, std::int64_t n = 0) const {
     require_size(x);
-    flow_state<T, dimension> state{{std::move(x.q), std::move(x.p)}, make_vector<T>(*system_)};
+    flow_state<T, dimension> state{{std::move(x.q), std::move(x.p)}, detail::make_vector<T>(*system_)};
     step(state, trajectory, n);
     x = {std::move(state.q), std::move(state.p)};
   }
@@ -182,7 +182,7 @@ class stepper {
   }
 
  private:
-  using letters_type = prepared_word<C, dimension>;
+  using letters_type = detail::prepared_word<C, dimension>;
 
   /// Whether the run of a processed word is at its start, and leaves it.
   bool opens_now(const auto& run, std::int64_t steps) const {
@@ -193,29 +193,29 @@ class stepper {
     return false;
   }
   static letters_type letters_of(const S& system, const word& letters, const std::vector<C>& c, double step) {
-    const surroundings_of_word around = surroundings(system, letters);
+    const detail::surroundings_of_word around = surroundings(system, letters);
     if (acts_on(system)) return letters_type(system, letters, c, step, around);
     return letters_type(system, conservative_part(letters), conservative_part(letters, c), step, around);
   }
 
   /// Throws std::invalid_argument if the system does not serve a letter.
-  static surroundings_of_word surroundings(const S& system, const word& letters) {
-    surroundings_of_word result;
+  static detail::surroundings_of_word surroundings(const S& system, const word& letters) {
+    detail::surroundings_of_word result;
     if constexpr (HasBath<S>) result.heat_bath = static_cast<const bath&>(system.bath());
     require_served<S, C>(letters, system);
     if constexpr (HasQuadraticPart<S>) {
-      if (letters.reads_modes) result.part = modal_coordinates::of(system);
+      if (letters.reads_modes) result.part = detail::modal_coordinates::of(system);
     }
     return result;
   }
 
   template <Scalar T>
   auto cursor_at(std::uint64_t trajectory, std::int64_t step) const {
-    using room = flow_room<T, dimension>;
+    using room = detail::flow_room<T, dimension>;
     if constexpr (may_be_noisy) {
       const bath& heat_bath = system_->bath();
       const Eigen::Index numbers = acts_ || dimension != Eigen::Dynamic ? size(*system_) : 0;
-      return noise_cursor<Noise, T, dimension, room>{
+      return detail::noise_cursor<Noise, T, dimension, room>{
           &noise_,
           trajectory,
           step,
@@ -224,7 +224,8 @@ class stepper {
           vector<T, dimension>(numbers),
           room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
     } else {
-      return quiet_cursor<room>{room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
+      return detail::quiet_cursor<room>{
+          room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
     }
   }
   void require_thermostat(std::string_view letters) const {

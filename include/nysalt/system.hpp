@@ -62,24 +62,28 @@ inline std::string name_of_type(const std::type_info& type) {
 
 namespace nysalt {
 
-/// An entry of a basis of modes that is not zero.
-struct mode_entry {
-  Eigen::Index coordinate;  ///< row
-  Eigen::Index mode;        ///< column
-  double value;             ///< matrix entry in mass-weighted coordinates
-};
-
 /// Orthonormal modes of the quadratic part: column k of `basis` in mass-weighted coordinates M^{1/2} q,
 /// with angular frequency `frequencies[k]` (0: the quadratic part does not act on it).
 struct normal_modes {
+  /// An entry of a basis of modes that is not zero.
+  struct entry {
+    Eigen::Index coordinate;  ///< row
+    Eigen::Index mode;        ///< column
+    double value;             ///< matrix entry in mass-weighted coordinates
+  };
+
   Eigen::MatrixXd basis;        ///< N x N, orthogonal; 0 x 0 where `entries` hold the basis
   Eigen::VectorXd frequencies;  ///< N frequencies, none negative
   /// Non-zero entries of the basis, row by row, where modes are sums of a few of many coordinates.
-  std::vector<mode_entry> entries{};
+  std::vector<entry> entries{};
 };
+
+namespace detail {
 
 /// Above this number of coordinates the bundled systems give no full N x N basis: 8 MB.
 inline constexpr Eigen::Index most_for_full_basis = 1000;
+
+}  // namespace detail
 
 /// Angular frequencies, low to high, that the linearised motion has.
 struct frequency_band {
@@ -192,7 +196,7 @@ concept HasForceDerivative =
 /// The system has the force of V without its quadratic part.
 template <class S, class T = double>
 concept HasSoftForce = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {
-  s.soft_force(q, f);
+  { s.soft_force(q, f) };
 };
 /// The system has masses, by 1/m_i; else each is 1.
 template <class S>
@@ -275,12 +279,13 @@ template <class S, class T = double>
 concept HasEnergy = HasPotential<S, T> && (HasKineticEnergy<S, T> || NystromSystem<S>);
 // clang-format on
 
+namespace detail {
+
 /// A potential from which all else comes by automatic differentiation can contradict nothing.
 template <class S>
 inline constexpr bool force_may_be_wrong = HasForce<S, double> || detail::CanKick<S, double, double> ||
                                            HasForceDerivative<S> || HasSoftForce<S> || HasVelocity<S, double>;
 
-namespace detail {
 /// What is known of every system: of a type by the concepts, and of a model at run time.
 struct system_facts {
   bool has_energy = false;             ///< over double
@@ -328,11 +333,15 @@ constexpr bool has_modes(const S& system) {
   }
   return HasModes<S>;
 }
+namespace detail {
+
 /// Whether its force is known for double only.
 template <System S>
 constexpr bool is_black_box(const S& system) {
   return detail::facts_of(system).is_black_box;
 }
+
+}  // namespace detail
 
 /// Number of degrees of freedom.
 template <System S>
@@ -371,11 +380,15 @@ double root_mass(const S& system, Eigen::Index i) {
   }
 }
 
+namespace detail {
+
 /// A vector of the system's dimension, its entries not set.
 template <Scalar T, System S>
 vector<T, S::dimension> make_vector(const S& system) {
   return vector<T, S::dimension>(size(system));
 }
+
+}  // namespace detail
 
 /// Description of a system, by which a learned method refuses another system. Without a description a
 /// system is known only by the name of its type and its size: let yours name its parameters.
@@ -394,6 +407,8 @@ std::string describe(const S& system) {
   }
 }
 
+namespace detail {
+
 /// Kind of a system: the description without the size, by a member kind(). A method that was learned
 /// for one size may be tried at another, see learning/reach.hpp. Systems without that member have a
 /// kind of their own, the description.
@@ -407,5 +422,7 @@ std::string kind_of(const S& system) {
     return describe(system);
   }
 }
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -257,9 +257,9 @@ mutant(65, "O at the end of a step comes first, with the coefficients as they we
        ("return letters.with_letters(text + o);", "return letters.with_letters(MUTANT ? o + text : text + o);"))
 mutant(66, "the force of a run that is taken up again is lost", HEADERS + "ensemble_run.hpp",
        "core invariance programs",
-       ("for (T& number : *part) set_lane(number, k, *next_number++);",
+       ("for (T& number : *part) detail::set_lane(number, k, *next_number++);",
         "for (T& number : *part) {\n"
-        "          set_lane(number, k, MUTANT && part == &run.state.f ? 0.0 : *next_number);\n"
+        "          detail::set_lane(number, k, MUTANT && part == &run.state.f ? 0.0 : *next_number);\n"
         "          ++next_number;\n"
         "        }"))
 mutant(67, "before an observation the force is not kept that the first letter is taken back with",
@@ -302,8 +302,8 @@ mutant(74, "a fit is judged on the data that it learned from", "src/comparison/s
 
 mutant(75, "one digit of classical<\"pefrl\"> alone is wrong: the order is 2", HEADERS + "methods/classical.hpp",
        "methods",
-       ("(as_data(classical_table[row])) {}",
-        "(as_data([] {\n    classical_row one = classical_table[row];\n"
+       ("(detail::as_data(detail::classical_table[row])) {}",
+        "(detail::as_data([] {\n    detail::classical_row one = detail::classical_table[row];\n"
         "    if (MUTANT && one.name == \"pefrl\") {\n      std::array<double, 9> all{};\n"
         "      std::copy_n(one.coefficients.begin(), all.size(), all.begin());\n"
         "      all[1] += 1e-8, all[7] += 1e-8, all[3] -= 1e-8, all[5] -= 1e-8;\n      one.coefficients = all;\n"

@@ -15,7 +15,7 @@ namespace nysalt {
 /// [leimkuhler_matthews_2015]. Its noise is the noise of the interval of the step which it covers: the
 /// letters O of a word share the step in their order.
 struct ornstein_uhlenbeck {
-  static constexpr char letter = bath_letter;
+  static constexpr char letter = detail::bath_letter;
   static constexpr std::size_t slots = 1;
   static constexpr field reads = field::none;
   static constexpr int force_derivatives = 0;

@@ -21,8 +21,12 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Parameters whose derivatives are carried at a time; more take further passes.
 inline constexpr int directions_at_a_time = 2;
+
+}  // namespace detail
 
 }  // namespace nysalt
 

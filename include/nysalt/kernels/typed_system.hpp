@@ -225,10 +225,11 @@ class typed_kernels final : public kernels<T> {
   void along(const column& q, const column& v, column& g, lifted_room<T, Eigen::Dynamic>& room,
              double reach) const {
     if constexpr (N == Eigen::Dynamic) {
-      nysalt::force_along<F, T>((*system_), q, v, g, room, reach);
+      nysalt::detail::force_along<F, T>((*system_), q, v, g, room, reach);
     } else {
       lifted_room<T, N> own;
-      nysalt::force_along<F, T>((*system_), as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(g), own, reach);
+      nysalt::detail::force_along<F, T>((*system_), as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(g), own,
+                                        reach);
     }
   }
   static T in_each_lane(const column& q, const column& p, const auto& value) {
@@ -271,7 +272,8 @@ class typed_system final : public any_system {
     const auto one_at_a_time = lock();
     if constexpr (BlackBoxForce<S>) {
       constexpr int N = S::dimension;
-      nysalt::directional_derivative(system_, as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(f), as_fixed<N>(g));
+      nysalt::detail::directional_derivative(system_, as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(f),
+                                             as_fixed<N>(g));
     } else {
       refuse_kernel();
     }

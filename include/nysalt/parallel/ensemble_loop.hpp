@@ -15,6 +15,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Calls body(first, n) once for each block of n <= width consecutive trajectories first .. first + n - 1, of
 /// `count` in all, on the threads of `how`, in no certain order; only the last block is shorter. A body
 /// writes what it finds into the places of its trajectories; a sum over them is then taken by tree_sum, and
@@ -28,6 +30,8 @@ namespace nysalt {
 /// thread has. Throws std::invalid_argument if threads or width are below 1, or if a body changes that.
 void for_each_block(std::int64_t count, int width, const execution& how,
                     const std::function<void(std::int64_t, int)>& body);
+
+}  // namespace detail
 
 /// Calls body(m) for m = 0 .. count - 1: blocks of one.
 void for_each_trajectory(std::int64_t count, const execution& how,

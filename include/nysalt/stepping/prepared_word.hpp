@@ -19,11 +19,15 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// What letters are prepared with, beside coefficients and step: where their word needs it, else nothing.
 struct surroundings_of_word {
   std::optional<bath> heat_bath;  ///< for letters O; a copy, as a system may return it by value
   std::shared_ptr<const modal_coordinates> part;  ///< for letters R
 };
+
+}  // namespace detail
 
 // clang-format off
 /// Letters with coefficients and step folded in, and what a stepper does with them:
@@ -33,6 +37,8 @@ struct surroundings_of_word {
 /// step(system, x, cursor)        one plain step, letter by letter, from only q and p
 /// The cursor says where the run is in its noise, and goes on with it.
 // clang-format on
+namespace detail {
+
 ///
 /// An open run is ahead of the synchronous state by a first letter that merges with the last. Where both are
 /// of the bath it is behind instead: the letter O that meets the next step's is still to come.
@@ -333,5 +339,7 @@ class prepared_word {
   std::vector<detail::prepared_letter<C>> called_;      // all other letters that are called back
   merged_half_steps<C> merged_;
 };
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -39,7 +39,7 @@ template <System S, Scalar T>
 void require_served(const word& letters, const S& system) {
   for (const letter_facts& own : letters.own()) detail::require_declared<T>(letters, own, system);
   for (const char letter : letters.view()) {
-    detail::with_letter(letter, known_letters{}, [&]<class L>(const L&) {
+    detail::with_letter(letter, detail::known_letters{}, [&]<class L>(const L&) {
       if constexpr (detail::steps_by_own_letters_only<S> && !StochasticFlow<L>) {
         throw std::invalid_argument(
             sentence("cannot step {} by the word {}: the letter {} must be one that the system declares, as "

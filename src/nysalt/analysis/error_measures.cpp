@@ -82,7 +82,7 @@ struct term {
 std::vector<term> terms_of(const model& system) {
   std::vector<term> result;
   if (has_modes(system)) {
-    const auto modes = modal_coordinates::of(system);
+    const auto modes = detail::modal_coordinates::of(system);
     for (const auto& [i, k, heavy, light] : modes->entries()) {
       const auto row = static_cast<std::size_t>(k);
       const double omega = modes->frequencies()[row];
