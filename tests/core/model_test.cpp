@@ -301,6 +301,9 @@ BOOST_AUTO_TEST_CASE(functions_of_a_model_have_the_bits_of_its_system) {
       velocity<double>(system, own.p, expected);
       velocity<double>(erased, x.p, found);
       BOOST_TEST((found == expected));
+      using detail::directional_derivative;
+      using detail::force_along;
+      using detail::lifted_room;
       lifted_room<double, N> own_room(own.q.size());
       lifted_room<double, Eigen::Dynamic> room(own.q.size());
       force_along<field::whole, double>(system, own.q, own.p, expected, own_room, reach);
