@@ -61,8 +61,8 @@ class divergence {
   const T& last_change() const { return last_; }
 
   /// Whether x has run away: a bool, or a mask of lanes. Cost: one energy.
-  detail::condition_of<T> operator()(const state& x) {
-    detail::condition_of<T> sound = is_finite(x);
+  condition_of<T> operator()(const state& x) {
+    condition_of<T> sound = is_finite(x);
     if constexpr (HasEnergy<S>) {
       if (has_energy(*system_)) {
         const T change = energy_in_lanes<T>(*system_, x) - initial_;

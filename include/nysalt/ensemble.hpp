@@ -80,15 +80,15 @@ template <class T, System S, Ensemble<S> E>
 phase_point<T, S::dimension> sound_starts(const S& system, const E& ensemble, std::uint64_t seed,
                                           std::int64_t first, int count) {
   const auto one_by_one = [&] {
-    return detail::gather<T, S::dimension>(
-        count, [&](int k) { return sound_start(system, ensemble, seed, first + k); });
+    return gather<T, S::dimension>(count,
+                                   [&](int k) { return sound_start(system, ensemble, seed, first + k); });
   };
   if constexpr (MakesBlocks<E, S, T>) {
     if constexpr (requires { ensemble.makes_blocks(); }) {
       if (!ensemble.makes_blocks()) return one_by_one();
     }
     const auto all = ensemble.template block<T>(seed, first, count);
-    return detail::gather<T, S::dimension>(
+    return gather<T, S::dimension>(
         count, [&](int k) { return detail::require_sound(system, ensemble, first + k, lane(all, k)); });
   } else {
     return one_by_one();

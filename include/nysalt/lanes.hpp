@@ -89,14 +89,14 @@ void set_lane(pack<double, W>& x, int k, double value) {
 }
 /// Sets or clears lane k.
 template <int W>
-void set_lane(detail::lane_mask<W>& x, int k, bool value) {
+void set_lane(lane_mask<W>& x, int k, bool value) {
   x.set(k, value);
 }
 
 inline bool both(bool a, bool b) { return a && b; }  ///< a and b
 /// The lanes in which both hold.
 template <int W>
-detail::lane_mask<W> both(const detail::lane_mask<W>& a, const detail::lane_mask<W>& b) {
+lane_mask<W> both(const lane_mask<W>& a, const lane_mask<W>& b) {
   return a & b;
 }
 

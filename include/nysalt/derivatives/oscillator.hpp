@@ -85,8 +85,8 @@ namespace detail {
 
 /// trace/2 of step_on_oscillator() as a polynomial in k, low <= k <= high. The step is stable where it is
 /// within +-1.
-detail::bernstein_polynomial half_trace(const nysalt::word& word, const std::vector<double>& coefficients,
-                                        double theta, double low, double high);
+bernstein_polynomial half_trace(const nysalt::word& word, const std::vector<double>& coefficients,
+                                double theta, double low, double high);
 
 }  // namespace detail
 

@@ -68,7 +68,7 @@ inline native_vector<2>::type native_sqrt(native_vector<2>::type x) {
 
 /// Lanes that keep the processor busy: two registers for each number hide each other's latency, and a state
 /// of small systems still fits into the first cache.
-inline constexpr int default_lanes = 2 * detail::native_lanes;
+inline constexpr int default_lanes = 2 * native_lanes;
 
 }  // namespace detail
 
@@ -80,9 +80,9 @@ namespace detail {
 template <int W>
 class lane_mask {
  public:
-  static constexpr int lanes = W;                              ///< W, of the packs that were compared
-  static constexpr int of_part = detail::lanes_of_part(W);     ///< lanes in a register of the target
-  using part = typename detail::native_vector<of_part>::mask;  ///< a register: of a lane all bits, or none
+  static constexpr int lanes = W;                      ///< W, of the packs that were compared
+  static constexpr int of_part = lanes_of_part(W);     ///< lanes in a register of the target
+  using part = typename native_vector<of_part>::mask;  ///< a register: of a lane all bits, or none
 
   lane_mask() = default;
   /// All lanes, or none.

@@ -27,7 +27,7 @@ namespace detail {
 /// What it found is its own: as a result at the end, or in the places of the trajectories.
 template <class M, class T, int N>
 concept Measure = requires(M& measure, const phase_point<T, N>& x, std::span<T> numbers, std::int64_t n,
-                           std::span<const T> read, const detail::condition_of<T>& live) {
+                           std::span<const T> read, const condition_of<T>& live) {
   { measure.width() } -> std::convertible_to<std::size_t>;
   measure.read(x, numbers);
   measure.see(n, read, live);
