@@ -26,7 +26,7 @@ groups = {
     "Initial states": "ensemble ensembles/ initial_states",
     "References": "reference references/",
     "Learning": "flow_map_data losses/ learning/",
-    "Runs": "integrate integrate_ensemble ensemble_run distributed_run judgement hmc",
+    "Runs": "integrate divergence integrate_ensemble ensemble_run distributed_run judgement hmc",
     "Stability and derivatives": "derivatives/",
     "Errors and statistics": "analysis/",
     "Comparisons": "compare recommend comparison_options export_to",
