@@ -78,7 +78,7 @@ double closed_form(double z) {
 /// Of nystrom on the chain with omega = 50, three stiff modes and three of frequency zero.
 objective law_of(placement where, double gamma, double z) {
   const in_bath chain(fpu_chain<3>(50.0), bath::of_temperature(gamma, 0.125));
-  const nysalt::family family = thermostatted(family(nystrom()), where);
+  const nysalt::family family = thermostatted(nysalt::family(nystrom()), where);
   return detail::objective_of(stationary_covariance(chain, family.letters, z / 50.0), family);
 }
 
