@@ -276,8 +276,9 @@ void add_linear(const detail::stability_guard& guard, const nysalt::method& meth
   for (const auto& band : guard.frequencies()) {
     found.highest_frequency = std::max(found.highest_frequency, band.high / wider);
   }
-  found.linear_objection = guard.objection(word, coefficients, found.step,
-                                           shows_rare_states(found, size) ? detail::met::often : detail::met::ever);
+  found.linear_objection =
+      guard.objection(word, coefficients, found.step,
+                      shows_rare_states(found, size) ? detail::met::often : detail::met::ever);
   if (word.has_own_letters()) return;
   if (!word.reads_modes) {
     const auto chart = chart_stability(word, coefficients);
