@@ -223,6 +223,8 @@ class first_in_lanes {
   std::array<std::optional<std::int64_t>, static_cast<std::size_t>(lanes_in<T>)> first_{};
 };
 
+}  // namespace detail
+
 /// H in each lane, also where the potential is known for double only.
 template <class T, HasEnergy S>
 T energy_in_lanes(const S& system, const phase_point<T, S::dimension>& x) {
@@ -232,7 +234,5 @@ T energy_in_lanes(const S& system, const phase_point<T, S::dimension>& x) {
     return value_in_lanes<T>([&](const auto& y) { return energy<double>(system, y); }, x);
   }
 }
-
-}  // namespace detail
 
 }  // namespace nysalt

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
-// All of nysalt but what needs Boost.Odeint or MPI.
+// The library but for what needs Boost.Odeint or MPI. Comparisons, recommendations and declarations of
+// systems for the program have entry headers of their own: compare.hpp, recommend.hpp, plugin.hpp.
 #pragma once
 
 #include "nysalt/analyse.hpp"
 #include "nysalt/atomic_file.hpp"
-#include "nysalt/compare.hpp"
 #include "nysalt/core.hpp"
 #include "nysalt/core/rounding.hpp"
 #include "nysalt/core/steps_in.hpp"
@@ -20,8 +20,6 @@
 #include "nysalt/methods/phase_fitted.hpp"
 #include "nysalt/methods/s_aia.hpp"
 #include "nysalt/parallel.hpp"
-#include "nysalt/plugin.hpp"
-#include "nysalt/recommend.hpp"
 #include "nysalt/scalars/polynomial.hpp"
 #include "nysalt/systems/in_time.hpp"
 #include "nysalt/systems/lennard_jones_liquid.hpp"
