@@ -156,7 +156,7 @@ void add_search(CLI::App& command, learning_options& how, const std::string& pre
       prefix + "loss", how.loss,
       fmt::format("{}, or {} after K steps [by the purpose: trajectory, and state:1 in a bath; state:1; "
                   "state:1; acceptance]",
-                  loss_patterns(false), loss_patterns(true)));
+                  detail::loss_patterns(false), detail::loss_patterns(true)));
   command
       .add_option(prefix + "effort", how.effort, "of the search by trajectories: quick, normal or thorough")
       ->capture_default_str();
