@@ -44,6 +44,7 @@ one_step() { # NAME LEVEL OPTION...
     cat "$folder/$name.log"
     exit 1
   }
+  "$(dirname "$0")/report_parts.py" "$folder/$name"
   one_step_cost=$(section "$folder/$name/report.md" "### The cost of an error of $level" | awk -F ' *[|] *' '
     $2 !~ /^learned/ || $3 ~ /above/ { next }
     { print "`" $2 "`, " $3; exit }')
@@ -57,14 +58,15 @@ compare() { # NAME TITLE METRIC LEVEL OPTION...: a chapter of the page; METRIC i
     cat "$folder/$name.log"
     exit 1
   }
+  "$(dirname "$0")/report_parts.py" "$folder/$name"
   report=$folder/$name/report.md
   say "## $title"
   say '```sh'
   section "$report" "# " | sed -n '/^```/,/^```/p' | sed -e '/^```/d' -e 's/ --resume//' -e 's/ --output .*//' \
     -e 's/^[^ ]*nysalt/nysalt/' >>"$chapters"
   echo '```' >>"$chapters"
-  say "![$title: against evaluations](beyond/$name/pictures/${metric}_against_evaluations.svg)"
-  say "![$title: against seconds](beyond/$name/pictures/${metric}_against_seconds.svg)"
+  say "![$title: against evaluations](beyond/$name/${metric}_against_evaluations.svg)"
+  say "![$title: against seconds](beyond/$name/${metric}_against_seconds.svg)"
   say "What an error of $level costs ([every row](beyond/$name/rows.csv), by every metric):"
   section "$report" "### The cost of an error of $level" >>"$chapters"
   section "$report" "### The cost of an error of $level" | awk -F ' *[|] *' -v case="$title" -v level="$level" -v one_step="$one_step_cost" '

@@ -31,7 +31,7 @@ compare() { # NAME OPTION...: into $folder/NAME; says only which fits could not 
 
 rows() { # TABLE...: method, step, size, evaluations, seconds, error, its own error
   for table in "$@"; do
-    tail -n +2 "$folder/$table/rows.csv" | awk -F , -v OFS=, '{ print $2, $3, $4, $5, $6, $8, $9 }'
+    tail -n +3 "$folder/$table/rows.csv" | awk -F , -v OFS=, '{ print $2, $3, $4, $5, $6, $8, $9 }'
   done
 }
 

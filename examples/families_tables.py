@@ -18,7 +18,7 @@ def rows_of(path):
     """By method and nominal step: evaluations, seconds and error of what is ranked."""
     result = defaultdict(dict)
     with open(path, newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
+        for row in csv.DictReader(line for line in file if not line.startswith("#")):
             if not row["value"] or "diverged" in row.get("marks", "") or "reference" in row.get("marks", ""):
                 continue
             result[row["method"]][float(row["step"])] = {

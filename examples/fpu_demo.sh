@@ -28,5 +28,4 @@ follow verlet verlet 0.02 10
 follow learned "$folder/scheme.json" 0.02 10
 
 echo
-echo "The report: $folder/report.html, report.md, rows.csv. Its pictures (.svg and .png) are in $folder/pictures,"
-echo "and those of the energies, accurate, verlet and learned, in $folder."
+echo "The report: $folder/report.html, rows.csv; pictures of the energies, accurate, verlet and learned, in $folder."

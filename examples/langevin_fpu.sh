@@ -25,4 +25,4 @@ echo "== The distribution of the stiff energy, and its autocovariance; the floor
   --trajectories 4000 --range 0,1 --output "$folder/law"
 
 echo
-echo "In $folder/path and $folder/law: report.html, report.md, rows.csv; pictures (.svg and .png) in pictures"
+echo "In $folder/path and $folder/law: report.html, rows.csv"

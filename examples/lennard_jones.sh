@@ -14,7 +14,7 @@ nysalt compare --equal-cost --system lennard_jones --steps 0.015 --metric state,
 nysalt run --system lennard_jones --method cluster.json --step 0.045 --horizon 450 --trajectories 3 \
   --observables energy,kinetic_temperature --sample-every 2500 --output cluster.csv
 # [/cluster]
-awk -F , '$2 != "step" { printf "trajectory %d  t = %5.1f  H = %.2f\n", $1, $3, $4 }' cluster.csv
+awk -F , 'NR > 2 { printf "trajectory %d  t = %5.1f  H = %.2f\n", $1, $3, $4 }' cluster.csv
 
 # Expected output:
 # fg_chin at step 0.045 for lennard_jones(space=2, atoms=7)

@@ -16,8 +16,9 @@ with h5py.File("out.h5") as run:
     print(f"{run.attrs['method']}, step {run.attrs['step']}, omega {omega}, seed {run.attrs['seed']}")
 
 values = np.load("out.npy", mmap_mode="r")  # trajectories x samples x observables
-with open("manifest.json") as manifest:     # of the folder: an entry for each file
-    names = json.load(manifest)["files"]["out.npy"]["observables"]
+with open("out.npy", "rb") as run:          # behind the numbers it says what they are
+    run.seek(values.offset + values.nbytes)
+    names = json.load(run)["observables"]
 q1 = values[:, :, names.index("q1")]
 print(f"mean energy {at_the_end[is_whole].mean():.3f} and q1 {np.nanmean(q1[:, -1]):.3f} at t = {t[-1]:.2f}")
 # [/docs]

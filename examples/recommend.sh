@@ -9,7 +9,7 @@ nysalt recommend --system henon_heiles --budget 5 --horizon 20 --families bab6,f
 nysalt run --system henon_heiles --method best.json --step 1.2 --horizon 1200 --observables energy --sample-every 500 \
   --output energy.csv
 # [/recommend]
-awk -F , '$2 != "step" { printf "t = %4d  H = %.4f\n", $3, $4 }' energy.csv
+awk -F , 'NR > 2 { printf "t = %4d  H = %.4f\n", $3, $4 }' energy.csv
 
 # Not every family wins: `fg_chin`, on the pendulum, does no better than the best classical method.
 nysalt recommend --system pendulum --budget 4 --horizon 20 --trajectories 50 --families fg_chin | tail -n 1

@@ -28,6 +28,6 @@ $run --seed 2 --output cut.csv --checkpoint cut.checkpoint --every 10000 --resum
 # Written: uncut.csv
 # 8 trajectories of 400000 steps, 400001 force evaluations each, ~ s
 # Written: cut.csv
-# The same bytes: 809 lines
+# The same bytes: 810 lines
 # nysalt: cut.checkpoint must be a checkpoint of this run, got that of another run (seed); ask for the same, or name another --checkpoint
 # exit code 2

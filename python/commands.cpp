@@ -44,7 +44,7 @@ py::tuple learn(const held_system& system, const py::dict& arguments) {
     program::fitted_family fit(command, common);
     fit.learn();
     document = dumped(fit.document());
-    file = fit.scheme();
+    file = program::text_of(fit.scheme());
   });
   return py::make_tuple(document, file);
 }

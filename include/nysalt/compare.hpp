@@ -42,8 +42,9 @@ class comparison {
   std::string json() const;
   /// Warnings to read before the numbers are used, a sentence each.
   std::vector<std::string> warnings() const;
-  /// Writes report.html, report.md, report.json, rows.csv, and a folder of pictures where gnuplot is
-  /// installed. The folder is made if it is not there. Throws std::runtime_error if it cannot be written.
+  /// Writes report.html, with pictures where gnuplot is installed, report.json, rows.csv, and the folder
+  /// schemes of what was learned. The folder is made if it is not there. Throws std::runtime_error if it
+  /// cannot be written.
   void write(const std::filesystem::path& folder) const;
 
  private:

@@ -18,7 +18,8 @@ std::string text_of(const json& document);
 /// The document as it is read again from a file, where bytes that are no UTF-8 became U+FFFD.
 json as_kept(const json& document);
 
-/// Of every member of a document but the one named checksum, as the document would be written without spaces.
+/// Of every member of a document but those named checksum and provenance, as the document would be written
+/// without spaces.
 std::string checksum(json document);
 
 /// Of lists and objects in each other, in documents that are read.

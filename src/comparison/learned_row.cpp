@@ -32,11 +32,6 @@ std::vector<double> learned_row::theta() const {
   return result;
 }
 
-std::string learned_row::scheme() const {
-  const json& scheme = document.at("scheme");
-  return scheme.is_null() ? std::string() : text_of(scheme);
-}
-
 std::string scheme_file(const std::string& method, double step) {
   std::string name = method.substr(method.find(':') + 1);
   for (char& c : name) {

@@ -26,8 +26,8 @@ struct learned_row {
   json document{};       // all that results and journals hold of the fit
 
   std::vector<double> theta() const;
-  /// The text of the scheme file; empty of a fit that is not usable.
-  std::string scheme() const;
+  /// The scheme file; null of a fit that is not usable.
+  const json& scheme() const { return document.at("scheme"); }
 };
 
 /// The name of the scheme file of a method that is learned at a step: "bab3_0.045.json".

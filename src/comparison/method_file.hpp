@@ -50,7 +50,7 @@ inline constexpr std::size_t longest_method_file = std::size_t{1} << 20U;
 std::string source_of_system(const nlohmann::ordered_json& parameters);
 
 /// The file's text: what was learned at each step, how well, and from what; with a checksum, and nothing of
-/// the machine or the hour, so that equal runs write equal bytes. The plan is that of one of the steps.
+/// the machine or the hour, which its provenance may add. The plan is that of one of the steps.
 json scheme_document(const std::vector<learned_scheme>& learned, const prepared_problem& system,
                      const learn_plan& plan);
 inline std::string scheme_text(const std::vector<learned_scheme>& learned, const prepared_problem& system,

@@ -10,7 +10,7 @@ namespace nysalt::program {
 
 struct common_settings : common_options {
   bool json = false;
-  std::string command;  // the whole command line, for manifests
+  std::string command;  // the whole command line, for results
   std::string options;  // what was asked for by it and by files of options, as TOML
 };
 

@@ -13,6 +13,7 @@
 #include "comparison/inputs.hpp"
 #include "comparison/number.hpp"
 #include "comparison/refusal.hpp"
+#include "report/result_file.hpp"
 
 namespace nysalt::program {
 
@@ -112,14 +113,15 @@ class csv_reader {
   }
 
  private:
-  /// The next line that is not blank; empty at the end. Lines end with LF, CR LF or CR.
+  /// The next line that is not blank, nor says how the table was made; empty at the end. Lines end with LF,
+  /// CR LF or CR.
   std::string_view next_line() {
     while (!left_.empty()) {
       const auto end = std::min(left_.find_first_of("\n\r"), left_.size());
       const auto line = left_.substr(0, end);
       left_.remove_prefix(std::min(left_.size(), end + (left_.substr(end, 2) == "\r\n" ? 2 : 1)));
       ++number_;
-      if (!trimmed(line).empty()) return line;
+      if (!trimmed(line).empty() && !line.starts_with(mark_of_table)) return line;
     }
     return {};
   }

@@ -133,6 +133,6 @@ json fitted_family::document() const {
   return result;
 }
 
-std::string fitted_family::scheme() const { return scheme_text(learned_, *system_, plan_); }
+json fitted_family::scheme() const { return scheme_document(learned_, *system_, plan_); }
 
 }  // namespace nysalt::program

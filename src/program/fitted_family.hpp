@@ -38,7 +38,7 @@ class fitted_family {
   /// The fit, as JSON.
   json document() const;
   /// The scheme file.
-  std::string scheme() const;
+  json scheme() const;
 
  private:
   learn_command command_;

@@ -21,7 +21,7 @@ class options_file : public CLI::Config {
  public:
   explicit options_file(const CLI::App& app) : app_(app) {}
 
-  /// Options that were given, a line each: what manifests record, and --config takes.
+  /// Options that were given, a line each: what results record, and --config takes.
   std::string to_config(const CLI::App* app, bool default_also, bool write_description,
                         std::string prefix) const override;
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;

@@ -27,7 +27,6 @@
 #include "output/checkpoint_file.hpp"
 #include "output/written_arrays.hpp"
 #include "report/comparison_report.hpp"
-#include "report/manifest.hpp"
 
 namespace nysalt::program {
 
@@ -151,7 +150,6 @@ void require_writable(const std::filesystem::path& named) {
 void require_result(const std::filesystem::path& file) {
   require_writable(file);
   require_no_checkpoint(file);
-  require_manifest(file);
 }
 
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
@@ -178,7 +176,7 @@ void require_table(const std::string& output, bool plot, bool may_be_array) {
 void require_checkpoint(const std::string& checkpoint, const std::string& output, bool plot) {
   require_writable(checkpoint);
   std::vector<std::filesystem::path> others;
-  if (!output.empty()) others = {output, manifest_of(output)};
+  if (!output.empty()) others = {output};
   if (plot) {
     const auto pictures = files_of_picture(picture_name(output), folder_of(output));
     others.insert(others.end(), pictures.begin(), pictures.end());
@@ -224,16 +222,7 @@ void require_folder(const std::filesystem::path& folder) {
 
 void require_files_in(const std::filesystem::path& folder, const std::vector<std::string>& files) {
   require_folder(folder);
-  require_manifest(folder / files.front());
   for (const auto& file : files) require_replaceable(folder / file);
-}
-
-void require_report(const std::filesystem::path& folder, const std::vector<std::string>& files) {
-  const auto pictures = folder / folder_of_pictures;
-  require_files_in(folder, files);
-  require_folder(pictures);
-  require_manifest(pictures / files.front());
-  require_pictures(pictures);
 }
 
 std::vector<std::filesystem::path> make_folder(const std::filesystem::path& folder) {

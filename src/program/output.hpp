@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Results on their way out: standard output, files, and manifests of their folders.
+// Results on their way out: standard output and files.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "report/manifest.hpp"
+#include "report/result_file.hpp"
 
 namespace nysalt::program {
 
@@ -25,8 +25,7 @@ void write_and_print(const std::function<void()>& write, const std::function<voi
 /// Throws refusal now if a file could not be written there later.
 void require_writable(const std::filesystem::path& file);
 
-/// The same of a result, which is recorded in the manifest of its folder, and takes no place of a checkpoint
-/// from which something can be gone on with.
+/// The same of a result, which takes no place of a checkpoint from which something can be gone on with.
 void require_result(const std::filesystem::path& file);
 
 /// Whether two paths lead to one file, be it there or not.
@@ -45,11 +44,8 @@ std::string picture_name(const std::filesystem::path& table);
 /// Throws refusal now if a folder could not be made there later, or not be written into.
 void require_folder(const std::filesystem::path& folder);
 
-/// The same of files in a folder, which are recorded.
+/// The same of files in a folder.
 void require_files_in(const std::filesystem::path& folder, const std::vector<std::string>& files);
-
-/// The same of a report: files in a folder, the first of which is recorded, and pictures in one below.
-void require_report(const std::filesystem::path& folder, const std::vector<std::string>& files);
 
 /// Makes a folder, and those it lies in, where there is none; which were made, the outermost first.
 std::vector<std::filesystem::path> make_folder(const std::filesystem::path& folder);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 
 #include "bundled_systems.hpp"
 #include "comparison/catalogue.hpp"
@@ -13,9 +14,9 @@
 #include "comparison/method_file_format.hpp"
 #include "comparison/method_source.hpp"
 #include "comparison/refusal.hpp"
-#include "output.hpp"
+#include "output/written_arrays.hpp"
 #include "recorded_options.hpp"
-#include "report/manifest.hpp"
+#include "report/result_file.hpp"
 #include "settings.hpp"
 
 namespace nysalt::program {
@@ -29,17 +30,16 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-/// A Hamiltonian of one's own has no name of ours.
-cited_setup setup_of(const scheme& learned) {
+/// Of the description of a system. A Hamiltonian of one's own has no name of ours.
+cited_setup setup_of(const std::string& description) {
   cited_setup setup;
-  setup.learned = {learned.family};
-  const std::string name = learned.system.substr(0, learned.system.find('('));
+  const std::string name = description.substr(0, description.find('('));
   for (const auto& declared : bundled_declarations()) {
     if (name == (declared.described.empty() ? declared.name : declared.described)) {
       setup.system = declared.name;
     }
   }
-  setup.in_bath = learned.system.find(" in bath(") != std::string::npos;
+  setup.in_bath = description.find(" in bath(") != std::string::npos;
   return setup;
 }
 
@@ -54,7 +54,6 @@ void add_candidates(const recorded_options& given, cited_setup& to) {
 cited_setup setup_of(const recorded_options& given) {
   cited_setup setup;
   setup.in_bath = given.is_positive("friction") || given.is_positive("sigma");
-  if (given.command() == "export") return setup;  // of no system
   if (given.command() == "stability") {
     setup.system = given.one_of("system", "");
     setup.families = given.of("family");
@@ -76,34 +75,41 @@ std::string found_beside(const fs::path& result, const std::string& method) {
   return is_file(beside) ? beside.string() : method;
 }
 
-/// Adds what made a result, by its entry in a manifest; the result is read too if it is a scheme.
-void add_entry(const json& entry, const fs::path& result, std::vector<cited_setup>& to) {
-  if (!entry.is_object() || !entry.contains("options") || !entry["options"].is_string()) {
-    refuse("the entry must be that of a manifest of nysalt");
+/// Adds what made a result; the result is read too if it is a scheme.
+void add_made(const json& made, const fs::path& result, std::vector<cited_setup>& to) {
+  if (made.contains("description")) {  // of samples
+    std::vector<cited_setup> setups{setup_of(made.at("description").get<std::string>())};
+    if (made.value("format", json()) == "nysalt sample") setups.front().metrics = {"acceptance"};
+    add_method(found_beside(result, made.at("method").get<std::string>()), setups);
+    to.insert(to.end(), setups.begin(), setups.end());
+    return;
   }
-  const recorded_options given(entry["options"].get<std::string>());
-  const std::vector<std::string> known{"learn", "run", "compare", "recommend", "stability", "export"};
+  const recorded_options given(made.at("options").get<std::string>());
+  const std::vector<std::string> known{"learn", "compare", "recommend", "stability"};
   if (std::ranges::find(known, given.command()) == known.end()) {
     refuse("the command must be one of {}, got '{}'", listed(known), given.command());
   }
   std::vector<cited_setup> setups{setup_of(given)};
-  for (const char* option : {"method", "methods", "METHOD"}) {
+  for (const char* option : {"method", "methods"}) {
     for (const auto& method : given.of(option)) add_method(found_beside(result, method), setups);
   }
   const bool writes_schemes = given.command() == "learn" || given.command() == "recommend";
-  if (writes_schemes && is_file(result)) add_method(result.string(), setups);
+  if (writes_schemes) add_method(result.string(), setups);
   citations_for(setups);  // what has no name is refused here, where the file is known
   to.insert(to.end(), setups.begin(), setups.end());
 }
 
-/// The same; what is refused names the manifest.
-void add_entry(const json& entry, const fs::path& result, const fs::path& manifest,
-               std::vector<cited_setup>& to) {
-  try {
-    add_entry(entry, result, to);
-  } catch (const std::exception& problem) {  // also what the options cannot be read by
-    refuse("cannot cite {}, {}: {}", manifest.string(), result.filename().string(), problem.what());
-  }
+/// What a result says of how it was made; null if it says nothing.
+json made_of(const fs::path& result) {
+  if (is_of_arrays(result)) return written_arrays("", result.string()).about();
+  std::string line(longest_method_file, '\0');
+  std::ifstream input(result, std::ios::binary);
+  input.read(line.data(), static_cast<std::streamsize>(line.size()));
+  line.resize(static_cast<std::size_t>(input.gcount()));
+  if (line.starts_with(mark_of_table))
+    return parsed(std::string_view(line).substr(0, line.find('\n')).substr(mark_of_table.size()));
+  const json document = document_in(result);
+  return document.is_object() ? document.value("provenance", json()) : json();
 }
 
 /// Whether a method is a file of coefficients of the user, perhaps with a placement behind it. Its letters
@@ -114,21 +120,6 @@ bool is_table(const std::string& typed) {
     const json document = document_in(file, longest_method_file);
     return document.is_object() && document.contains("format") && document["format"] == table_format;
   });
-}
-
-/// Adds the entries of a whole manifest. What one of them rests on may not be known, as that of a scheme that
-/// was deleted: a warning says so. Throws refusal if it is known of none.
-void add_entries(const json& entries, const fs::path& manifest, std::vector<cited_setup>& to) {
-  std::vector<std::string> problems;
-  for (const auto& [name, entry] : entries.items()) {
-    try {
-      add_entry(entry, manifest.parent_path() / name, manifest, to);
-    } catch (const refusal& problem) {
-      problems.emplace_back(problem.what());
-    }
-  }
-  if (!problems.empty() && problems.size() == entries.size()) refuse("{}", problems.front());
-  for (const auto& problem : problems) warn(problem + "; this entry is left out");
 }
 
 }  // namespace
@@ -142,7 +133,8 @@ void add_method(const std::string& typed, std::vector<cited_setup>& to) {
   }
   const auto source = find_method(typed);
   if (source.learned) {
-    to.push_back(setup_of(*source.learned));
+    to.push_back(setup_of(source.learned->system));
+    to.back().learned = {source.learned->family};
   } else if (source.family) {
     to.front().learned.push_back(*source.family);
   } else if (source.adaptive != nullptr) {
@@ -153,28 +145,21 @@ void add_method(const std::string& typed, std::vector<cited_setup>& to) {
 }
 
 void add_file(const std::string& file, std::vector<cited_setup>& to) {
-  constexpr std::string_view earlier_ending = ".manifest.json";
   std::error_code ignored;
   fs::path path(file);
   if (fs::is_directory(path, ignored)) path /= "report.json";
   if (!path.has_parent_path()) path = "." / path;  // a file, even if a method has the same name
-  const fs::path manifest = manifest_of(path);
-  const json entries = is_file(manifest) ? entries_in(manifest) : json();
-  if (path.filename() == manifest.filename() && entries.is_object()) {
-    add_entries(entries, manifest, to);
-    return;
-  }
-  if (file.ends_with(earlier_ending)) path.replace_extension().replace_extension();
-  const fs::path earlier = earlier_manifest_of(path);
-  const auto name = as_kept(path.filename().string()).get<std::string>();
-  if (entries.contains(name) && !file.ends_with(earlier_ending)) {
-    add_entry(entries[name], path, manifest, to);
-  } else if (is_file(earlier)) {
-    add_entry(document_in(earlier), path, earlier, to);
-  } else if (is_file(path)) {
-    add_method(path.string(), to);
-  } else {
+  if (!is_file(path))
     refuse("cannot read {}: there is no such file, and no report in a folder of that name", file);
+  const json made = made_of(path);
+  if (!made.is_object()) return add_method(path.string(), to);
+  try {
+    add_made(made, path, to);
+  } catch (const json::exception&) {
+    refuse("cannot cite {}: the provenance must be as nysalt wrote it, got other members; take another copy",
+           file);
+  } catch (const std::exception& problem) {  // also what the options cannot be read by
+    refuse("cannot cite {}: {}", file, problem.what());
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The options of a manifest.
+// The options in the provenance of a result.
 #pragma once
 
 #include <string>

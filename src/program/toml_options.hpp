@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Options as TOML: what users write for --config, and what manifests record.
+// Options as TOML: what users write for --config, and what results record.
 #pragma once
 
 #include <cstddef>

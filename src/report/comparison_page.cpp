@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
-// The report of a comparison: a page, its pictures, and the tables for machines.
+// The report of a comparison: a page with its pictures, and the tables for machines.
 #include <fmt/chrono.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
+#include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "build_info.hpp"
@@ -14,9 +17,9 @@
 #include "comparison_report.hpp"
 #include "comparison_tables.hpp"
 #include "machine.hpp"
-#include "manifest.hpp"
 #include "nysalt/learning/fit_summary.hpp"
 #include "page.hpp"
+#include "result_file.hpp"
 
 namespace nysalt::program {
 
@@ -331,45 +334,57 @@ page report_of(const comparison& all) {
 
 namespace {
 
-void write_schemes(const comparison& all, const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& fit : all.fits()) {
-    const std::string text = fit.scheme();
-    if (text.empty()) continue;
-    make_folders(folder);
-    files.push_back(folder / scheme_file(fit.method, fit.step));
-    write_unrecorded(files.back(), text);
+/// A folder for files of gnuplot, gone with them afterwards.
+class drawing_folder {
+ public:
+  drawing_folder() {
+    std::string name = std::filesystem::temp_directory_path() / "nysalt_XXXXXX";
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make the folder " + name);
+    path_ = name;
   }
-  if (!files.empty()) record_results(files, all.common());
+  drawing_folder(const drawing_folder&) = delete;
+  drawing_folder& operator=(const drawing_folder&) = delete;
+  ~drawing_folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The page with its pictures in it. Adds a sentence for those that cannot be drawn.
+std::string html_of(const page& report, std::vector<std::string>& warnings) {
+  try {
+    const drawing_folder folder;
+    for (const figure& picture : report.figures()) {
+      if (!draw(picture, folder.path(), {"svg"}))
+        warnings.push_back(fmt::format("gnuplot could not draw {}, and may not be installed", picture.name));
+    }
+    return report.html(folder.path());
+  } catch (const std::runtime_error& problem) {  // no room for its files
+    warnings.push_back(fmt::format("could not draw the pictures: {}", problem.what()));
+    return report.html("/dev/null");  // where none is
+  }
 }
 
 }  // namespace
 
 std::vector<std::string> write_report(const comparison& all, const std::filesystem::path& folder) {
   std::vector<std::string> warnings;
-  const page report = report_of(all);
-  const auto pictures = folder / folder_of_pictures;
-  make_folders(pictures);
-  for (const figure& picture : report.figures()) {
-    if (!all.common().command.empty()) remove_earlier_pictures(picture, folder);
-    if (auto warning = write_pictures(picture, pictures, all.common()); !warning.empty()) {
-      warnings.push_back(std::move(warning));
-    }
-  }
+  make_folders(folder);
+  write_table(folder / "rows.csv", csv_of(all), all.common());
   json document = document_of(all);
   document["question"] = all.question();
-  const std::vector<std::pair<const char*, std::string>> texts{
-      {"rows.csv", csv_of(all)},
-      {"report.json", text_of(document)},
-      {"report.md", report.markdown(folder_of_pictures)},
-      {"report.html", report.html(pictures)}};
-  std::vector<std::filesystem::path> files;
-  for (const auto& [name, text] : texts) {
-    files.push_back(folder / name);
-    write_unrecorded(files.back(), text);
+  write_document(folder / "report.json", document, all.common());
+  write_result(folder / "report.html", html_of(report_of(all), warnings));
+  for (const auto& fit : all.fits()) {
+    const json scheme = fit.scheme();
+    if (scheme.is_null()) continue;
+    make_folders(folder / folder_of_schemes);
+    write_document(folder / folder_of_schemes / scheme_file(fit.method, fit.step), scheme, all.common());
   }
-  record_results(files, all.common());
-  write_schemes(all, folder / folder_of_schemes);
   return warnings;
 }
 

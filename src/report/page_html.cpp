@@ -136,14 +136,13 @@ struct html_of_block {
     std::string drawn = svg_element(pictures / (picture.name + ".svg"));
     if (drawn.empty()) {
       drawn = fmt::format(
-          "<p class=\"missing\">The picture {0} is missing, as gnuplot is not there or failed: "
-          "<code>{0}.gp</code> and <code>{0}.dat</code> draw it later.</p>",
+          "<p class=\"missing\">The picture {} is missing, as gnuplot is not there or failed.</p>",
           picture.name);
     }
     return fmt::format(
-        "<figure>\n<div role=\"img\" "
+        "<figure id=\"{}\">\n<div role=\"img\" "
         "aria-label=\"{}\">\n{}\n</div>\n<figcaption>{}</figcaption>\n</figure>\n",
-        html_plain(picture.caption), drawn, html_sentence(picture.caption));
+        picture.name, html_plain(picture.caption), drawn, html_sentence(picture.caption));
   }
 };
 

@@ -42,12 +42,12 @@ void remove_picture(const std::filesystem::path& picture) {
 
 }  // namespace
 
-bool draw(const figure& f, const std::filesystem::path& folder) {
+bool draw(const figure& f, const std::filesystem::path& folder, const std::vector<std::string>& kinds) {
   detail::require_plain(f.name);
   bool drawn = true;
   write_file(folder / (f.name + ".dat"), detail::plot_data(f));
   write_file(folder / (f.name + ".gp"), detail::plot_script(f));
-  for (const std::string kind : {"svg", "png"}) {
+  for (const std::string& kind : kinds) {
     const std::filesystem::path picture = folder / (f.name + "." + kind);
     const program::child_result made = program::run_child(
         {"gnuplot", "--default-settings", "-e", fmt::format("kind='{}'", kind), "./" + f.name + ".gp"},

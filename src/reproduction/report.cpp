@@ -139,10 +139,10 @@ void reproduction_report::write(const std::filesystem::path& folder) const {
   const auto pictures = folder / folder_of_pictures;
   make_folder(pictures);
   for (const auto& picture : report.figures()) {
-    if (const auto warning = write_pictures(picture, pictures, common_); !warning.empty()) warn(warning);
+    if (const auto warning = write_pictures(picture, pictures); !warning.empty()) warn(warning);
   }
-  write_result(folder / "paper.md", report.markdown(folder_of_pictures), common_);
-  write_result(folder / "paper.html", report.html(pictures), common_);
+  write_result(folder / "paper.md", report.markdown(folder_of_pictures));
+  write_result(folder / "paper.html", report.html(pictures));
   json all = document();
   all["made"] = {{"date", today()}, {"machine", machine()}, {"compiler", compiler}, {"version", version}};
   all["exhibits"] = json::array();
@@ -150,7 +150,7 @@ void reproduction_report::write(const std::filesystem::path& folder) const {
     for (const auto& one : part.exhibits)
       all["exhibits"].push_back({{"title", one.title}, {"seconds", one.seconds}});
   }
-  write_result(folder / "paper.json", text_of(all), common_);
+  write_document(folder / "paper.json", all, common_);
 }
 
 }  // namespace nysalt::program::paper

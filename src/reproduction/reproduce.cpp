@@ -12,7 +12,6 @@
 #include "program/commands.hpp"
 #include "program/output.hpp"
 #include "report.hpp"
-#include "report/manifest.hpp"
 
 namespace nysalt::program::paper {
 
@@ -61,7 +60,8 @@ int reproduce(const reproduce_command& command, const common_settings& common) {
   if (!all_ranks().is_single()) refuse("nysalt_paper must run as one process; start it without mpirun");
   const auto planned = parts_named(command.parts);
   if (!command.output.empty()) {
-    require_report(command.output, {"paper.json", "paper.md", "paper.html"});
+    require_files_in(command.output, {"paper.json", "paper.md", "paper.html"});
+    require_folder(std::filesystem::path(command.output) / folder_of_pictures);
   }
   progress shown;
   const setting setup(common, command.quick);

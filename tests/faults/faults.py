@@ -8,12 +8,10 @@ No file gets its name before it is on the disk (fsync); that a call of fsync whi
 
 After each failure every output is the old file or the whole new one (a picture may be gone, with a warning), the exit
 code is 0 or 4, nothing unfinished stays (but what --resume goes on with), and doing the work again, with --resume where
-there is something to resume, gives the bytes of a run that nothing happened to. The manifest of the folder is whole, and
-keeps the entry of another file. What a report says of seconds differs between runs: of such files the rest is compared,
-or the end.
+there is something to resume, gives the bytes of a run that nothing happened to.
+What a report says of seconds, and provenance, differs between runs: of such files the rest is compared, or the end.
 --some: of each work one call of each kind fails once; kills are those of tests/programs/stopping_test.cpp.
 """
-import json
 import os
 import shutil
 import subprocess
@@ -41,16 +39,6 @@ def fresh(folder, files):
         os.makedirs(os.path.dirname(os.path.join(folder, name)), exist_ok=True)
         with open(os.path.join(folder, name), "w") as file:
             file.write("old")
-    with open(os.path.join(folder, "manifest.json"), "w") as file:
-        json.dump({"format": "nysalt manifest", "version": 1, "files": {"other.csv": {"command": "none"}}}, file)
-
-
-def has_lost_an_entry(folder):
-    """Of a file that the work does not write."""
-    try:
-        return "other.csv" not in json.loads(contents(folder, "manifest.json"))["files"]
-    except ValueError:
-        return True
 
 
 def unfinished(folder):
@@ -145,8 +133,6 @@ def one_failure(folder, one, expected, fault):
             return f"exit code 0 without {name}"
     if failed.returncode == 4 and failed.stderr.count("\n") != 1:
         return f"the message is not one line: {failed.stderr[:200]}"
-    if has_lost_an_entry(folder):
-        return "the manifest is not whole, or has lost an entry"
     if unfinished(folder) and not killed and not one.resumes_from:
         return f"left: {unfinished(folder)}"
     can_resume = one.resumes_from and os.path.exists(os.path.join(folder, one.resumes_from))
@@ -156,12 +142,6 @@ def one_failure(folder, one, expected, fault):
     for name, data in expected.items():
         if comparable(name, contents(folder, name)) != data:
             return f"again: {name} is another"
-    if has_lost_an_entry(folder):
-        return "again: the manifest has lost an entry"
-    for name in expected:
-        at, last = os.path.split(os.path.join(folder, name))
-        if last not in json.loads(contents(at, "manifest.json"))["files"]:
-            return f"again: the manifest has no entry of {name}"
     return f"again: left {unfinished(folder)}" if unfinished(folder) else ""
 
 

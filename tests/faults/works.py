@@ -44,13 +44,12 @@ WORKS = [
 
 
 def files_of(folder, outputs):
-    """The files that a work has made, without manifests."""
+    """The files that a work has made."""
     found = []
     for output in outputs:
         path = os.path.join(folder, output)
         if os.path.isdir(path):
-            found += [os.path.relpath(os.path.join(at, name), folder) for at, _, names in os.walk(path) for name in sorted(names)
-                      if name != "manifest.json"]
+            found += [os.path.relpath(os.path.join(at, name), folder) for at, _, names in os.walk(path) for name in sorted(names)]
         else:
             found.append(output)
     return found
@@ -62,9 +61,10 @@ def contents(folder, name):
 
 
 def without_measures(value):
-    """Of a document, without what was measured of the run: seconds and memory."""
+    """Of a document, without what was measured of the run, seconds and memory, and its provenance."""
     if isinstance(value, dict):
-        return {key: without_measures(inner) for key, inner in value.items() if "seconds" not in key and key != "peak_memory"}
+        return {key: without_measures(inner) for key, inner in value.items()
+                if "seconds" not in key and key not in ("peak_memory", "provenance")}
     return [without_measures(inner) for inner in value] if isinstance(value, list) else value
 
 
@@ -73,13 +73,13 @@ def comparable(name, data):
     kind = os.path.splitext(name)[1]
     if kind in ENDS and not data.rstrip().endswith(ENDS[kind]):
         return None
-    if name.endswith("report.json"):
+    if kind == ".json":
         try:
             return without_measures(json.loads(data))
         except ValueError:
             return None
     if name.endswith("rows.csv"):
-        rows = list(csv.reader(io.StringIO(data.decode())))
+        rows = list(csv.reader(io.StringIO(data.decode().partition("\n")[2])))  # without what they say of themselves
         kept = [i for i, title in enumerate(rows[0]) if "seconds" not in title]
         return [[row[i] for i in kept] for row in rows] if all(len(row) == len(rows[0]) for row in rows) else None
     if "seconds" in name or os.path.basename(name).startswith("report."):

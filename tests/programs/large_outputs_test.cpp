@@ -54,7 +54,7 @@ array read_npy(const std::filesystem::path& file) {
     count *= result.shape.back();
   }
   result.numbers.resize(count);
-  if (text.size() - begin != 8 * count) throw std::runtime_error("another length");
+  if (!nlohmann::json::accept(text.substr(begin + 8 * count))) throw std::runtime_error("another end");
   std::memcpy(result.numbers.data(), text.data() + begin, 8 * count);
   return result;
 }
@@ -128,7 +128,8 @@ std::vector<std::vector<double>> numbers_of(const std::filesystem::path& table, 
                                             std::size_t samples, int every) {
   std::istringstream lines(contents(table));
   std::string line;
-  std::getline(lines, line);
+  while (std::getline(lines, line) && line.starts_with('#')) {
+  }
   const auto columns = static_cast<std::size_t>(std::count(line.begin(), line.end(), ',') - 2);
   std::vector<std::vector<double>> all(columns, std::vector<double>(trajectories * samples, std::nan("")));
   while (std::getline(lines, line)) {

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
-// A file is written whole or not at all, and each folder has one manifest, in which concurrent writers lose
-// no entry.
+// A file is written whole or not at all, and says how it was made.
 #include <sys/stat.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <thread>
+#include <set>
+#include <string>
 
-#include "../../src/comparison/inputs.hpp"
-#include "../../src/comparison/refusal.hpp"
-#include "../../src/report/manifest.hpp"
+#include "../../src/report/result_file.hpp"
 #include "../../src/report/write_file.hpp"
 #include "../support/refusal.hpp"
 #include "../support/scratch.hpp"
@@ -30,15 +27,8 @@ bool not_written(const std::filesystem::path& path, std::initializer_list<std::s
 common_settings made_by(const std::string& command) {
   common_settings common;
   common.command = command;
-  common.options = "run.step=0.1\n";
+  common.options = "compare.step=0.1\n";
   return common;
-}
-
-json entries(const scratch& folder) { return entries_in(folder / "manifest.json"); }
-
-/// What an earlier version wrote beside each file.
-std::string earlier(const std::string& file) {
-  return json{{"file", file}, {"command", "old"}, {"options", ""}, {"versions", {}}}.dump();
 }
 
 }  // namespace
@@ -141,108 +131,44 @@ BOOST_AUTO_TEST_CASE(what_took_the_place_of_the_part_stays) {
   BOOST_TEST((folder.files() == names{"a.txt.new.part"}));
 }
 
-BOOST_AUTO_TEST_CASE(entries_of_other_files_stay_and_its_own_is_replaced) {
-  const scratch folder("manifest_entries");
-  write_result(folder / "a.csv", "1\n", made_by("first"));
-  write_result(folder / "b.csv", "2\n", made_by("second"));
-  BOOST_TEST(entries(folder).size() == 2U);
-  BOOST_TEST(entries(folder)["a.csv"]["command"] == "first");
-  write_result(folder / "a.csv", "3\n", made_by("third"));
-  BOOST_TEST(entries(folder).size() == 2U);
-  BOOST_TEST(entries(folder)["a.csv"]["command"] == "third");
-  BOOST_TEST(entries(folder)["a.csv"]["file"] == "a.csv");
-  BOOST_TEST(entries(folder)["b.csv"]["command"] == "second");
-  record_results({folder / "b.csv", folder / "c.npy"}, made_by("fourth"), {{"axes", 3}});
-  BOOST_TEST(entries(folder)["c.npy"]["axes"] == 3);
-  BOOST_TEST(entries(folder).size() == 3U);
-  BOOST_TEST((folder.files() == names{"a.csv", "b.csv", "manifest.json"}));
-  const scratch no_command("manifest_none");
-  write_result(no_command / "a.csv", "1\n", {});
-  BOOST_TEST((no_command.files() == names{"a.csv"}));
+BOOST_AUTO_TEST_CASE(a_result_says_how_it_was_made) {
+  const scratch folder("provenance");
+  const common_settings common = made_by("nysalt compare --step 0.1");
+  write_document(folder / "a.json", {{"rows", 1}}, common);
+  const json document = json::parse(contents(folder / "a.json"));
+  BOOST_TEST(document["rows"] == 1);
+  std::set<std::string> members;
+  for (const auto& [name, value] : document["provenance"].items()) members.insert(name);
+  BOOST_TEST((members == names{"command", "options", "seed", "versions", "compiler", "flags", "time"}));
+  BOOST_TEST(document["provenance"]["command"] == common.command);
+  BOOST_TEST(document["provenance"]["options"] == common.options);
+  BOOST_TEST((folder.files() == names{"a.json"}));
 }
 
-// Were the entries read before the lock is taken, that of the other process would be lost.
-BOOST_AUTO_TEST_CASE(an_entry_that_is_written_meanwhile_stays) {
-  const scratch folder("manifest_meanwhile");
-  write_result(folder / "a.csv", "1\n", made_by("first"));
-  std::thread waiting;
-  {
-    atomic_file held(folder / "manifest.json");
-    waiting = std::thread([&] { write_result(folder / "b.csv", "2\n", made_by("second")); });
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    BOOST_TEST(entries(folder).size() == 1U);
-    json all = json::parse(contents(folder / "manifest.json"));
-    all["files"]["c.csv"] = {{"command", "third"}};
-    held.write(all.dump());
-    held.commit();
-  }
-  waiting.join();
-  BOOST_TEST(entries(folder).size() == 3U);
-  BOOST_TEST(entries(folder)["c.csv"]["command"] == "third");
+BOOST_AUTO_TEST_CASE(a_table_says_it_in_its_first_line) {
+  const scratch folder("provenance_of_table");
+  const auto written = [&](const std::string& command, const std::string& more) {
+    common_settings common = made_by(command);
+    common.options += more;
+    write_table(folder / "a.csv", "x\n1\n", common);
+    return contents(folder / "a.csv");
+  };
+  const std::string once = written("nysalt compare", "");
+  const auto end = once.find('\n');
+  BOOST_TEST(once.substr(end + 1) == "x\n1\n");
+  BOOST_TEST(once.starts_with(mark_of_table));
+  const json made = json::parse(once.substr(mark_of_table.size(), end - mark_of_table.size()));
+  BOOST_TEST(made["options"] == "compare.step=0.1\n");
+  BOOST_TEST(!made.contains("time"));
+  // The same work, gone on with.
+  BOOST_TEST(written("nysalt compare --resume", "compare.resume=true\ncompare.threads=3\n") == once);
+  BOOST_TEST(written("nysalt compare --spread 2", "compare.spread=2\n") != once);
 }
 
-BOOST_AUTO_TEST_CASE(a_writer_that_never_ends_is_not_waited_for_without_end) {
-  const scratch folder("manifest_patience");
-  const atomic_file held(folder / "manifest.json");
-  write_file(folder / "a.csv", "1\n");
-  BOOST_TEST(refuses<nysalt::detail::write_failure>(
-      [&] { record_results({folder / "a.csv"}, made_by("first"), {}, std::chrono::milliseconds(20)); },
-      {"a.csv, which is whole: ", "another process writes it"}));
-}
-
-BOOST_AUTO_TEST_CASE(what_is_not_ours_is_never_replaced) {
-  for (const std::string text :
-       {"{\"name\": \"a web page\"}", "[]", "not json", "", "{\"format\": \"nysalt manifest\"}",
-        "{\"format\": \"nysalt manifest\", \"version\": 2, \"files\": {}}",
-        "{\"format\": \"nysalt manifest\", \"version\": 1, \"files\": []}"}) {
-    const scratch folder("manifest_foreign");
-    std::ofstream(folder / "manifest.json") << text;
-    BOOST_TEST(
-        refuses<refusal>([&] { require_manifest(folder / "a.csv"); }, {"cannot write", "manifest.json"}));
-    BOOST_TEST(refuses<nysalt::detail::write_failure>(
-        [&] { write_result(folder / "a.csv", "1\n", made_by("first")); },
-        {"a.csv, which is whole: ", "manifest.json"}));
-    BOOST_TEST(contents(folder / "manifest.json") == text);
-    BOOST_TEST(contents(folder / "a.csv") == "1\n");
-  }
-  const scratch folder("manifest_ours");
-  write_result(folder / "a.csv", "1\n", made_by("first"));
-  require_manifest(folder / "b.csv");
-  BOOST_TEST(refuses<refusal>([&] { require_manifest(folder / "manifest.json"); }, {"manifest.json"}));
-  // What is written to a link goes to where the link leads.
-  std::filesystem::create_symlink("manifest.json", folder / "link");
-  std::filesystem::create_symlink("link", folder / "link_to_link");
-  std::filesystem::create_symlink("a.csv", folder / "to_a");
-  for (const char* name : {"link", "link_to_link"}) {
-    BOOST_TEST(refuses<refusal>([&] { require_manifest(folder / name); }, {"cannot write", name}));
-  }
-  require_manifest(folder / "to_a");
-  std::filesystem::create_directories(folder / "c" / "manifest.json");
-  BOOST_TEST(refuses<refusal>([&] { require_manifest(folder / "c" / "a.csv"); }, {"folder"}));
-}
-
-BOOST_AUTO_TEST_CASE(earlier_pictures_that_were_made_here_go) {
-  const scratch folder("manifest_pictures");
-  for (const char* name : {"p.svg", "p.gp", "q.svg"}) {
-    write_file(folder / name, "x");
-    write_file(folder / (std::string(name) + ".manifest.json"), earlier(name));
-  }
-  write_file(folder / "p.png", "not ours");
-  write_file(folder / "p.dat", "an input");
-  write_file(folder / "p.dat.manifest.json", earlier("p.dat"));
-  note_input(folder / "p.dat");
-  remove_earlier_pictures({"p", {}}, folder.path());
-  BOOST_TEST((folder.files() == names{"p.dat", "p.png", "q.svg", "q.svg.manifest.json"}));
-}
-
-BOOST_AUTO_TEST_CASE(an_earlier_manifest_of_the_same_file_goes_and_others_stay) {
-  const scratch folder("manifest_earlier");
-  write_file(folder / "a.csv.manifest.json", earlier("a.csv"));
-  write_file(folder / "b.csv.manifest.json", earlier("b.csv"));
-  write_file(folder / "c.csv.manifest.json", "{\"mine\": true}");
-  write_file(folder / "d.csv.manifest.json", earlier("d.csv"));
-  note_input(folder / "d.csv.manifest.json");
-  for (const char* name : {"a.csv", "c.csv", "d.csv"}) write_result(folder / name, "1\n", made_by("new"));
-  BOOST_TEST((folder.files() == names{"a.csv", "b.csv.manifest.json", "c.csv", "c.csv.manifest.json", "d.csv",
-                                      "d.csv.manifest.json", "manifest.json"}));
+BOOST_AUTO_TEST_CASE(without_a_command_nothing_is_added) {
+  const scratch folder("provenance_none");
+  write_document(folder / "a.json", {{"rows", 1}}, {});
+  write_table(folder / "a.csv", "x\n1\n", {});
+  BOOST_TEST(contents(folder / "a.json") == text_of({{"rows", 1}}));
+  BOOST_TEST(contents(folder / "a.csv") == "x\n1\n");
 }

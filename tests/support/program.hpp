@@ -52,7 +52,8 @@ inline nlohmann::ordered_json document(const std::string& arguments,
 
 /// The advice of a recommendation says by how much seconds differ.
 inline bool is_measured_anew(std::string_view name) {
-  return name.find("seconds") != std::string_view::npos || name == "peak_memory" || name == "advice";
+  return name.find("seconds") != std::string_view::npos || name == "peak_memory" || name == "advice" ||
+         name == "provenance";
 }
 
 inline void erase_times(nlohmann::ordered_json& document) {
@@ -66,7 +67,8 @@ inline void erase_times(nlohmann::ordered_json& document) {
   }
 }
 
-/// A document as the program prints it, without the members that are times; a text that is none stays.
+/// A document as the program prints it, without the members that are times and its provenance; a text that is
+/// none stays.
 inline std::string without_times(const std::string& text) {
   auto document = nlohmann::ordered_json::parse(text, nullptr, false);
   if (document.is_discarded()) return text;
@@ -74,9 +76,10 @@ inline std::string without_times(const std::string& text) {
   return document.dump(2);
 }
 
-/// A table without the columns that are times; there is no comma before the last of them but between cells.
+/// A table without what it says of itself and the columns that are times; there is no comma before the last
+/// of them but between cells.
 inline std::string without_times_in_csv(const std::string& text) {
-  std::istringstream lines(text);
+  std::istringstream lines(text.starts_with("# nysalt ") ? text.substr(text.find('\n') + 1) : text);
   std::vector<bool> keeps;
   std::string rest;
   for (std::string line; std::getline(lines, line); rest += '\n') {

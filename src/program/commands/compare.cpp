@@ -23,13 +23,13 @@ constexpr int unfinished = -1;  // no exit code
 
 /// The report, if the folder has a whole one. Throws refusal if it answers another question.
 std::optional<json> finished_report(const std::filesystem::path& folder, const json& question) {
-  for (const char* file : {"report.html", "report.md", "rows.csv"}) {
+  for (const char* file : {"report.html", "rows.csv"}) {
     if (!is_there(folder / file)) return std::nullopt;
   }
   json report = document_in(folder / "report.json");
   if (!report.is_object() || !report.contains("question")) return std::nullopt;
   require_same_question(report["question"], question, folder / "report.json");
-  report.erase("question");
+  for (const char* kept : {"question", "provenance"}) report.erase(kept);
   return report;
 }
 
@@ -89,7 +89,7 @@ int compare(const compare_command& command, const common_settings& common) {
   } else {
     int code = unfinished;
     on_first(all_ranks(), [&] {
-      require_report(folder, {"report.json", "report.md", "report.html", "rows.csv", journal_of_report});
+      require_files_in(folder, {"report.json", "report.html", "rows.csv", journal_of_report});
       if (const auto schemes = all.scheme_files(); !schemes.empty()) {
         require_files_in(folder / folder_of_schemes, schemes);
       }

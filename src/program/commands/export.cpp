@@ -7,7 +7,7 @@
 #include "comparison/exported_source.hpp"
 #include "comparison/json.hpp"
 #include "nysalt/communicator.hpp"
-#include "report/manifest.hpp"
+#include "report/result_file.hpp"
 
 namespace nysalt::program {
 
@@ -21,7 +21,7 @@ int export_method(const export_command& command, const common_settings& common) 
     if (source.learned && !source.learned->usable) {
       warn(fmt::format("the fit {} is not to be used: {}", source.typed, source.learned->reason));
     }
-    if (!command.output.empty()) write_result(command.output, text, common);
+    if (!command.output.empty()) write_result(command.output, text);
     if (common.json) {
       print(text_of(
           json{{"host", command.host.empty() ? command.template_file : command.host},

@@ -5,7 +5,7 @@
 #include "comparison/all_ranks.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/communicator.hpp"
-#include "report/manifest.hpp"
+#include "report/result_file.hpp"
 
 namespace nysalt::program {
 
@@ -22,7 +22,7 @@ int learn(const learn_command& command, const common_settings& common) {
   const bool keep = !command.output.empty() && (bad == nullptr || common.force);
   const auto write = [&] {
     on_first(all_ranks(), [&] {
-      if (keep) write_result(command.output, training.scheme(), common);
+      if (keep) write_document(command.output, training.scheme(), common);
     });
   };
   write_and_print(write, [&](bool written) {

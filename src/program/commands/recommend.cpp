@@ -5,7 +5,7 @@
 #include "comparison/recommendation.hpp"
 #include "comparison/sampling_choice.hpp"
 #include "program/systems.hpp"
-#include "report/manifest.hpp"
+#include "report/result_file.hpp"
 
 #include "../commands.hpp"
 #include "../output.hpp"
@@ -28,7 +28,7 @@ int print_result(auto& all, const std::string& output, const common_settings& co
                       ? std::string("no method was accepted so far")
                       : fmt::format("no method was accepted so far, and {} was not written", file));
   const auto write_text = [&](const std::string& text) {
-    on_first(all_ranks(), [&] { write_result(output, text, common); });
+    on_first(all_ranks(), [&] { write_document(output, json::parse(text), common); });
   };
   bool is_kept = false;
   all.learn_and_rank([&](const chosen_method& best) {

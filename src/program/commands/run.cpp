@@ -19,8 +19,8 @@
 #include "nysalt/communicator.hpp"
 #include "program/output/planned_run.hpp"
 #include "program/output/run_output.hpp"
-#include "report/manifest.hpp"
 #include "report/plot.hpp"
+#include "report/result_file.hpp"
 
 namespace nysalt::program {
 
@@ -48,8 +48,7 @@ void require_room(const run_command& command, const trajectories_plan& plan, boo
 
 /// NAME.svg and NAME.png beside the output NAME.csv: the observables along the first trajectory, in some
 /// 2000 points.
-void draw_run(const run_command& command, const run_output& output, std::int64_t steps,
-              const common_settings& common) {
+void draw_run(const run_command& command, const run_output& output, std::int64_t steps) {
   const std::size_t columns = command.observables.size();
   const auto trajectory = output.read_first((steps / command.sample_every + 1) / 2000 + 1);
   const std::string y_label = columns == 1 ? command.observables.front() : "";
@@ -61,8 +60,7 @@ void draw_run(const run_command& command, const run_output& output, std::int64_t
     values.x = trajectory.t;
     values.y = trajectory.values[k];
   }
-  if (const auto warning =
-          write_pictures({picture_name(command.output), {only}}, folder_of(command.output), common);
+  if (const auto warning = write_pictures({picture_name(command.output), {only}}, folder_of(command.output));
       !warning.empty())
     warn(warning);
 }
@@ -87,17 +85,6 @@ void require_files(const run_command& command) {
 std::optional<std::int64_t> segment_of(const run_command& command, std::int64_t dimension) {
   if (!command.every) return std::nullopt;
   return std::min(*command.every, 10 * short_segment(dimension));
-}
-
-/// Facts of a run for which a file of NumPy has no place; a table and HDF5 hold them themselves.
-json more_of_manifest(const run_command& command, std::int64_t steps, const json& diverged) {
-  if (std::filesystem::path(command.output).extension() != ".npy") return {};
-  return {{"axes", {"trajectory", "sample", "observable"}},
-          {"observables", command.observables},
-          {"step", command.step},
-          {"steps", steps},
-          {"sample_every", command.sample_every},
-          {"diverged", diverged}};
 }
 
 json with_times(std::vector<diverged_trajectory> lost, double step) {
@@ -194,9 +181,7 @@ int run(const run_command& asked, const common_settings& common) {
     const json diverged = with_times(output->lost(), command.step);
     if (!was_finished) {
       output->commit();
-      if (!command.output.empty())
-        record_results({command.output}, common, more_of_manifest(command, plan.steps, diverged));
-      if (command.plot) draw_run(command, *output, plan.steps, common);
+      if (command.plot) draw_run(command, *output, plan.steps);
       output->finish();
     }
     json document{{"system", system.description()},

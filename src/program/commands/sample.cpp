@@ -25,7 +25,7 @@
 #include "nysalt/atomic_file.hpp"
 #include "nysalt/communicator.hpp"
 #include "nysalt/hmc.hpp"
-#include "report/manifest.hpp"
+#include "report/result_file.hpp"
 #include "report/table.hpp"
 
 namespace nysalt::program {
@@ -339,7 +339,10 @@ int sample(const sample_command& command, const common_settings& common) {
     };
     const auto write = [&] {
       if (command.output.empty()) return;
-      write_result(command.output, draws.csv(), common);
+      json made = written_by("nysalt sample");
+      made["method"] = source.typed;
+      made.update(question);
+      write_result(command.output, first_line_of_table(made) + draws.csv());
       remove_checkpoint();
     };
     write_and_print(write, [&](bool written) {

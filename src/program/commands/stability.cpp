@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "comparison/stability.hpp"
 #include "program/systems.hpp"
-#include "report/manifest.hpp"
+#include "report/result_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -218,10 +218,10 @@ void write_curve(const stability_command& command, const subject& target, const 
                  const std::optional<marked_step>& marked, const common_settings& common) {
   const double highest_z = marked ? marked->step * highest_frequency(marked->bands) : 0.0;
   const auto curve = stability_curve_of(target.method, chart, highest_z);
-  write_result(command.output, table_of(curve), common);
+  write_table(command.output, table_of(curve), common);
   if (!command.plot) return;
   const figure picture{picture_name(command.output), {stability_panel(target.name, curve, chart, marked)}};
-  if (const auto warning = write_pictures(picture, folder_of(command.output), common); !warning.empty())
+  if (const auto warning = write_pictures(picture, folder_of(command.output)); !warning.empty())
     warn(warning);
 }
 

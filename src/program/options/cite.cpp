@@ -19,7 +19,7 @@ subcommand offer_cite(CLI::App& app, common_settings& common) {
   const auto typed = std::make_shared<cite_as_typed>();
   auto& asked = typed->asked;
   auto& command = *app.add_subcommand("cite", "the works that a set-up rests on, as BibTeX");
-  command.add_option("files", asked.files, "schemes, or results whose manifests say how they were made");
+  command.add_option("files", asked.files, "schemes and other results, which say how they were made");
   command.add_option("--system", asked.system, "nysalt list shows all");
   command.add_option("--methods", typed->methods, "names, learned:FAMILY, files; joined by commas");
   command.add_option("--metric", typed->metrics, "as compare takes it");

@@ -48,7 +48,7 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
   add_number(command, "--longest-lag", asked.longest_lag, "of the autocovariance, a time");
   add_number(command, "--hmc-temperature", asked.hmc_temperature, "kT of the acceptance, an energy");
   add_learning(command, asked.learning, "--learn-");
-  command.add_option("--output", asked.output, "folder for the report, its tables and pictures");
+  command.add_option("--output", asked.output, "folder for the report and its tables");
   command.add_flag("--resume", asked.resume, "go on where a run into the same folder was stopped");
   add_common(command, common);
   add_force(command, common, "use a scheme at another step or system than it was learned for");

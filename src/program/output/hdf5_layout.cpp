@@ -61,6 +61,14 @@ class file_access : public handle {
   }
 };
 
+/// Of any length, which Python reads as str.
+hid_t type_of_text() {
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  require_done(H5Tset_size(type, H5T_VARIABLE));
+  require_done(H5Tset_cset(type, H5T_CSET_UTF8));
+  return type;
+}
+
 void add_attribute(hid_t file, const std::string& name, hid_t type, hid_t space, const void* value) {
   const handle attribute(H5Acreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   require_done(H5Awrite(attribute, type, value));
@@ -81,9 +89,7 @@ void add_attribute(hid_t file, const std::string& name, const json& value) {
     const handle all(H5Screate_simple(1, &count, nullptr), H5Sclose);
     add_attribute(file, name, H5T_IEEE_F64LE, all, numbers.data());
   } else {
-    const handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-    require_done(H5Tset_size(type, H5T_VARIABLE));  // which Python reads as str
-    require_done(H5Tset_cset(type, H5T_CSET_UTF8));
+    const handle type(type_of_text(), H5Tclose);
     const std::string text = value.is_string() ? value.get<std::string>()
                                                : value.dump(-1, ' ', false, json::error_handler_t::replace);
     const char* begin = text.c_str();
@@ -137,6 +143,18 @@ std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path& file,
   return places;
 }
 
+std::string text_in_hdf5(const std::filesystem::path& file, const std::string& name) {
+  set_up_library();
+  const handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, file_access()), H5Fclose);
+  const handle attribute(H5Aopen(opened, name.c_str(), H5P_DEFAULT), H5Aclose);
+  const handle type(type_of_text(), H5Tclose);
+  char* text = nullptr;
+  require_done(H5Aread(attribute, type, static_cast<void*>(&text)));
+  std::string result(text == nullptr ? "" : text);
+  H5free_memory(text);
+  return result;
+}
+
 std::vector<std::pair<dataset, std::uint64_t>> datasets_in_hdf5(const std::filesystem::path& file) {
   set_up_library();
   const handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, file_access()), H5Fclose);
@@ -177,6 +195,7 @@ void make_hdf5(const std::filesystem::path&, const std::vector<dataset>&, const 
 std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path&, const std::vector<dataset>&) {
   return {};
 }
+std::string text_in_hdf5(const std::filesystem::path&, const std::string&) { return ""; }
 std::vector<std::pair<dataset, std::uint64_t>> datasets_in_hdf5(const std::filesystem::path&) { return {}; }
 
 #endif

@@ -40,6 +40,9 @@ void make_hdf5(const std::filesystem::path& file, const std::vector<dataset>& da
 std::vector<std::uint64_t> places_in_hdf5(const std::filesystem::path& file,
                                           const std::vector<dataset>& datasets);
 
+/// A text that is an attribute of a file. Throws std::runtime_error if it has none of that name.
+std::string text_in_hdf5(const std::filesystem::path& file, const std::string& name);
+
 /// The datasets of a file whose numbers lie in it in one piece, and where they begin, in bytes. Throws
 /// std::runtime_error for what is no file of HDF5.
 std::vector<std::pair<dataset, std::uint64_t>> datasets_in_hdf5(const std::filesystem::path& file);

@@ -9,10 +9,9 @@
 #include "comparison/judging.hpp"
 #include "comparison/lost_motion.hpp"
 #include "comparison/refusal.hpp"
-#include "hdf5_layout.hpp"
 #include "nysalt/communicator.hpp"
 #include "program/systems.hpp"
-#include "report/manifest.hpp"
+#include "report/result_file.hpp"
 
 namespace nysalt::program {
 
@@ -108,16 +107,10 @@ json planned_run::question() const {
 }
 
 json planned_run::about() const {
-  json result{{"format", "nysalt run"}, {"format_version", 1}};
-  json libraries = versions();
-  result["nysalt"] = libraries["nysalt"];
-  libraries.erase("nysalt");
-  libraries["HDF5"] = hdf5_version();
-  result["libraries"] = libraries;
+  json result = written_by("nysalt run");
   result["description"] = system->description();
   result["method"] = command.method;
   result.update(question());
-  result["observables"] = listed(command.observables);
   result["units"] =
       "those of the system's Hamiltonian, in which nothing is scaled; t = step number * step; kinetic "
       "temperatures are energies (kT)";

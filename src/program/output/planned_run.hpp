@@ -36,7 +36,7 @@ struct planned_run {
   std::optional<std::string> warning_of_energy(double largest) const;
   /// All that decides the bytes of the output, for a run that may be stopped and gone on with.
   json question() const;
-  /// The description of a file of arrays: the same, in words too, with versions and units; nothing that
+  /// What an output says of itself: the same, in words too, with versions and units; nothing that
   /// changes from time to time, from machine to machine, or with the number of threads or ranks.
   json about() const;
 };

@@ -35,9 +35,9 @@ run_output::run_output(const planned_run& planned, bool as_json)
   if (is_of_arrays_) {
     samples_ = array_writer(output_, shape_, planned.about());
   } else if (output_.empty() && as_json) {
-    samples_ = table_writer(shape_, nullptr);
+    samples_ = table_writer(shape_, {}, nullptr);
   } else {
-    samples_ = table_writer(shape_, [this](std::string_view text) {
+    samples_ = table_writer(shape_, planned.about(), [this](std::string_view text) {
       if (part_) return part_->write(text);
       if (table_) return table_->write(text);
       print(text);
@@ -133,7 +133,7 @@ void run_output::prolong(const json& question) {
   const auto steps_before = state_.question.at("steps").get<std::int64_t>();
   sampled_shape before = shape_;
   before.samples = steps_before / shape_.every + 1;
-  const auto earlier = is_of_arrays_ ? array_writer(output_, before, {}) : table_writer(before, nullptr);
+  const auto earlier = is_of_arrays_ ? array_writer(output_, before, {}) : table_writer(before, {}, nullptr);
   if (earlier->sum_in(output_) != state_.written) {
     refuse("cannot prolong the run of {}: {} was changed after its end; put the file back, or begin anew",
            checkpoint_.string(), output_);

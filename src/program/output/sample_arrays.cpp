@@ -85,7 +85,10 @@ class sample_arrays final : public sample_writer {
       file.put(0, std::as_bytes(std::span(head)));
     } else {
       try {
-        make_hdf5(file.part(), datasets(), about_);
+        json attributes = about_;
+        attributes["observables"] = listed(shape_.observables);
+        attributes["libraries"]["HDF5"] = hdf5_version();
+        make_hdf5(file.part(), datasets(), attributes);
       } catch (const std::runtime_error&) {
         throw nysalt::detail::write_failure(
             message("cannot write {}: the folder is not there, not writable, or full", file.part().string()));
@@ -95,7 +98,10 @@ class sample_arrays final : public sample_writer {
     for (std::size_t a = 0; a < gathered_.size(); ++a) {
       fill(places_[a], [](std::int64_t) { return std::numeric_limits<double>::quiet_NaN(); });
     }
-    if (is_npy_) return;
+    if (is_npy_) {
+      const std::string about = about_.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+      return file.put(places_[0].first + 8 * places_[0].count, std::as_bytes(std::span(about)));
+    }
     const auto step = [&](std::int64_t n) { return n * shape_.every; };
     const std::size_t others = gathered_.size();
     fill(places_[others], [&](std::int64_t n) { return static_cast<double>(step(n)) * shape_.step; });

@@ -15,19 +15,31 @@
 #include "comparison/refusal.hpp"
 #include "nysalt/atomic_file.hpp"
 #include "program/comma_list.hpp"
+#include "report/result_file.hpp"
 #include "samples.hpp"
 
 namespace nysalt::program {
 
 namespace {
 
+/// Reads what is before the rows of a table: what it says of itself, and the names of its columns.
+std::string head_in(std::istream& table) {
+  std::string head;
+  std::string line;
+  do {
+    if (!std::getline(table, line)) break;
+    head += line + '\n';
+  } while (line.starts_with(mark_of_table));
+  return head;
+}
+
 class sample_table final : public sample_writer {
  public:
-  sample_table(sampled_shape shape, std::function<void(std::string_view)> write)
-      : sample_writer(std::move(shape)), write_(std::move(write)) {}
+  sample_table(sampled_shape shape, json about, std::function<void(std::string_view)> write)
+      : sample_writer(std::move(shape)), about_(std::move(about)), write_(std::move(write)) {}
 
   void begin() override {
-    if (write_) write_(fmt::format("trajectory,step,t,{}\n", fmt::join(shape_.observables, ",")));
+    if (write_) write_(head());
   }
 
   void take(std::int64_t trajectory, const record& segment) override {
@@ -55,8 +67,8 @@ class sample_table final : public sample_writer {
             std::int64_t last) override {
     std::ifstream table(from);
     std::string row;
-    std::getline(table, row);
-    to.write(row + '\n');
+    head_in(table);
+    to.write(head());
     while (std::getline(table, row)) {
       std::int64_t step = 0;
       std::from_chars(row.data() + row.find(',') + 1, row.data() + row.size(), step);
@@ -70,7 +82,7 @@ class sample_table final : public sample_writer {
   first_trajectory read_first(const std::filesystem::path& file, std::int64_t every) const override {
     std::ifstream table(file);
     std::string row;
-    std::getline(table, row);
+    head_in(table);
     first_trajectory result{{}, std::vector<std::vector<double>>(shape_.observables.size())};
     for (std::int64_t n = 0; std::getline(table, row) && row.starts_with("0,"); ++n) {
       if (n % every != 0) continue;
@@ -93,11 +105,17 @@ class sample_table final : public sample_writer {
   }
 
  private:
+  std::string head() const {
+    return first_line_of_table(about_) +
+           fmt::format("trajectory,step,t,{}\n", fmt::join(shape_.observables, ","));
+  }
+
   void write_gathered() {
     if (!text_.empty()) write_(text_);
     text_.clear();
   }
 
+  json about_;
   std::function<void(std::string_view)> write_;
   std::string text_;
   json rows_ = json::array();
@@ -200,9 +218,9 @@ std::vector<byte_range> ranges_of(std::ifstream& table, const byte_range& all, s
 
 }  // namespace
 
-std::unique_ptr<sample_writer> table_writer(sampled_shape shape,
+std::unique_ptr<sample_writer> table_writer(sampled_shape shape, const json& about,
                                             std::function<void(std::string_view)> write) {
-  return std::make_unique<sample_table>(std::move(shape), std::move(write));
+  return std::make_unique<sample_table>(std::move(shape), about, std::move(write));
 }
 
 void put_by_trajectory(const std::filesystem::path& from, const std::filesystem::path& to,
@@ -210,9 +228,7 @@ void put_by_trajectory(const std::filesystem::path& from, const std::filesystem:
   try {
     unfinished_file out(to, unfinished_file::origin::sorted);
     std::ifstream table(from);
-    std::string head;
-    std::getline(table, head);
-    head += '\n';
+    const std::string head = head_in(table);
     out.put(0, std::as_bytes(std::span(head)));
     std::error_code unknown;
     const byte_range rows{head.size(), std::filesystem::file_size(from, unknown)};

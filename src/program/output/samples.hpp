@@ -66,8 +66,9 @@ class sample_writer {
   sampled_shape shape_;
 };
 
-/// Lines of CSV go to `write`; if it is empty, rows are kept for the document.
-std::unique_ptr<sample_writer> table_writer(sampled_shape shape, std::function<void(std::string_view)> write);
+/// Lines of CSV go to `write`, `about` as the first; if it is empty, rows are kept for the document.
+std::unique_ptr<sample_writer> table_writer(sampled_shape shape, const json& about,
+                                            std::function<void(std::string_view)> write);
 /// What put_by_trajectory() holds at a time.
 struct sorting_room {
   std::size_t text = std::size_t{1} << 24U;            // bytes of rows
@@ -81,8 +82,8 @@ void put_by_trajectory(const std::filesystem::path& from, const std::filesystem:
                        std::int64_t trajectories, const sorting_room& room = {});
 
 /// Every number of a file of arrays has its place from the first moment, where it is put when it is known;
-/// what is not taken stays NaN. `about` becomes the attributes of an HDF5 file. Throws refusal where there is
-/// no HDF5, or such a file would be too large.
+/// what is not taken stays NaN. `about` becomes the attributes of an HDF5 file, and stands as JSON behind the
+/// numbers of NumPy's. Throws refusal where there is no HDF5, or such a file would be too large.
 std::unique_ptr<sample_writer> array_writer(const std::filesystem::path& file, sampled_shape shape,
                                             const json& about);
 

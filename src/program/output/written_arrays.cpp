@@ -10,10 +10,8 @@
 #include <utility>
 
 #include "comparison/inputs.hpp"
-#include "comparison/json.hpp"
 #include "comparison/refusal.hpp"
 #include "hdf5_layout.hpp"
-#include "report/manifest.hpp"
 
 namespace nysalt::program {
 
@@ -51,7 +49,7 @@ bool is_sound(const std::array<std::int64_t, 3>& shape) {
 }  // namespace
 
 written_arrays::written_arrays(const std::string& option, const std::string& file)
-    : where_(option + " " + file), file_(file) {
+    : where_(option.empty() ? file : option + " " + file), file_(file) {
   note_input(file_);
   std::error_code ignored;
   input_.open(file_, std::ios::binary);
@@ -89,17 +87,19 @@ void written_arrays::find_in_npy() {
     next += std::min<std::ptrdiff_t>(2, head.data() + head.size() - next);  // ", "
   }
   if (!is_sound(shape) || !head.starts_with(npy_head(shape))) refuse_foreign();
-  const json all = entries_in(manifest_of(file_));
-  const json entry =
-      all.is_object() ? all.value(as_kept(file_.filename().string()).get<std::string>(), json()) : json();
+  const auto end = npy_head(shape).size() + 8 * static_cast<std::uint64_t>(shape[0] * shape[1] * shape[2]);
+  std::error_code ignored;
+  const std::uint64_t size = std::filesystem::file_size(file_, ignored);
+  if (size <= end) refuse_foreign();
+  std::string behind(std::min<std::uint64_t>(size - end, longest_document), '\0');
+  input_.seekg(static_cast<std::streamoff>(end));
+  input_.read(behind.data(), static_cast<std::streamsize>(behind.size()));
+  about_ = parsed(behind);
   try {
-    observables_ = entry.at("observables").get<std::vector<std::string>>();
-    every_ = entry.at("sample_every").get<std::int64_t>();
+    observables_ = about_.at("observables").get<std::vector<std::string>>();
+    every_ = about_.at("sample_every").get<std::int64_t>();
   } catch (const json::exception&) {
-    refuse(
-        "{}: the manifest.json beside the file must name its observables, got none; keep them together, or "
-        "take .h5 or .csv",
-        where_);
+    refuse_foreign();
   }
   if (std::ssize(observables_) != shape[2] || every_ < 1) refuse_foreign();
   trajectories_ = shape[0];
@@ -113,6 +113,7 @@ void written_arrays::find_in_hdf5() {
   std::vector<std::pair<dataset, std::uint64_t>> all;
   try {
     all = datasets_in_hdf5(file_);
+    for (const char* name : {"method", "description"}) about_[name] = text_in_hdf5(file_, name);
   } catch (const std::runtime_error&) {
     refuse_foreign();
   }
@@ -137,7 +138,7 @@ void written_arrays::find_in_hdf5() {
 }
 
 void written_arrays::refuse_foreign() const {
-  refuse("cannot read {}: the file must be an output of nysalt run; name another file", where_);
+  refuse("cannot read {}: the file must be a whole output of nysalt run; name another file", where_);
 }
 
 }  // namespace nysalt::program

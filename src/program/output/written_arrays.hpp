@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "comparison/json.hpp"
+
 namespace nysalt::program {
 
 /// Whether the ending of its name says that a file is one of arrays: .h5, .hdf5 or .npy.
@@ -22,8 +24,8 @@ std::string npy_head(const std::array<std::int64_t, 3>& shape);
 /// The samples of a finished output. Numbers are read where they are asked for.
 class written_arrays {
  public:
-  /// Throws refusal, in the name of the option, for what is no such file; for one of NumPy without its entry
-  /// in the manifest of its folder, which has the names; and for one of HDF5 where there is no HDF5.
+  /// Throws refusal, in the name of the option if there is one, for what is no such file, and for one of HDF5
+  /// where there is no HDF5.
   written_arrays(const std::string& option, const std::string& file);
 
   const std::vector<std::string>& observables() const { return observables_; }
@@ -32,6 +34,8 @@ class written_arrays {
     return samples_;
   }  ///< of each trajectory, at steps 0, every(), 2 every(), ...
   std::int64_t every() const { return every_; }
+  /// What the file says of itself: with members `method` and `description`.
+  const json& about() const { return about_; }
   /// One number; NaN from where the trajectory diverged on. Throws refusal if the file is shorter.
   double number(std::int64_t trajectory, std::int64_t sample, std::size_t observable);
 
@@ -43,6 +47,7 @@ class written_arrays {
   std::string where_;  // option and file
   std::filesystem::path file_;
   std::ifstream input_;
+  json about_;
   std::vector<std::string> observables_;
   std::vector<std::uint64_t> first_;  // byte of the first number of each observable
   std::int64_t apart_ = 1;            // numbers from one sample to the next

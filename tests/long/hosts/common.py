@@ -32,7 +32,7 @@ def of_nysalt(method, h, steps, folder):
                     "--step", repr(h), "--horizon", repr(h * steps), "--trajectories", "1", "--sample-every", str(steps),
                     "--observables", ",".join(names), "--output", file], check=True, stdout=subprocess.DEVNULL)
     with open(file) as rows:
-        return [[float(one) for one in row[3:]] for row in list(csv.reader(rows))[1:]]
+        return [[float(one) for one in row[3:]] for row in list(csv.reader(rows))[2:]]
 
 
 def off(a, b):
