@@ -30,7 +30,7 @@ constexpr double omega = 50.0;
 constexpr double h = 0.01;
 constexpr std::int64_t steps = 1000;
 constexpr std::size_t blocks = 8;
-constexpr std::size_t trajectories = blocks * default_lanes;
+constexpr std::size_t trajectories = blocks * pack<double>::lanes;
 /// Rounding grows over 1000 steps, but not so far; beta1 off by 1e-4 ends 1e-5 away and more.
 constexpr double rounding = 1e-9;
 
@@ -61,8 +61,8 @@ std::vector<chain_state<lanes>> lane_starts() {
   std::vector<chain_state<lanes>> result(blocks);
   for (std::size_t m = 0; m < trajectories; ++m) {
     for (std::size_t i = 0; i < 6; ++i) {
-      result[m / default_lanes].q[i].set(static_cast<int>(m % default_lanes), singles[m].q[i]);
-      result[m / default_lanes].p[i].set(static_cast<int>(m % default_lanes), singles[m].p[i]);
+      result[m / pack<double>::lanes].q[i].set(static_cast<int>(m % pack<double>::lanes), singles[m].q[i]);
+      result[m / pack<double>::lanes].p[i].set(static_cast<int>(m % pack<double>::lanes), singles[m].p[i]);
     }
   }
   return result;
@@ -79,9 +79,9 @@ std::vector<double> numbers(std::span<const chain_state<double>> states) {
 std::vector<double> numbers(std::span<const chain_state<lanes>> states) {
   std::vector<double> result;
   for (std::size_t m = 0; m < trajectories; ++m) {
-    const auto& x = states[m / default_lanes];
+    const auto& x = states[m / pack<double>::lanes];
     for (const auto& half : {x.q, x.p}) {
-      for (const auto& one : half) result.push_back(one[static_cast<int>(m % default_lanes)]);
+      for (const auto& one : half) result.push_back(one[static_cast<int>(m % pack<double>::lanes)]);
     }
   }
   return result;

@@ -30,7 +30,7 @@ void run_ensemble(states& all, const auto& stepper, std::int64_t steps, int thre
     constexpr int N = std::remove_cvref_t<decltype(stepper)>::dimension;
     const auto at = [&](int k) -> auto& { return all[static_cast<std::size_t>(first + k)]; };
     const auto start = [&](int k) { return phase_point<double, N>{at(k).q, at(k).p}; };
-    auto run = stepper.open(gather<pack<double>, N>(count, start), static_cast<std::uint64_t>(first));
+    auto run = stepper.open(detail::gather<pack<double>, N>(count, start), static_cast<std::uint64_t>(first));
     stepper.advance(run, steps);
     const auto end = stepper.synchronous(run);
     for (int k = 0; k < count; ++k) {
@@ -38,7 +38,8 @@ void run_ensemble(states& all, const auto& stepper, std::int64_t steps, int thre
       at(k) = {one.q, one.p};
     }
   };
-  for_each_block(static_cast<std::int64_t>(all.size()), default_lanes, {.threads = threads}, block);
+  detail::for_each_block(static_cast<std::int64_t>(all.size()), pack<double>::lanes, {.threads = threads},
+                         block);
 }
 
 /// The two-stage step.

@@ -66,7 +66,7 @@ void race_runs(const std::string& name, std::int64_t trajectories_of_baoab, int 
 }  // namespace
 
 void race_heaviest_run() {
-  constexpr std::int64_t share = 10 * default_lanes;  // as many for each thread
+  constexpr std::int64_t share = 10 * pack<double>::lanes;  // as many for each thread
   race_runs("heaviest run, one thread", share, 1);
   race_runs("heaviest run, two threads", share, 2);
   race_runs("whole heaviest run, one thread", all_trajectories, 1);

@@ -31,7 +31,7 @@ using peer = void (*)(std::span<chain_state<double>>, const langevin_run&, std::
 
 constexpr double omega = 50.0;
 constexpr double h = 0.01;
-constexpr std::int64_t trajectories = 4 * default_lanes;
+constexpr std::int64_t trajectories = 4 * pack<double>::lanes;
 constexpr std::int64_t steps = 500;
 
 void run_baoab(states& all, const bathed_chain& chain, std::int64_t of_steps) {
@@ -93,7 +93,7 @@ void require_law(const std::string& name, peer theirs) {
 void draw_noise() {
   const counter_noise noise(1);
   vector<pack<double>, 6> xi;
-  for (std::int64_t m = 0; m < trajectories; m += default_lanes) {
+  for (std::int64_t m = 0; m < trajectories; m += pack<double>::lanes) {
     for (std::int64_t n = 0; n < steps; ++n) {
       noise.normals({static_cast<std::uint64_t>(m), n, 0}, xi);
       benchmark::DoNotOptimize(xi.data());

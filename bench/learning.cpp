@@ -94,7 +94,7 @@ class problem {
         measure_(chain_, data_, coordinates::qp) {}
 
   minimum compressed() const {
-    return minimise(objective_of(*loss()), defined_, start_, {0, 1}, iterations_);
+    return minimise(detail::objective_of(*loss()), defined_, start_, {0, 1}, iterations_);
   }
   minimum block_per_sample() const {
     const test::sample_blocks<nystrom, chain_type> blocks(chain_, data_, measure_);
@@ -183,7 +183,8 @@ void race_learning_pass() {
   const auto loss = shared->loss();
   const auto numbers = std::make_shared<const std::vector<double>>(shared->numbers());
   const double operations = static_cast<double>(shared->operations_of_pair()) * shared->samples();
-  const auto steps = static_cast<std::int64_t>(operations / (default_lanes * (multiplications + additions)));
+  const auto steps =
+      static_cast<std::int64_t>(operations / (pack<double>::lanes * (multiplications + additions)));
   std::printf("learning pass: %lld operations a pair\n",
               static_cast<long long>(shared->operations_of_pair()));
   std::vector<runner> runners;

@@ -47,7 +47,7 @@ void require_normal(const std::string& what, const std::vector<double>& x) {
 void race_noise() {
   std::vector<runner> runners;
   const auto packs = std::make_shared<std::vector<pack<double>>>(batch);
-  runners.push_back({"ours", static_cast<double>(batch * default_lanes), [packs] {
+  runners.push_back({"ours", static_cast<double>(batch * pack<double>::lanes), [packs] {
                        ours(*packs);
                        benchmark::DoNotOptimize(packs->data());
                        benchmark::ClobberMemory();
@@ -56,17 +56,17 @@ void race_noise() {
   for (int n = 0; n < 100; ++n) {
     ours(*packs);
     for (const auto& x : *packs) {
-      for (int lane = 0; lane < default_lanes; ++lane) seen.push_back(x[lane]);
+      for (int lane = 0; lane < pack<double>::lanes; ++lane) seen.push_back(x[lane]);
     }
   }
   require_normal("ours", seen);
 
-  const auto numbers = std::make_shared<std::vector<double>>(batch * default_lanes);
+  const auto numbers = std::make_shared<std::vector<double>>(batch * pack<double>::lanes);
   const auto add = [&](const std::string& name, void (*fill)(std::span<double>)) {
-    std::vector<double> tried(100 * batch * default_lanes);
+    std::vector<double> tried(100 * batch * pack<double>::lanes);
     fill(tried);
     require_normal(name, tried);
-    runners.push_back({name, static_cast<double>(batch * default_lanes), [numbers, fill] {
+    runners.push_back({name, static_cast<double>(batch * pack<double>::lanes), [numbers, fill] {
                          fill(*numbers);
                          benchmark::DoNotOptimize(numbers->data());
                          benchmark::ClobberMemory();

@@ -38,7 +38,7 @@ void race_threads() {
                          benchmark::DoNotOptimize(x.data());
                        }});
   }
-  constexpr std::int64_t kernel_steps = trajectories * steps / default_lanes;
+  constexpr std::int64_t kernel_steps = trajectories * steps / pack<double>::lanes;
   const auto kernel = [](std::int64_t count) {
     benchmark::DoNotOptimize(mix_kernel<contraction::off>(count));
   };

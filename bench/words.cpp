@@ -33,8 +33,8 @@ const in_bath<fpu_chain<3>> bathed(chain, bath::of_sigma(0.01, 0.05));
 template <class T>
 std::vector<double> ends_of(const auto& stepper) {
   constexpr int N = std::remove_cvref_t<decltype(stepper)>::dimension;
-  static const auto starts =
-      gather<T, 6>(lanes_in<T>, [](int k) { return fpu_law<3>(chain)(1, static_cast<std::uint64_t>(k)); });
+  static const auto starts = detail::gather<T, 6>(
+      lanes_in<T>, [](int k) { return fpu_law<3>(chain)(1, static_cast<std::uint64_t>(k)); });
   auto run = stepper.open(phase_point<T, N>{starts.q, starts.p});
   stepper.advance(run, steps);
   const auto all = stepper.synchronous(run);

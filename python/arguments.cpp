@@ -139,7 +139,7 @@ void argument_reader::take(const char* name, std::vector<std::string>& to) const
     to = each<std::string>(arguments_[name], [&](const auto& one) { return text_in(name, one); });
 }
 
-void argument_reader::take(const char* name, held_methods& to) const {
+void argument_reader::take(const char* name, std::map<std::string, std::string>& to) const {
   if (!has(name)) return;
   for (const auto& [method_name, text] : py::dict(arguments_[name])) {
     to[text_in(name, method_name)] = text_in(name, text);

@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,7 +41,7 @@ class argument_reader {
   void take(const char* name, std::string& to) const;
   void take(const char* name, std::vector<double>& to) const;
   void take(const char* name, std::vector<std::string>& to) const;
-  void take(const char* name, held_methods& to) const;
+  void take(const char* name, std::map<std::string, std::string>& to) const;
   template <class T>
   void take(const char* name, std::optional<T>& to) const {
     if (has(name)) take(name, to.emplace());

@@ -2,6 +2,7 @@
 #include "commands.hpp"
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -138,7 +139,7 @@ py::dict method(const std::string& text, const std::string& name, const py::obje
 std::string export_method(const py::dict& arguments) {
   const argument_reader asked(arguments);
   std::string method, host, template_file;
-  held_methods held;
+  std::map<std::string, std::string> held;
   program::export_request how;
   asked.take("method", method);
   asked.take("to", host);

@@ -15,9 +15,9 @@ namespace {
 // registers together with their constants. Odd, so that each chain is multiplied and added to in turn: a
 // chain that is only multiplied ends in subnormal numbers, which are slow.
 constexpr std::size_t chains = 13;
-using part = pack<double, default_lanes>::part;
+using part = pack<double>::part;
 using registers = std::array<part, chains>;
-constexpr std::size_t registers_of_pack = default_lanes / detail::native_lanes;
+constexpr std::size_t registers_of_pack = pack<double>::lanes / detail::native_lanes;
 
 /// Multiplications spread evenly among the operations.
 constexpr bool multiplies(std::size_t i) {

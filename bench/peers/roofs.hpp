@@ -15,8 +15,8 @@ namespace nysalt::bench {
 inline constexpr int multiplications = 2 * (4 * 2 + 3 + 6 + 6);
 inline constexpr int additions = 2 * (5 + 6 + 6 + 6);
 
-/// As many multiplications and additions as `steps` steps of default_lanes trajectories, as fast as they go.
-/// Returns a number that depends on all of them.
+/// As many multiplications and additions as `steps` steps of pack<double>::lanes trajectories, as fast as
+/// they go. Returns a number that depends on all of them.
 template <contraction>
 NYSALT_BENCH_PEER double mix_kernel(std::int64_t steps);
 

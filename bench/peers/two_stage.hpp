@@ -11,7 +11,7 @@
 
 namespace nysalt::bench {
 
-using lanes = pack<double, default_lanes>;
+using lanes = pack<double>;
 
 template <class T>
 struct chain_state {

@@ -47,10 +47,10 @@ void follow(const System& system, const auto& law, const method& method, const p
   constexpr int N = System::dimension;
   using lanes = pack<double>;
   const auto stepper = make_stepper(system, method, of.step);
-  for (std::int64_t first = 0; first < of.trajectories; first += default_lanes) {
-    const auto count = static_cast<int>(std::min<std::int64_t>(default_lanes, of.trajectories - first));
+  for (std::int64_t first = 0; first < of.trajectories; first += pack<double>::lanes) {
+    const auto count = static_cast<int>(std::min<std::int64_t>(pack<double>::lanes, of.trajectories - first));
     const auto start = [&](int k) { return law(seed_of_runs, static_cast<std::uint64_t>(first + k)); };
-    auto run = stepper.open(gather<lanes, N>(count, start), static_cast<std::uint64_t>(first));
+    auto run = stepper.open(detail::gather<lanes, N>(count, start), static_cast<std::uint64_t>(first));
     stepper.advance(run, of.steps);
     const auto end = stepper.synchronous(run);
     for (int k = 0; k < count; ++k) fmt::print("{:.17g}\n", energy(system, lane(end, k)));

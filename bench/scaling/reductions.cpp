@@ -17,7 +17,7 @@ namespace nysalt::bench {
 namespace {
 
 void measure(const first_ranks& all, Eigen::Index numbers, int sums) {
-  const shard ours(trajectories_of_leaf * all.size(), all.ranks());
+  const shard ours(detail::trajectories_of_leaf * all.size(), all.ranks());
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(numbers);
   const std::vector<Eigen::VectorXd> terms(static_cast<std::size_t>(ours.count()),
                                            Eigen::VectorXd::Ones(numbers));

@@ -34,7 +34,7 @@ const in_bath<fpu_chain<3>> bathed(chain, bath::of_sigma(0.01, 0.05));
 template <class Stepper>
 double mean_stiff_energy(const Stepper& stepper, const size_of_work& size) {
   using system_type = typename Stepper::system_type;
-  using T = scalar_of_lanes<lanes_of<system_type>>;
+  using T = detail::scalar_of_lanes<detail::lanes_of<system_type>>;
   const fpu_law<3> law(chain);
   const shard ours(size.trajectories, size.who->ranks());
   std::vector<double> terms(static_cast<std::size_t>(ours.count()));

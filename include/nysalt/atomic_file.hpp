@@ -71,11 +71,11 @@ std::string objection_to_replacing(const std::filesystem::path& file);
 
 namespace nysalt {
 
+namespace detail {
+
 /// Synchronises a folder with the disk, so that a renamed file survives a power failure; as far as the system
 /// can.
 void put_folder_on_disk(const std::filesystem::path& file);
-
-namespace detail {
 
 /// A new, empty and locked file for writing, whose name is noted for signal handlers in the same moment; what
 /// a process that was stopped left there is removed. Returns the descriptor. Throws std::runtime_error, about

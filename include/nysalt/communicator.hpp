@@ -61,6 +61,8 @@ void broadcast(const communicator& ranks, List& values, int from = 0) {
   ranks.broadcast(std::as_writable_bytes(std::span(values)), from);
 }
 
+namespace detail {
+
 /// Rank r has items first_of[r] .. first_of[r + 1] - 1 of `all`; all get the rest.
 template <class Item>
   requires std::is_trivially_copyable_v<Item>
@@ -68,6 +70,8 @@ void all_gather_items(const communicator& ranks, std::vector<Item>& all, std::ve
   for (std::size_t& first : first_of) first *= sizeof(Item);  // now bytes
   ranks.all_gather(std::as_writable_bytes(std::span(all)), first_of);
 }
+
+}  // namespace detail
 
 /// All-gather of one value of each rank.
 template <class T>
@@ -77,7 +81,7 @@ std::vector<T> all_gather(const communicator& ranks, const T& value) {
   std::vector<std::size_t> first_of;
   for (std::size_t r = 0; r <= all.size(); ++r) first_of.push_back(r);
   all[static_cast<std::size_t>(ranks.rank())] = value;
-  all_gather_items(ranks, all, first_of);
+  detail::all_gather_items(ranks, all, first_of);
   return all;
 }
 
@@ -92,15 +96,19 @@ std::vector<T> all_gather(const communicator& ranks, const std::vector<T>& ours)
   std::vector<T> all(first_of.back());
   const std::size_t first = first_of[static_cast<std::size_t>(ranks.rank())];
   std::copy(ours.begin(), ours.end(), all.begin() + static_cast<std::ptrdiff_t>(first));
-  all_gather_items(ranks, all, first_of);
+  detail::all_gather_items(ranks, all, first_of);
   return all;
 }
+
+namespace detail {
 
 /// Item first_of_part(count, r, parts) is the first that part r has of `count`: parts are as equal as can be,
 /// and part 0 has one if any has.
 inline std::int64_t first_of_part(std::int64_t count, int part, int parts) {
   return (count * part + parts - 1) / parts;
 }
+
+}  // namespace detail
 
 // [one_rank]
 /// The communicator of a single process: no messages.
@@ -138,10 +146,14 @@ void on_first(const communicator& ranks, const std::function<void()>& work);
 /// what is counted; from any thread, but calls do not overlap. Empty where progress is not reported.
 using progress_callback = std::function<void(std::int64_t done)>;
 
+namespace detail {
+
 /// A counter for the `count` trajectories of this rank, such that `progress` counts to `total`, the number of
 /// trajectories of all ranks. Shares are nearly equal: rank 0 scales its own count, and the others report
 /// nothing.
 progress_callback progress_of_share(const communicator& ranks, std::int64_t count, std::int64_t total,
                                     const progress_callback& progress);
+
+}  // namespace detail
 
 }  // namespace nysalt

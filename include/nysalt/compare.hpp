@@ -14,28 +14,28 @@
 
 namespace nysalt {
 
-/// Result of one method at one step by one metric.
-struct compared_method {
-  std::string method;           ///< method as requested
-  double step;                  ///< size of a whole step
-  std::string metric;           ///< metric as requested, with the observable
-  bool is_learned;              ///< whether the method was learned, by this comparison, or in a scheme
-  double evaluations_per_time;  ///< force evaluations of one trajectory per unit time
-  double seconds_per_time;      ///< wall time of one trajectory per unit time, minimum over rounds
-  estimate value;         ///< the error (of acceptance the probability) with its standard error; NaN: none
-  std::int64_t diverged;  ///< number of diverged trajectories
-  std::string reason;     ///< why there is no value; else empty
-};
-
 /// Result of compare().
 class comparison {
  public:
+  /// Result of one method at one step by one metric.
+  struct row {
+    std::string method;           ///< method as requested
+    double step;                  ///< size of a whole step
+    std::string metric;           ///< metric as requested, with the observable
+    bool is_learned;              ///< whether the method was learned, by this comparison, or in a scheme
+    double evaluations_per_time;  ///< force evaluations of one trajectory per unit time
+    double seconds_per_time;      ///< wall time of one trajectory per unit time, minimum over rounds
+    estimate value;         ///< the error (of acceptance the probability) with its standard error; NaN: none
+    std::int64_t diverged;  ///< number of diverged trajectories
+    std::string reason;     ///< why there is no value; else empty
+  };
+
   class measurement;  ///< internal form of the results
   /// Made by compare().
   explicit comparison(std::shared_ptr<const measurement> found) : found_(std::move(found)) {}
 
   /// Every method at every step by every metric.
-  std::vector<compared_method> rows() const;
+  std::vector<row> rows() const;
   /// The tables that the program prints.
   std::string text() const;
   /// A JSON document of all that was found: what `nysalt compare --json` prints.

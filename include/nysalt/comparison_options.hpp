@@ -47,9 +47,6 @@ struct learning_options {
   double horizon_at(double step) const;
 };
 
-/// Schemes and tables that a caller holds in memory: by name the text of what would be their file.
-using held_methods = std::map<std::string, std::string>;
-
 /// Methods, trajectories and error measures of a comparison.
 struct comparison_options {
   /// Names, "learned:FAMILY", paths of files, or names of `held`; "all" stands for each method of the
@@ -65,9 +62,10 @@ struct comparison_options {
   std::int64_t trajectories = 400;  ///< trajectories to compare on; none of them is learned from
   std::vector<std::string> metrics{"path"};  ///< path, relative, state, exchange, energy, acceptance,
                                              ///< distribution, acf; path:OBSERVABLE is the path error of one
-  std::string observable{};      ///< observable of path, relative, distribution and acf. Empty: the usual
-  learning_options learning{};   ///< options of learned methods
-  held_methods held{};           ///< methods that are not in files
+  std::string observable{};     ///< observable of path, relative, distribution and acf. Empty: the usual
+  learning_options learning{};  ///< options of learned methods
+  /// Schemes and tables that the caller holds in memory: by name the text of what would be their file.
+  std::map<std::string, std::string> held{};
   std::string placement{};       ///< placement of the letters O in a bath: end, symmetric or middle
   std::vector<double> levels{};  ///< errors at which costs are compared; empty: taken from the data
   std::vector<double> range{};   ///< low and high end of the histogram; empty: the range of the starts

@@ -22,6 +22,8 @@ struct diverged_trajectory {
   std::int64_t step = 0;        ///< the first bad one
 };
 
+namespace detail {
+
 /// Detects divergence: not finite, or |H - H_0| > 1e3 max(|H_0|, K_0, |q grad V|, N kT) with the values at
 /// the start, energies that do not vanish together where H_0 does by chance. Without an energy only the
 /// first, and likewise where these are all 0, and in a bath that heats without end (noise, but no friction).
@@ -59,8 +61,8 @@ class divergence {
   const T& last_change() const { return last_; }
 
   /// Whether x has run away: a bool, or a mask of lanes. Cost: one energy.
-  condition_of<T> operator()(const state& x) {
-    condition_of<T> sound = is_finite(x);
+  detail::condition_of<T> operator()(const state& x) {
+    detail::condition_of<T> sound = is_finite(x);
     if constexpr (HasEnergy<S>) {
       if (has_energy(*system_)) {
         const T change = energy_in_lanes<T>(*system_, x) - initial_;
@@ -90,5 +92,7 @@ class divergence {
   T most_{};
   T last_{};
 };
+
+}  // namespace detail
 
 }  // namespace nysalt

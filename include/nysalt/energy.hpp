@@ -13,9 +13,7 @@ namespace nysalt {
 /// v = grad K(p): p_i / m_i, or the system's own, or by autodiff from its kinetic energy.
 template <class T, System S>
 void velocity(const S& system, const vector<T, S::dimension>& p, vector<T, S::dimension>& v) {
-  if constexpr (ErasedSystem<S>) {
-    system.template kernels<T>().velocity(p, v);
-  } else if constexpr (HasVelocity<S, T>) {
+  if constexpr (HasVelocity<S, T>) {
     system.velocity(p, v);
   } else if constexpr (HasKineticEnergy<S, double>) {
     gradient<T, S::dimension>([&](const auto& y) { return system.kinetic_energy(y); }, p, 1.0, v);
@@ -29,9 +27,7 @@ void velocity(const S& system, const vector<T, S::dimension>& p, vector<T, S::di
 /// K(p): the system's own, else sum_i p_i^2/(2 m_i).
 template <class T, HasEnergy<T> S>
 T kinetic_energy(const S& system, const vector<T, S::dimension>& p) {
-  if constexpr (ErasedSystem<S>) {
-    return system.template kernels<T>().kinetic_energy(p);
-  } else if constexpr (HasKineticEnergy<S, T>) {
+  if constexpr (HasKineticEnergy<S, T>) {
     return system.kinetic_energy(p);
   } else {
     T sum(0.0);
@@ -49,11 +45,7 @@ T kinetic_energy(const S& system, const vector<T, S::dimension>& p) {
 /// H(q, p) = K(p) + V(q).
 template <class T, HasEnergy<T> S>
 T energy(const S& system, const phase_point<T, S::dimension>& x) {
-  if constexpr (ErasedSystem<S>) {
-    return system.template kernels<T>().energy(x.q, x.p);
-  } else {
-    return kinetic_energy<T>(system, x.p) + system.potential(x.q);
-  }
+  return kinetic_energy<T>(system, x.p) + system.potential(x.q);
 }
 
 /// From the least to the largest H that was seen.

@@ -72,25 +72,29 @@ phase_point<double, S::dimension> sound_start(const S& system, const E& ensemble
   return detail::require_sound(system, ensemble, n, ensemble(seed, static_cast<std::uint64_t>(n)));
 }
 
+namespace detail {
+
 /// Initial states of `count` trajectories from the first on, one in each lane of T; lanes beyond them repeat
 /// the first.
 template <class T, System S, Ensemble<S> E>
 phase_point<T, S::dimension> sound_starts(const S& system, const E& ensemble, std::uint64_t seed,
                                           std::int64_t first, int count) {
   const auto one_by_one = [&] {
-    return gather<T, S::dimension>(count,
-                                   [&](int k) { return sound_start(system, ensemble, seed, first + k); });
+    return detail::gather<T, S::dimension>(
+        count, [&](int k) { return sound_start(system, ensemble, seed, first + k); });
   };
   if constexpr (MakesBlocks<E, S, T>) {
     if constexpr (requires { ensemble.makes_blocks(); }) {
       if (!ensemble.makes_blocks()) return one_by_one();
     }
     const auto all = ensemble.template block<T>(seed, first, count);
-    return gather<T, S::dimension>(
+    return detail::gather<T, S::dimension>(
         count, [&](int k) { return detail::require_sound(system, ensemble, first + k, lane(all, k)); });
   } else {
     return one_by_one();
   }
 }
+
+}  // namespace detail
 
 }  // namespace nysalt

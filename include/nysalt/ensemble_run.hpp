@@ -41,7 +41,7 @@ template <class T, class Stepper>
 class ensemble_run {
   static constexpr int N = Stepper::dimension;
   static constexpr int width = lanes_in<T>;
-  using runs = lockstep<Stepper, T>;
+  using runs = detail::lockstep<Stepper, T>;
   using state = phase_point<T, N>;
 
   struct block {
@@ -122,7 +122,7 @@ class ensemble_run {
     if (saved != nullptr) require_fitting(*saved);
     blocks_.resize(static_cast<std::size_t>((count - 1) / width + 1));
     const auto make = [&](detail::own_stepper<Stepper> own, std::int64_t place, int here) {
-      const auto start = sound_starts<T>(stepper.system(), ensemble, seed, first + place, here);
+      const auto start = detail::sound_starts<T>(stepper.system(), ensemble, seed, first + place, here);
       runs run = saved == nullptr ? runs(*own, start, here, first + place)
                                   : resumed(*own, start, here, *saved, place);
       auto& made = blocks_[static_cast<std::size_t>(place / width)];
@@ -147,12 +147,12 @@ class ensemble_run {
   runs resumed(const Stepper& stepper, const state& start, int count, const saved_runs& saved,
                std::int64_t place) const {
     open_run<T, N> run{{start, start.q}, saved.step, static_cast<std::uint64_t>(first_ + place)};
-    first_in_lanes<T> lost;
+    detail::first_in_lanes<T> lost;
     const double* next_number = saved.numbers.data() + 3 * start.size() * place;
     for (int k = 0; k < count; ++k) {
       lost.set(k, saved.diverged_at[static_cast<std::size_t>(place + k)]);
       for (auto* part : {&run.state.q, &run.state.p, &run.state.f}) {
-        for (T& number : *part) set_lane(number, k, *next_number++);
+        for (T& number : *part) detail::set_lane(number, k, *next_number++);
       }
     }
     return runs(stepper, start, count, std::move(run), lost);

@@ -35,6 +35,8 @@ struct parameter_range {
   bool contains(double x) const { return open ? low < x && x < high : low <= x && x <= high; }
 };
 
+namespace detail {
+
 /// theta: one number for each parameter of the family F.
 template <class F>
 using parameters_of = std::array<double, static_cast<std::size_t>(F::parameters)>;
@@ -43,6 +45,8 @@ using parameters_of = std::array<double, static_cast<std::size_t>(F::parameters)
 /// of their digits of each other. A search that ends here has found nothing.
 inline constexpr double farthest_parameter = 4.0;
 
+}  // namespace detail
+
 /// A classical method that a family contains.
 template <int Parameters>
 struct classical_member {
@@ -50,9 +54,13 @@ struct classical_member {
   std::array<double, static_cast<std::size_t>(Parameters)> theta;  ///< parameters of the method in the family
 };
 
+namespace detail {
+
 /// Carries the derivatives by theta, which learning needs.
 template <class F>
 using theta_dual = dual<double, F::parameters>;
+
+}  // namespace detail
 
 /// theta -> coefficients of a word, over double and over derivatives with respect to theta:
 ///   letters, name, parameters, parameter_names
@@ -65,22 +73,21 @@ using theta_dual = dual<double, F::parameters>;
 /// interval, for steps at which the others are unstable; and source, the key in docs/bibliography.bib of
 /// where it comes from.
 template <class F>
-concept Family = std::copyable<F> &&
-                 requires(const F& family, const parameters_of<F>& theta,
-                          const std::array<theta_dual<F>, static_cast<std::size_t>(F::parameters)>& lifted) {
-                   { family.letters } -> std::convertible_to<const word&>;
-                   { F::name } -> std::convertible_to<std::string_view>;
-                   { F::parameter_names[0] } -> std::convertible_to<std::string_view>;
-                   { F::order } -> std::convertible_to<int>;
-                   { F::symmetric } -> std::convertible_to<bool>;
-                   { F::requires_quadratic_kinetic } -> std::convertible_to<bool>;
-                   {
-                     F::ranges()
-                   } -> std::same_as<std::array<parameter_range, static_cast<std::size_t>(F::parameters)>>;
-                   { F::start() } -> std::same_as<parameters_of<F>>;
-                   { family.coefficients(theta)[0] } -> std::convertible_to<double>;
-                   { family.coefficients(lifted)[0] } -> std::convertible_to<theta_dual<F>>;
-                 };
+concept Family =
+    std::copyable<F> &&
+    requires(const F& family, const detail::parameters_of<F>& theta,
+             const std::array<detail::theta_dual<F>, static_cast<std::size_t>(F::parameters)>& lifted) {
+      { family.letters } -> std::convertible_to<const word&>;
+      { F::name } -> std::convertible_to<std::string_view>;
+      { F::parameter_names[0] } -> std::convertible_to<std::string_view>;
+      { F::order } -> std::convertible_to<int>;
+      { F::symmetric } -> std::convertible_to<bool>;
+      { F::requires_quadratic_kinetic } -> std::convertible_to<bool>;
+      { F::ranges() } -> std::same_as<std::array<parameter_range, static_cast<std::size_t>(F::parameters)>>;
+      { F::start() } -> std::same_as<detail::parameters_of<F>>;
+      { family.coefficients(theta)[0] } -> std::convertible_to<double>;
+      { family.coefficients(lifted)[0] } -> std::convertible_to<detail::theta_dual<F>>;
+    };
 
 namespace detail {
 inline void require_in_range(std::string_view family, std::string_view parameter,
@@ -98,7 +105,11 @@ struct named_parameters {
   Eigen::VectorXd theta;  ///< parameters
 };
 
+namespace detail {
+
 struct contained_family;
+
+}  // namespace detail
 
 /// The names, bounds and promises of a family, its word, and theta -> coefficients with their Jacobian.
 class family {
@@ -152,7 +163,7 @@ class family {
   std::vector<parameter_range> ranges;                ///< ranges of the parameters
   std::optional<Eigen::VectorXd> most_stable_member;  ///< the one with the longest stability interval
   std::vector<named_parameters> starts;  ///< the family's own, its classical members, further ones
-  std::shared_ptr<const contained_family>
+  std::shared_ptr<const detail::contained_family>
       contained;  ///< contained family, whose optimum is a start, too; null: none
   int order;
   bool symmetric;
@@ -189,17 +200,17 @@ class family {
   void contain(family inner);
 
   template <Family F>
-  static parameters_of<F> array_from(const Eigen::VectorXd& theta) {
-    parameters_of<F> result;
+  static detail::parameters_of<F> array_from(const Eigen::VectorXd& theta) {
+    detail::parameters_of<F> result;
     for (std::size_t k = 0; k < result.size(); ++k) result[k] = theta[static_cast<Eigen::Index>(k)];
     return result;
   }
 
   template <Family F>
   static Eigen::MatrixXd jacobian_of(const F& family, const Eigen::VectorXd& theta) {
-    std::array<theta_dual<F>, parameters_of<F>{}.size()> lifted;
+    std::array<detail::theta_dual<F>, detail::parameters_of<F>{}.size()> lifted;
     for (int k = 0; k < F::parameters; ++k) {
-      lifted[static_cast<std::size_t>(k)] = theta_dual<F>::variable(theta[k], k);
+      lifted[static_cast<std::size_t>(k)] = detail::theta_dual<F>::variable(theta[k], k);
     }
     const auto c = family.coefficients(lifted);
     Eigen::MatrixXd result(static_cast<Eigen::Index>(c.size()), F::parameters);
@@ -215,6 +226,8 @@ class family {
   std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> jacobian_;
 };
 
+namespace detail {
+
 /// A family of fewer parameters all of whose members are members of a larger one.
 struct contained_family {
   nysalt::family family;
@@ -225,6 +238,8 @@ struct contained_family {
   Eigen::VectorXd embed(const Eigen::VectorXd& theta) const { return origin + slopes * theta; }
 };
 
+}  // namespace detail
+
 /// The methods of a word that reads the same from both ends, whose coefficients do, too, and add up to 1 for
 /// each part of H: symmetric, of order 2. `times` says of which part each slot is the time, a character each:
 /// characters of letters of one's own, and A, B, R or S. Parameters are named by the part and a number; the
@@ -234,14 +249,22 @@ struct contained_family {
 /// neighbours, or unless there is one character for each slot.
 family symmetric_word(std::string name, const word& letters, const std::string& times);
 
+namespace detail {
+
 /// Pairs of letters of a processor: more gain little, and cost evaluations each time that a run is observed.
 inline constexpr int most_processor_pairs = 8;
+
+}  // namespace detail
 
 /// The member of a family at theta, usable at any step. Throws std::invalid_argument unless there is a value
 /// for each parameter, in its range.
 method member(const family& family, const std::vector<double>& theta);
 
+namespace detail {
+
 /// Throws std::invalid_argument, naming the parameter, unless every theta lies in its range.
 void require_in_range(const family& family, const Eigen::VectorXd& theta);
+
+}  // namespace detail
 
 }  // namespace nysalt

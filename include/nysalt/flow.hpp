@@ -16,6 +16,8 @@ struct flow_state : phase_point<T, N> {
   vector<T, N> f;  ///< force at q, where the word needs the force
 };
 
+namespace detail {
+
 /// Empty work space, of letters that need none.
 struct no_room {};
 
@@ -28,6 +30,8 @@ struct flow_room : lifted_room<T, N> {
   vector<T, N> x;  ///< work space: modal x of a rotation, M^-1 f of a gradient kick, or the displaced q
   vector<T, N> y;  ///< work space: modal y of a rotation, f'(q) M^-1 f, or the force at the displaced q
 };
+
+}  // namespace detail
 
 /// The flow of the bath: its `stochastic` is true, and it draws noise.
 template <class L>
@@ -43,6 +47,8 @@ enum class splitting {
   kinetic_and_potential,   ///< K and V: A, B, D, G
   quadratic_part_and_rest  ///< K with the quadratic part of V, and the rest of V: R, S, H
 };
+
+namespace detail {
 
 /// The oscillator q'' = -(theta^2 + k) q of which theta^2 is the quadratic part, for letters over a step
 /// of 1. times_k(x) is k x, so that k may be a number, the variable of a polynomial, or, for two modes, a
@@ -61,7 +67,6 @@ struct split_stiffness {
   }
 };
 
-namespace detail {
 /// `any` where a letter declares none.
 template <class L>
 constexpr splitting splitting_of() {

@@ -20,12 +20,16 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Position of the pairs of one rank among the pairs of all ranks.
 struct shared_pairs {
   shard trajectories;  ///< distribution of the trajectories over ranks
   std::size_t first;   ///< number of the first pair at this rank, among all
   std::size_t total;   ///< pairs of all ranks
 };
+
+}  // namespace detail
 
 /// Pairs (start, finish) with finish one step later on the reference trajectory, trajectory by trajectory. If
 /// ranks share them, each has the pairs of its trajectories.
@@ -40,7 +44,7 @@ struct flow_map_data {
   int noise_parts = 0;
   /// Standard normal numbers of that noise: the numbers of pair n are noise[n noise_parts + k] for k from 0
   /// to noise_parts - 1.
-  vector_list noise;
+  detail::vector_list noise;
 
   /// Further states of the ensemble, beyond those that trajectories begin at, the most energetic of many
   /// among them: at all ranks the same. They are where frequencies are estimated.
@@ -51,7 +55,7 @@ struct flow_map_data {
   /// A few finishes again with the finer reference: {pair, finish}. They estimate the reference's own error.
   std::vector<std::pair<std::size_t, phase_point<double, Eigen::Dynamic>>> finer;
 
-  std::optional<shared_pairs> shared;  ///< null if this rank has all pairs
+  std::optional<detail::shared_pairs> shared;  ///< null if this rank has all pairs
 
   // Provenance of the data of all ranks.
   std::string system;                    ///< description of the system
@@ -98,11 +102,11 @@ std::int64_t steps_of_each(const data_options& options, Eigen::Index dimension);
 /// that no length of trajectories makes all of them starts, say.
 std::vector<std::size_t> spread_pairs(std::size_t all, std::size_t most);
 
-}  // namespace detail
-
 /// Largest number of trajectories: as many as fit into the memory of one rank, so that it does not
 /// depend on the number of ranks. Throws std::invalid_argument if one does not, or has no step.
 std::int64_t most_trajectories(data_options options, Eigen::Index dimension);
+
+}  // namespace detail
 
 /// Follows the reference from `trajectories` starts over floor(horizon/step) steps each, as many at a time as
 /// there are lanes; in a bath along paths whose noise is kept in parts of a step. Threads share the ensemble
@@ -116,11 +120,15 @@ std::int64_t most_trajectories(data_options options, Eigen::Index dimension);
 flow_map_data make_flow_map_data(const model& system, const initial_states& ensemble,
                                  const reference& reference, const data_options& options);
 
+namespace detail {
+
 /// Makes of data with fewer trajectories, or none, the data of the options, which were the same but for their
 /// number: only what is new is made. The pairs have the bits of those made at once; of finer finishes there
 /// are more. Ranks hand over trajectories that become another's. Throws what make_flow_map_data does. Cost:
 /// the trajectories that are new.
 void extend_data(const model& system, const initial_states& ensemble, const reference& reference,
                  const data_options& options, flow_map_data& data);
+
+}  // namespace detail
 
 }  // namespace nysalt

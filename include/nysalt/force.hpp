@@ -153,8 +153,6 @@ double farthest_from(const V& q, const V& v) {
   return length > 0.0 ? 1e-4 * q.cwiseAbs().maxCoeff() / length : 0.0;
 }
 
-}  // namespace detail
-
 /// g = f'(q) v of a black box, where f = f(q) is known: the system's own, or central differences. For v of
 /// the size of what q does in a step or so the error is below 1e-7 of f'(q) v in any units, if q is no more
 /// than some 10^4 times that from the origin; a v that is far too long or short is found out and costs more.
@@ -164,9 +162,7 @@ template <System S>
 void directional_derivative(const S& system, const vector<double, S::dimension>& q,
                             const vector<double, S::dimension>& v, const vector<double, S::dimension>& f,
                             vector<double, S::dimension>& g) {
-  if constexpr (ErasedSystem<S>) {
-    system.directional_derivative(q, v, f, g);
-  } else if constexpr (HasForceDerivative<S>) {
+  if constexpr (HasForceDerivative<S>) {
     system.force_derivative(q, v, g);
   } else {
     auto at = q;
@@ -178,6 +174,8 @@ void directional_derivative(const S& system, const vector<double, S::dimension>&
     detail::adapted_difference(force_at, f, v, noise, detail::farthest_from(q, v), g);
   }
 }
+
+}  // namespace detail
 
 /// f = -grad V(q) over any scalar that the system can serve.
 /// Cost: the system's own force where it has one over T. From the potential the cost of gradient(), and from
@@ -191,7 +189,7 @@ void force(const S& system, const vector<T, S::dimension>& q, vector<T, S::dimen
   } else if constexpr (HasPotential<S, dual<T, detail::sweep<S::dimension>>>) {
     gradient<T, S::dimension>([&](const auto& x) { return system.potential(x); }, q, -1.0, f);
   } else {  // a black box over dual<double, N>: f(q + e v) = f(q) + e f'(q) v
-    auto at = make_vector<double>(system);
+    auto at = detail::make_vector<double>(system);
     auto value = at;
     auto direction = at;
     auto result = at;
@@ -200,7 +198,7 @@ void force(const S& system, const vector<T, S::dimension>& q, vector<T, S::dimen
     for (Eigen::Index i = 0; i < q.size(); ++i) f[i].value = value[i];
     for (std::size_t k = 0; k < T::derivatives; ++k) {
       for (Eigen::Index i = 0; i < q.size(); ++i) direction[i] = q[i].derivative[k];
-      directional_derivative(system, at, direction, value, result);
+      detail::directional_derivative(system, at, direction, value, result);
       for (Eigen::Index i = 0; i < q.size(); ++i) f[i].derivative[k] = result[i];
     }
   }
@@ -213,6 +211,8 @@ enum class field { none, whole, soft };
 template <class S, class T, field F>
 concept ForceOver = (F == field::whole && SystemOver<S, T>) || (F == field::soft && HasSoftForce<S, T>);
 
+namespace detail {
+
 /// The force of a field. Cost: one evaluation.
 template <field F, class T, System S>
   requires ForceOver<S, T, F>
@@ -224,12 +224,16 @@ void force_of(const S& system, const vector<T, S::dimension>& q, vector<T, S::di
   }
 }
 
+}  // namespace detail
+
 /// f'(q) v of a field can be had over T.
 template <class S, class T, field F>
 concept ForceDerivativeOver =
     ForceOver<S, dual<T, 1>, F> ||
     (F == field::whole && (HasForceDerivative<S, T> || (BlackBoxForce<S> && detail::is_dual_of_double<T>))) ||
     (ErasedSystem<S> && HasForce<S, T>);
+
+namespace detail {
 
 /// Room for a force over dual numbers.
 template <class T, int N>
@@ -240,8 +244,6 @@ struct lifted_room {
   vector<dual<T, 1>, N> q;   ///< q + e v, e being the dual unit
   vector<dual<T, 1>, N> f;   ///< f(q) + e f'(q) v
 };
-
-namespace detail {
 
 /// Of a black box, over dual numbers: f'(q) v, and f''(q)[dq, v] + f'(q) dv by central differences, where q
 /// goes along dq and v along dv. Where f'(q) v, between q + s v and q - s v, is a difference itself, errors
@@ -281,8 +283,6 @@ void black_box_along(const S& system, const vector<T, S::dimension>& q, const ve
   }
 }
 
-}  // namespace detail
-
 /// g = f'(q) v of a field over any scalar: the system's own, or exactly by a dual number, and of a black box
 /// by differences between q + s v and q - s v. If v is what q does in a step or so, s may be left out. Cost:
 /// one evaluation; of a black box as many calls as derivative_calls says, and over dual<double, N> 4 N + 3
@@ -291,9 +291,7 @@ template <field F, class T, System S>
   requires ForceDerivativeOver<S, T, F>
 void force_along(const S& system, const vector<T, S::dimension>& q, const vector<T, S::dimension>& v,
                  vector<T, S::dimension>& g, auto& room, double s = detail::part_of_displacement) {
-  if constexpr (ErasedSystem<S>) {
-    system.template kernels<T>().force_along(F, q, v, g, room, s);
-  } else if constexpr (F == field::whole && HasForceDerivative<S, T>) {
+  if constexpr (F == field::whole && HasForceDerivative<S, T>) {
     system.force_derivative(q, v, g);
   } else if constexpr (F == field::whole && BlackBoxForce<S>) {
     if constexpr (is_dual<T>) {
@@ -323,5 +321,7 @@ constexpr const char* derivative_source() {
   if constexpr (HasForceDerivative<S>) return "the system's directional derivative";
   return "central differences of the force";
 }
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -35,7 +35,7 @@ class initial_states {
     };
     if constexpr (requires { ensemble.size(); }) size_ = static_cast<std::int64_t>(ensemble.size());
     if constexpr (requires { ensemble.is_expensive(); }) is_expensive_ = ensemble.is_expensive();
-    using T = scalar_of_lanes<default_lanes>;
+    using T = detail::scalar_of_lanes<detail::default_lanes>;
     if constexpr (requires { ensemble.template block<T>(std::uint64_t{}, std::int64_t{}, int{}); }) {
       is_expensive_ = true;
       several_ = [ensemble](std::uint64_t seed, std::int64_t first, int count) {
@@ -58,10 +58,11 @@ class initial_states {
   phase_point<T, Eigen::Dynamic> block(std::uint64_t seed, std::int64_t first, int count) const {
     if (several_) {
       const auto all = several_(seed, first, std::min(count, lanes_in<T>));
-      return gather<T, Eigen::Dynamic>(count, [&](int k) { return all[static_cast<std::size_t>(k)]; });
+      return detail::gather<T, Eigen::Dynamic>(count,
+                                               [&](int k) { return all[static_cast<std::size_t>(k)]; });
     }
-    return gather<T, Eigen::Dynamic>(count,
-                                     [&](int k) { return at_(seed, static_cast<std::uint64_t>(first + k)); });
+    return detail::gather<T, Eigen::Dynamic>(
+        count, [&](int k) { return at_(seed, static_cast<std::uint64_t>(first + k)); });
   }
   bool makes_blocks() const { return several_ != nullptr; }  ///< several at a time cost less
   const std::string& description() const { return text_; }   ///< description of the ensemble

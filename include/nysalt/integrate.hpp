@@ -45,7 +45,7 @@ outcome<Stepper::dimension> integrate(const Stepper& stepper,
   if (start.q.size() != size(stepper.system()) || start.p.size() != start.q.size() || !is_finite(start)) {
     throw std::invalid_argument("integrate: the start must be finite and have the system's dimension");
   }
-  lockstep<Stepper, double> run(stepper, start, 1, static_cast<std::int64_t>(trajectory));
+  detail::lockstep<Stepper, double> run(stepper, start, 1, static_cast<std::int64_t>(trajectory));
   const auto show = [&](std::int64_t n, const auto& x) {
     observer(n, static_cast<double>(n) * stepper.step_size(), x);
   };

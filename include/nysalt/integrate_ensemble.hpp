@@ -86,7 +86,7 @@ std::vector<std::optional<std::int64_t>> integrate_ensemble(const Stepper& stepp
   struct taken : detail::take_in_order<Read, Take> {
     std::optional<std::int64_t>* diverged_at;
 
-    void end(const lockstep<Stepper, T>& run) {
+    void end(const detail::lockstep<Stepper, T>& run) {
       for (int k = 0; k < this->count; ++k) diverged_at[k] = run.diverged_at(k);
     }
   };

@@ -46,19 +46,23 @@ struct judging_options {
   bool watches_energy = true;     ///< false: only divergence counts, as for proposals of Hybrid Monte Carlo
 };
 
+namespace detail {
+
 /// Largest number of force evaluations of a trial: what `work` comes to.
 std::int64_t evaluations_of_trial(const model& system, const judging_options& options = {});
 
-/// Errors of the energy of trajectories, each the largest |H - H_0| over the median kinetic energy.
-struct energy_errors {
-  double median = 0.0;      ///< of the trajectories
-  double most = 0.0;        ///< 95 % of the trajectories have less
-  double nearly_all = 0.0;  ///< 98 % of the trajectories have less: a good method may lose the others
-  double largest = 0.0;     ///< of all trajectories
-};
+}  // namespace detail
 
 /// The judgement of a method at a step.
 struct judgement {
+  /// Errors of the energy of trajectories, each the largest |H - H_0| over the median kinetic energy.
+  struct energy_errors {
+    double median = 0.0;      ///< of the trajectories
+    double most = 0.0;        ///< 95 % of the trajectories have less
+    double nearly_all = 0.0;  ///< 98 % of the trajectories have less: a good method may lose the others
+    double largest = 0.0;     ///< of all trajectories
+  };
+
   double step = 0.0;              ///< h
   std::int64_t trajectories = 0;  ///< trajectories that count
   std::int64_t unconfined = 0;    ///< further ones, which diverge by an accurate method, too

@@ -15,11 +15,12 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// The scalar of W lanes: a pack, or plain double for W = 1.
 template <int W>
 using scalar_of_lanes = std::conditional_t<W == 1, double, pack<double, std::max(W, 1)>>;
 
-namespace detail {
 template <System S>
 constexpr int most_lanes() {
   if constexpr (requires { S::lanes; }) {
@@ -33,7 +34,6 @@ constexpr int most_lanes() {
 template <class S, class T>
 concept DriftsOver = (!HasVelocity<S, double> && !HasKineticEnergy<S, double>) || HasVelocity<S, T> ||
                      HasKineticEnergy<S, dual<T, sweep<S::dimension>>>;
-}  // namespace detail
 
 /// Trajectories of this system that are stepped at a time: as many as suit the processor, or
 /// `static constexpr int lanes` of the system; one if its force is known for double only.
@@ -45,21 +45,31 @@ inline constexpr int lanes_of = [] {
   return 1;
 }();
 
+}  // namespace detail
+
 /// Trajectories that a scalar holds: the lanes of a pack, else one.
 template <class T>
 inline constexpr int lanes_in = 1;
 template <int W>
 inline constexpr int lanes_in<pack<double, W>> = W;  ///< number of lanes
 
+namespace detail {
+
 /// The type of a comparison of two T: a bool, or a mask of lanes.
 template <class T>
 using condition_of = decltype(T(0.0) < T(0.0));
 
+}  // namespace detail
+
 // One code for double, which has one lane, and for packs.
-inline double lane(double x, int) { return x; }                    ///< value of the only lane
-inline bool lane(bool x, int) { return x; }                        ///< value of the only lane
+inline double lane(double x, int) { return x; }  ///< value of the only lane
+inline bool lane(bool x, int) { return x; }      ///< value of the only lane
+namespace detail {
+
 inline void set_lane(double& x, int, double value) { x = value; }  ///< assigns the only lane
 inline void set_lane(bool& x, int, bool value) { x = value; }      ///< assigns the only lane
+
+}  // namespace detail
 /// The number in lane k.
 template <int W>
 double lane(const pack<double, W>& x, int k) {
@@ -67,9 +77,11 @@ double lane(const pack<double, W>& x, int k) {
 }
 /// Whether lane k is set.
 template <int W>
-bool lane(const lane_mask<W>& x, int k) {
+bool lane(const detail::lane_mask<W>& x, int k) {
   return x[k];
 }
+namespace detail {
+
 /// Puts a number into lane k.
 template <int W>
 void set_lane(pack<double, W>& x, int k, double value) {
@@ -77,18 +89,17 @@ void set_lane(pack<double, W>& x, int k, double value) {
 }
 /// Sets or clears lane k.
 template <int W>
-void set_lane(lane_mask<W>& x, int k, bool value) {
+void set_lane(detail::lane_mask<W>& x, int k, bool value) {
   x.set(k, value);
 }
 
 inline bool both(bool a, bool b) { return a && b; }  ///< a and b
 /// The lanes in which both hold.
 template <int W>
-lane_mask<W> both(const lane_mask<W>& a, const lane_mask<W>& b) {
+detail::lane_mask<W> both(const detail::lane_mask<W>& a, const detail::lane_mask<W>& b) {
   return a & b;
 }
 
-namespace detail {
 /// f of the scalar that holds as many trajectories as the system takes side by side.
 template <System S>
 decltype(auto) with_scalar_of(const S& system, const auto& f) {
@@ -116,6 +127,8 @@ phase_point<double, N> lane(const phase_point<T, N>& x, int k) {
   }
   return result;
 }
+namespace detail {
+
 /// Puts a state into lane k.
 template <class T, int N>
 void set_lane(phase_point<T, N>& x, int k, const phase_point<double, N>& value) {
@@ -141,9 +154,11 @@ phase_point<T, N> gather(int count, const auto& make) {
   return result;
 }
 
+}  // namespace detail
+
 /// Mask of the lanes in which all of q and p are finite: x - x is 0 there, and NaN elsewhere.
 template <int W, int N>
-lane_mask<W> is_finite(const phase_point<pack<double, W>, N>& x) {
+detail::lane_mask<W> is_finite(const phase_point<pack<double, W>, N>& x) {
   pack<double, W> sum(0.0);
   for (Eigen::Index i = 0; i < x.size(); ++i) sum += (x.q[i] - x.q[i]) + (x.p[i] - x.p[i]);
   return sum == 0.0;
@@ -172,10 +187,12 @@ T value_in_lanes(const F& f, const phase_point<T, N>& x) {
     return f(x);
   } else {
     T result(0.0);
-    for (int k = 0; k < lanes_in<T>; ++k) set_lane(result, k, f(lane(x, k)));
+    for (int k = 0; k < lanes_in<T>; ++k) detail::set_lane(result, k, f(lane(x, k)));
     return result;
   }
 }
+
+namespace detail {
 
 /// The number of the first sample, or step, at which a condition held in each lane.
 template <class T>
@@ -215,5 +232,7 @@ T energy_in_lanes(const S& system, const phase_point<T, S::dimension>& x) {
     return value_in_lanes<T>([&](const auto& y) { return energy<double>(system, y); }, x);
   }
 }
+
+}  // namespace detail
 
 }  // namespace nysalt

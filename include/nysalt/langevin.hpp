@@ -28,6 +28,8 @@ constexpr std::string_view to_string(placement p) {
   return names[static_cast<std::size_t>(p)];
 }
 
+namespace detail {
+
 /// The order of a word S with letters O where the bath has no noise (sigma = 0): 1 where O is at the end,
 /// or in the middle of what is not symmetric; else at most 2, as O and S do not commute.
 constexpr int thermostatted_order(placement p, int order, bool symmetric) {
@@ -35,10 +37,14 @@ constexpr int thermostatted_order(placement p, int order, bool symmetric) {
   return is_first ? 1 : std::min(order, 2);
 }
 
+}  // namespace detail
+
 /// A word with its letters O. Throws std::invalid_argument if it has some already, if it has no central
 /// letter to split, or if it is processed: only the kernel decides the temperature of a mode, as a processor
 /// changes no action, and a kernel that was learned with a processor may have any.
 word thermostatted(const word& letters, placement where);
+
+namespace detail {
 
 /// The coefficients of a word with the coefficients of its letters O, in the order of thermostatted().
 template <class C>
@@ -63,5 +69,7 @@ std::vector<C> thermostatted_coefficients(const word& letters, placement where, 
 /// Intervals of a step that the letters O of a word cover. Throws std::invalid_argument unless they share it
 /// as noise_intervals says.
 noise_intervals intervals_of_noise(const word& letters, const std::vector<double>& coefficients);
+
+}  // namespace detail
 
 }  // namespace nysalt

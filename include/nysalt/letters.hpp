@@ -18,6 +18,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// A few characters as a constant.
 struct short_text {
   static constexpr std::size_t most = 16;  ///< largest number of characters
@@ -32,6 +34,8 @@ struct short_text {
   constexpr std::string_view view() const { return {characters.data(), size}; }  ///< the text
   bool operator==(const short_text&) const = default;                            ///< equal texts
 };
+
+}  // namespace detail
 
 /// What a letter states of itself, as a value: what a word is made of.
 struct letter_facts {
@@ -49,11 +53,13 @@ struct letter_facts {
   splitting splits = splitting::any;  ///< the splitting of H that the letter belongs to
   bool invertible = false;            ///< whether negated coefficients take the letter back
   bool reversible = true;             ///< whether R letter R letter is the identity, R(q, p) = (q, -p)
-  short_text times{};                 ///< part of H whose time each coefficient is, a character for each
-  short_text parts{};                 ///< parts of V whose force the letter evaluates, a digit for each
+  detail::short_text times{};         ///< part of H whose time each coefficient is, a character for each
+  detail::short_text parts{};         ///< parts of V whose force the letter evaluates, a digit for each
 
   bool operator==(const letter_facts&) const = default;  ///< equal in all
 };
+
+namespace detail {
 
 /// The facts that the type of a letter states.
 template <Flow L>
@@ -92,8 +98,6 @@ constexpr letter_facts facts_of_letter() {
 using known_letters = std::tuple<drift, kick, gradient_kick, displaced_kick, rotation, soft_kick,
                                  soft_gradient_kick, ornstein_uhlenbeck>;
 
-namespace detail {
-
 template <class... L>
 constexpr std::array<letter_facts, sizeof...(L)> facts_of_letters(const std::tuple<L...>*) {
   return {facts_of_letter<L>()...};
@@ -111,12 +115,9 @@ inline constexpr bool is_among = false;
 template <class L, class... Known>
 inline constexpr bool is_among<L, std::tuple<Known...>> = (std::is_same_v<L, Known> || ...);
 
-}  // namespace detail
-
 /// The facts of the letters of the library.
 inline constexpr auto letter_table = detail::facts_of_letters(static_cast<const known_letters*>(nullptr));
 
-namespace detail {
 /// Whether a character is the name of a letter of the library.
 constexpr bool is_known_letter(char letter) {
   return std::ranges::any_of(letter_table, [=](const letter_facts& one) { return one.letter == letter; });

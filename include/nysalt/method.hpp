@@ -68,6 +68,8 @@ class method : public method_properties {
   std::optional<method_validity> validity_;
 };
 
+namespace detail {
+
 /// Throws std::invalid_argument, naming the method, if its order needs a quadratic kinetic energy that the
 /// system has not.
 template <System S>
@@ -79,6 +81,8 @@ void require_kinetic_energy_for(const method& method, const S& system) {
                method.name(), describe(system)));
 }
 
+}  // namespace detail
+
 /// The stepper of a method on a system, with the noise of its bath. Throws std::invalid_argument where the
 /// method is not valid on the system or the stepper refuses the word.
 template <System S, NoiseSource Noise = no_noise>
@@ -86,7 +90,7 @@ stepper<S, double, Noise> make_stepper(const S& system, const method& method, do
                                        const Noise& noise = {}) {
   if constexpr (!detail::steps_by_own_letters_only<S>) require_suited<S>();
   if (method.validity()) method.require_validity(describe(system), step);
-  require_kinetic_energy_for(method, system);
+  detail::require_kinetic_energy_for(method, system);
   return {system, method.letters(), method.coefficients(), step, noise};
 }
 template <System S, NoiseSource Noise = no_noise>

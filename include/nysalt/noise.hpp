@@ -15,8 +15,12 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// The letter of the bath in words.
 inline constexpr char bath_letter = 'O';
+
+}  // namespace detail
 
 /// Position of noise in a run: the letter O that is number `flow` among the letters O of the word, in the
 /// step from `step` to `step` + 1 of a trajectory. Lane l of a pack belongs to trajectory + l.
@@ -50,6 +54,8 @@ struct no_noise {
 };
 
 // The part of a step that each letter O of a word covers.
+
+namespace detail {
 
 /// From begin to end, in equal parts of a step.
 struct noise_interval {
@@ -107,5 +113,7 @@ inline noise_intervals intervals_of_noise(std::string_view letters, const std::v
   throw std::invalid_argument(
       sentence("the letters O of {} must divide a step into equal parts, {} at most", letters, most_parts));
 }
+
+}  // namespace detail
 
 }  // namespace nysalt

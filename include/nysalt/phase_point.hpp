@@ -79,8 +79,6 @@ class list_iterator {
   std::size_t at_ = 0;
 };
 
-}  // namespace detail
-
 /// Vectors of one dimension, one after the other in memory. An item is an Eigen::Map.
 class vector_list {
  public:
@@ -156,9 +154,11 @@ struct listed_point {
   }
 };
 
+}  // namespace detail
+
 /// No NaN and no infinity in q and p.
 template <class Column>
-bool is_finite(const listed_point<Column>& x) {
+bool is_finite(const detail::listed_point<Column>& x) {
   return x.q.allFinite() && x.p.allFinite();
 }
 
@@ -184,11 +184,11 @@ class phase_points {
   }                                   ///< resizes to a number of points of the same dimension
   void clear() { columns_.clear(); }  ///< the dimension stays
   /// Mutable view of point i.
-  listed_point<Eigen::Map<Eigen::VectorXd>> operator[](std::size_t i) {
+  detail::listed_point<Eigen::Map<Eigen::VectorXd>> operator[](std::size_t i) {
     return {columns_[2 * i], columns_[2 * i + 1]};
   }
   /// Point i.
-  listed_point<Eigen::Map<const Eigen::VectorXd>> operator[](std::size_t i) const {
+  detail::listed_point<Eigen::Map<const Eigen::VectorXd>> operator[](std::size_t i) const {
     return {columns_[2 * i], columns_[2 * i + 1]};
   }
   /// Behind those that there are, of their dimension.
@@ -212,7 +212,7 @@ class phase_points {
   friend bool operator==(const phase_points&, const phase_points&) = default;
 
  private:
-  vector_list columns_;
+  detail::vector_list columns_;
 };
 
 }  // namespace nysalt

@@ -84,14 +84,14 @@ void take_piece(const Piece&, std::vector<member_parameter<S>>&) {}
 
 template <class S, class F>
 void take_observable(const observable_of_system<F>& piece, const S& system,
-                     std::vector<named_observable>& to) {
+                     std::vector<initial_value_problem::named_observable>& to) {
   const auto value = [system, f = piece.value]<class T>(const phase_point<T, Eigen::Dynamic>& x) -> T {
     return f(system, of_dimension<S::dimension>(x));
   };
   to.push_back({piece.name, value});
 }
 template <class S, class Piece>
-void take_observable(const Piece&, const S&, std::vector<named_observable>&) {}
+void take_observable(const Piece&, const S&, std::vector<initial_value_problem::named_observable>&) {}
 
 template <class Piece>
 inline constexpr bool is_starts = false;
@@ -142,7 +142,7 @@ template <class S, class Number>
 detail::member_parameter<S> parameter(std::string name, Number S::*member, std::string meaning) {
   using value = std::conditional_t<std::is_integral_v<Number>, std::int64_t, double>;
   using limits = std::numeric_limits<Number>;
-  declared_parameter declared{
+  detail::declared_parameter declared{
       .name = std::move(name), .usual = static_cast<value>(S().*member), .meaning = std::move(meaning)};
   if constexpr (sizeof(Number) < sizeof(value) || std::is_unsigned_v<Number>) {  // what the member can hold
     declared.least = static_cast<double>(limits::lowest());
@@ -180,6 +180,8 @@ detail::declared_letters<L...> letters() {
   return {};
 }
 
+namespace detail {
+
 /// The declaration of S: of its parameters, its starts, and what else there is, in any order.
 template <class S, class... Pieces>
 system_declaration declare_system(std::string name, std::string title, Pieces... pieces) {
@@ -198,7 +200,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
   (detail::take_piece<S>(pieces, members), ...);
   system_declaration result{.name = std::move(name), .title = std::move(title)};
   for (const auto& member : members) result.parameters.push_back(member.declared);
-  for (const letter_facts& own : detail::letters_declared_by(declared())) result.letters += own.letter;
+  for (const letter_facts& own : detail::letters_on(declared()).declared()) result.letters += own.letter;
   const auto spread_of = []<class Piece>(const Piece*) {
     if constexpr (detail::is_starts<Piece>)
       return detail::takes_spread<S>(static_cast<const Piece*>(nullptr));
@@ -220,7 +222,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
       has_size = has_size || member.declared.is_size;
       if (!member.declared.is_size) listed_of_kind += (listed_of_kind.empty() ? "" : ", ") + text;
     }
-    std::vector<named_observable> observables;
+    std::vector<initial_value_problem::named_observable> observables;
     double highest = 0.0;
     std::vector<initial_states> law;
     const auto take = [&]<class Piece>(const Piece& piece) {
@@ -249,6 +251,8 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
   return result;
 }
 
+}  // namespace detail
+
 }  // namespace nysalt
 
 #ifndef NYSALT_PLUGIN_SOURCE
@@ -265,7 +269,7 @@ system_declaration declare_system(std::string name, std::string title, Pieces...
   extern "C" __attribute__((visibility("default"))) void nysalt_plugin_declare(          \
       nysalt::system_declaration& result) {                                              \
     using namespace nysalt;                                                              \
-    result = declare_system<SYSTEM>(#SYSTEM, __VA_ARGS__);                               \
+    result = detail::declare_system<SYSTEM>(#SYSTEM, __VA_ARGS__);                       \
   }                                                                                      \
   extern "C" __attribute__((visibility("default"))) const char* nysalt_plugin_source() { \
     return NYSALT_PLUGIN_SOURCE;                                                         \

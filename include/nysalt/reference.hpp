@@ -23,6 +23,8 @@ struct path_place {
   std::int64_t step = 0;         ///< number of preceding intervals of that length
 };
 
+namespace detail {
+
 /// The equal intervals of time in which trajectories follow a reference, one trajectory in each lane.
 struct reference_intervals {
   double length;        ///< time of an interval
@@ -67,8 +69,6 @@ class reference_run {
   path_place at_;
   std::int64_t evaluations_ = 0;
 };
-
-namespace detail {
 
 template <class R, class T>
 concept FlowOver = requires(const R& flow, const model& system, phase_point<T, Eigen::Dynamic>& x) {
@@ -195,8 +195,9 @@ class reference {
   /// std::invalid_argument where the reference cannot follow the system in such intervals. Cost: the
   /// preparation of the reference, once for all intervals.
   template <class T>
-  std::unique_ptr<reference_run<T>> open(const model& system, const phase_point<T, Eigen::Dynamic>& start,
-                                         const reference_intervals& intervals) const {
+  std::unique_ptr<detail::reference_run<T>> open(const model& system,
+                                                 const phase_point<T, Eigen::Dynamic>& start,
+                                                 const detail::reference_intervals& intervals) const {
     return kind_->open(system, start, intervals);
   }
   /// x becomes the state a time t later, in each lane of T; in a bath, on the path of a place. Returns the
@@ -222,11 +223,15 @@ class reference {
   std::shared_ptr<const detail::reference_kind> kind_;
 };
 
+namespace detail {
+
 /// The error of a path in small steps, over its difference from the same path in half the step: 4/3 of order
 /// two, which BAOAB has where friction is weak, and sqrt(4/3) = 1.15 where noise makes the errors of
 /// successive halvings independent; 1.33 at friction .01 and 1.20 to 1.24 at 1 are measured against a 64th of
 /// the step (tests/references/fine_paths_test.cpp). The larger of both: an error is not estimated too small.
 inline constexpr double error_over_difference = 4.0 / 3.0;
+
+}  // namespace detail
 
 /// Largest coordinate of the difference between a reference and its finer self after a time t from x.
 template <int N>

@@ -32,7 +32,7 @@ class shard {
   /// The share that this rank has of `total` trajectories. sum() needs leaves as long as the leaves of
   /// tree_sum.
   explicit shard(std::int64_t total, const communicator& ranks = one_rank,
-                 std::int64_t leaf = trajectories_of_leaf);
+                 std::int64_t leaf = detail::trajectories_of_leaf);
 
   std::int64_t total() const { return total_; }                    ///< trajectories of all ranks
   std::int64_t first() const { return first_of(ranks_->rank()); }  ///< number of this rank's first
@@ -82,7 +82,7 @@ class shard {
       first_of_rank.push_back(static_cast<std::size_t>((first_of(r) + group - 1) / group * items));
     }
     require_length(std::ssize(all), static_cast<std::int64_t>(first_of_rank.back()));
-    all_gather_items(*ranks_, all, first_of_rank);
+    detail::all_gather_items(*ranks_, all, first_of_rank);
   }
 
  private:
@@ -95,7 +95,7 @@ class shard {
   /// left half is, so that the root comes to rank 0.
   template <class T>
   T up_the_tree(std::vector<T> nodes, const T& zero) const {
-    std::int64_t first = first_of_part(blocks_, ranks_->rank(), ranks_->size());
+    std::int64_t first = detail::first_of_part(blocks_, ranks_->rank(), ranks_->size());
     std::int64_t all = blocks_;
     for (int level = 0; all > 1; ++level) {
       if (!nodes.empty() && first % 2 == 1) {

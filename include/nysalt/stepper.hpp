@@ -2,7 +2,6 @@
 // The open run and the one loop through which every method steps.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -76,7 +75,7 @@ class stepper {
   template <SteppedBy<C> T>
   open_run<T, dimension> open(const phase_point<T, dimension>& x, std::uint64_t trajectory = 0) const {
     require_size(x);
-    open_run<T, dimension> run{{{x.q, x.p}, make_vector<T>(*system_)}, 0, trajectory};
+    open_run<T, dimension> run{{{x.q, x.p}, detail::make_vector<T>(*system_)}, 0, trajectory};
     for (Eigen::Index i = 0; i < run.state.f.size(); ++i)
       run.state.f[i] = T(0.0);      // a checkpoint has no noise
     if (is_processed_) return run;  // which advance() opens
@@ -109,37 +108,13 @@ class stepper {
       throw std::invalid_argument(
           sentence("stepper: steps must be >= 0 and every >= 1, got {} and {}", steps, every));
     }
-    // Without an observation no room for one is needed. Only of a model: a second call of the loop,
-    // where the system is known by its type, keeps g++ from inlining the force.
-    if constexpr (ErasedSystem<S>) {
-      if ((run.step / every + 1) * every > run.step + steps) return advance(run, steps);
-    }
     flow_state<T, dimension> x = std::move(run.state);
-    flow_state<T, dimension> y = x;
-    const S& system = *system_;
-    const std::int64_t end = run.step + steps;
     auto cursor = cursor_at<T>(run.trajectory, run.step);
-    if (opens_now(run, steps)) letters_.open(system, x, cursor);
-    std::int64_t step = run.step;
-    if constexpr (ErasedSystem<S>) {
-      std::int64_t next = (step / every + 1) * every;
-      letters_.advance(system, x, y, steps, next - step, every, cursor, [&] {
-        observe(next, static_cast<const phase_point<T, dimension>&>(y));
-        next += every;
-      });
-    } else {
-      while (step < end) {
-        const std::int64_t next = std::min(end, (step / every + 1) * every);
-        letters_.advance(system, x, next - step, cursor);
-        step = next;
-        if (step % every != 0) continue;
-        y = x;
-        letters_.close(system, y, cursor);
-        observe(step, static_cast<const phase_point<T, dimension>&>(y));
-      }
-    }
+    if (opens_now(run, steps)) letters_.open(*system_, x, cursor);
+    letters_.advance(*system_, x, run.step, steps, every, cursor,
+                     [&](std::int64_t n, const phase_point<T, dimension>& y) { observe(n, y); });
     run.state = std::move(x);
-    run.step = end;
+    run.step += steps;
   }
 
   /// The state at the run's step, as a copy: looking does not change the run. Cost: the word's
@@ -175,7 +150,7 @@ class stepper {
   template <SteppedBy<C> T>
   void step(phase_point<T, dimension>& x, std::uint64_t trajectory = 0, std::int64_t n = 0) const {
     require_size(x);
-    flow_state<T, dimension> state{{std::move(x.q), std::move(x.p)}, make_vector<T>(*system_)};
+    flow_state<T, dimension> state{{std::move(x.q), std::move(x.p)}, detail::make_vector<T>(*system_)};
     step(state, trajectory, n);
     x = {std::move(state.q), std::move(state.p)};
   }
@@ -207,7 +182,7 @@ class stepper {
   }
 
  private:
-  using letters_type = prepared_word<C, dimension>;
+  using letters_type = detail::prepared_word<C, dimension>;
 
   /// Whether the run of a processed word is at its start, and leaves it.
   bool opens_now(const auto& run, std::int64_t steps) const {
@@ -218,29 +193,29 @@ class stepper {
     return false;
   }
   static letters_type letters_of(const S& system, const word& letters, const std::vector<C>& c, double step) {
-    const surroundings_of_word around = surroundings(system, letters);
+    const detail::surroundings_of_word around = surroundings(system, letters);
     if (acts_on(system)) return letters_type(system, letters, c, step, around);
     return letters_type(system, conservative_part(letters), conservative_part(letters, c), step, around);
   }
 
   /// Throws std::invalid_argument if the system does not serve a letter.
-  static surroundings_of_word surroundings(const S& system, const word& letters) {
-    surroundings_of_word result;
+  static detail::surroundings_of_word surroundings(const S& system, const word& letters) {
+    detail::surroundings_of_word result;
     if constexpr (HasBath<S>) result.heat_bath = static_cast<const bath&>(system.bath());
     require_served<S, C>(letters, system);
     if constexpr (HasQuadraticPart<S>) {
-      if (letters.reads_modes) result.part = modal_coordinates::of(system);
+      if (letters.reads_modes) result.part = detail::modal_coordinates::of(system);
     }
     return result;
   }
 
   template <Scalar T>
   auto cursor_at(std::uint64_t trajectory, std::int64_t step) const {
-    using room = flow_room<T, dimension>;
+    using room = detail::flow_room<T, dimension>;
     if constexpr (may_be_noisy) {
       const bath& heat_bath = system_->bath();
       const Eigen::Index numbers = acts_ || dimension != Eigen::Dynamic ? size(*system_) : 0;
-      return noise_cursor<Noise, T, dimension, room>{
+      return detail::noise_cursor<Noise, T, dimension, room>{
           &noise_,
           trajectory,
           step,
@@ -249,7 +224,8 @@ class stepper {
           vector<T, dimension>(numbers),
           room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
     } else {
-      return quiet_cursor<room>{room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
+      return detail::quiet_cursor<room>{
+          room(takes_room_ || dimension != Eigen::Dynamic ? size(*system_) : 0)};
     }
   }
   void require_thermostat(std::string_view letters) const {

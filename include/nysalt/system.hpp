@@ -4,6 +4,7 @@
 
 #include <cxxabi.h>
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstdlib>
 #include <memory>
@@ -61,24 +62,28 @@ inline std::string name_of_type(const std::type_info& type) {
 
 namespace nysalt {
 
-/// An entry of a basis of modes that is not zero.
-struct mode_entry {
-  Eigen::Index coordinate;  ///< row
-  Eigen::Index mode;        ///< column
-  double value;             ///< matrix entry in mass-weighted coordinates
-};
-
 /// Orthonormal modes of the quadratic part: column k of `basis` in mass-weighted coordinates M^{1/2} q,
 /// with angular frequency `frequencies[k]` (0: the quadratic part does not act on it).
 struct normal_modes {
+  /// An entry of a basis of modes that is not zero.
+  struct entry {
+    Eigen::Index coordinate;  ///< row
+    Eigen::Index mode;        ///< column
+    double value;             ///< matrix entry in mass-weighted coordinates
+  };
+
   Eigen::MatrixXd basis;        ///< N x N, orthogonal; 0 x 0 where `entries` hold the basis
   Eigen::VectorXd frequencies;  ///< N frequencies, none negative
   /// Non-zero entries of the basis, row by row, where modes are sums of a few of many coordinates.
-  std::vector<mode_entry> entries{};
+  std::vector<entry> entries{};
 };
+
+namespace detail {
 
 /// Above this number of coordinates the bundled systems give no full N x N basis: 8 MB.
 inline constexpr Eigen::Index most_for_full_basis = 1000;
+
+}  // namespace detail
 
 /// Angular frequencies, low to high, that the linearised motion has.
 struct frequency_band {
@@ -191,7 +196,7 @@ concept HasForceDerivative =
 /// The system has the force of V without its quadratic part.
 template <class S, class T = double>
 concept HasSoftForce = requires(const S& s, const vector<T, S::dimension>& q, vector<T, S::dimension>& f) {
-  s.soft_force(q, f);
+  { s.soft_force(q, f) };
 };
 /// The system has masses, by 1/m_i; else each is 1.
 template <class S>
@@ -253,15 +258,15 @@ concept SystemOver = System<S> && (HasForce<S, T> || HasPotential<S, dual<T, det
 template <class S>
 concept SeparableSystem = SystemOver<S, double> && SystemOver<S, dual<double, 1>>;
 
-/// K = p M^-1 p / 2 with a diagonal M: what methods of Runge-Kutta-Nystrom type need for their order.
-template <class S>
-concept NystromSystem = SeparableSystem<S> && !HasKineticEnergy<S, double> && !HasVelocity<S, double>;
-
-/// K = p M^-1 p / 2, also of systems that need not be separable over double: order_probe, whose K is decided
-/// at run time, declares so itself.
+/// K = p M^-1 p / 2, also of systems that need not be separable over double: a model and order_probe, whose K
+/// is decided at run time, declare so themselves.
 template <class S>
 concept HasQuadraticKinetic = System<S> && ((!HasKineticEnergy<S, double> && !HasVelocity<S, double>) ||
                                             requires { requires S::may_have_quadratic_kinetic; });
+
+/// K = p M^-1 p / 2 with a diagonal M: what methods of Runge-Kutta-Nystrom type need for their order.
+template <class S>
+concept NystromSystem = SeparableSystem<S> && HasQuadraticKinetic<S>;
 
 /// H = H_0 + V_soft with a quadratic H_0 = p M^-1 p/2 + q K q/2 whose flow its modes give, and the rest by
 /// its force.
@@ -274,28 +279,53 @@ template <class S, class T = double>
 concept HasEnergy = HasPotential<S, T> && (HasKineticEnergy<S, T> || NystromSystem<S>);
 // clang-format on
 
+namespace detail {
+
 /// A potential from which all else comes by automatic differentiation can contradict nothing.
 template <class S>
 inline constexpr bool force_may_be_wrong = HasForce<S, double> || detail::CanKick<S, double, double> ||
                                            HasForceDerivative<S> || HasSoftForce<S> || HasVelocity<S, double>;
 
+/// What is known of every system: of a type by the concepts, and of a model at run time.
+struct system_facts {
+  bool has_energy = false;             ///< over double
+  bool has_quadratic_kinetic = false;  ///< K = p M^-1 p / 2
+  bool has_unit_mass = true;           ///< no masses are declared
+  bool is_black_box = false;           ///< the force is known for double only
+  bool is_locked = false;  ///< threads that share it call it one at a time, so that each takes a copy
+  int threads = 1;         ///< that share a step of one trajectory where the system allows it
+};
+
+template <System S>
+inline constexpr system_facts facts_of_type{.has_energy = HasEnergy<S>,
+                                            .has_quadratic_kinetic = NystromSystem<S>,
+                                            .has_unit_mass = !HasInverseMass<S>,
+                                            .is_black_box = BlackBoxForce<S>};
+
+template <System S>
+constexpr const system_facts& facts_of(const S& system) {
+  if constexpr (ErasedSystem<S>) {
+    return system.facts();
+  } else {
+    return facts_of_type<S>;
+  }
+}
+}  // namespace detail
+
 /// Whether H can be evaluated.
 template <System S>
 constexpr bool has_energy(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().has_energy;
-  return HasEnergy<S>;
+  return detail::facts_of(system).has_energy;
 }
 /// Whether K = p M^-1 p / 2.
 template <System S>
 constexpr bool has_quadratic_kinetic(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().has_quadratic_kinetic;
-  return NystromSystem<S>;
+  return detail::facts_of(system).has_quadratic_kinetic;
 }
 /// Whether the modes of its quadratic part are declared. A system whose modes take too much room at some
 /// sizes says so by a member `bool has_modes() const`.
 template <System S>
 constexpr bool has_modes(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().has_modes;
   if constexpr (HasModes<S> && requires {
                   { system.has_modes() } -> std::same_as<bool>;
                 }) {
@@ -303,12 +333,15 @@ constexpr bool has_modes(const S& system) {
   }
   return HasModes<S>;
 }
+namespace detail {
+
 /// Whether its force is known for double only.
 template <System S>
 constexpr bool is_black_box(const S& system) {
-  if constexpr (ErasedSystem<S>) return system.facts().is_black_box;
-  return BlackBoxForce<S>;
+  return detail::facts_of(system).is_black_box;
 }
+
+}  // namespace detail
 
 /// Number of degrees of freedom.
 template <System S>
@@ -326,9 +359,7 @@ Eigen::Index size(const S& system) {
 template <System S>
 double force_cost(const S& system) {
   const auto coordinates = static_cast<double>(size(system));
-  if constexpr (ErasedSystem<S>) {
-    return system.facts().force_cost;
-  } else if constexpr (HasForceCost<S>) {
+  if constexpr (HasForceCost<S>) {
     return system.force_cost();
   } else if constexpr (requires {
                          { system.base() } -> System;
@@ -339,11 +370,25 @@ double force_cost(const S& system) {
   }
 }
 
+/// The square root of the mass of coordinate i, as 1/sqrt(1/m_i).
+template <System S>
+double root_mass(const S& system, Eigen::Index i) {
+  if constexpr (HasInverseMass<S>) {
+    return 1.0 / std::sqrt(system.inverse_mass(i));
+  } else {
+    return 1.0;
+  }
+}
+
+namespace detail {
+
 /// A vector of the system's dimension, its entries not set.
 template <Scalar T, System S>
 vector<T, S::dimension> make_vector(const S& system) {
   return vector<T, S::dimension>(size(system));
 }
+
+}  // namespace detail
 
 /// Description of a system, by which a learned method refuses another system. Without a description a
 /// system is known only by the name of its type and its size: let yours name its parameters.
@@ -362,6 +407,8 @@ std::string describe(const S& system) {
   }
 }
 
+namespace detail {
+
 /// Kind of a system: the description without the size, by a member kind(). A method that was learned
 /// for one size may be tried at another, see learning/reach.hpp. Systems without that member have a
 /// kind of their own, the description.
@@ -375,5 +422,7 @@ std::string kind_of(const S& system) {
     return describe(system);
   }
 }
+
+}  // namespace detail
 
 }  // namespace nysalt

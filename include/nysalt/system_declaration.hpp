@@ -26,6 +26,8 @@ namespace nysalt {
 /// A whole or a real number, or a text, such as the name of a file.
 using parameter_value = std::variant<std::int64_t, double, std::string>;
 
+namespace detail {
+
 /// A parameter of a system, a number or a text, as options, help, files and Python name it.
 struct declared_parameter {
   std::string name;       ///< lower-case letters, digits and _
@@ -46,6 +48,8 @@ struct declared_parameter {
   void require(const parameter_value& value) const;
 };
 
+}  // namespace detail
+
 /// Values of all parameters of a system, in the order of their declaration.
 class parameter_values {
  public:
@@ -63,12 +67,6 @@ class parameter_values {
 
  private:
   std::vector<std::pair<std::string, parameter_value>> all_;
-};
-
-/// A function of a state, by name.
-struct named_observable {
-  std::string name;                              ///< name in --observables
-  detail::over_scalars<detail::of_state> value;  ///< function of one state, or of those in the lanes of packs
 };
 
 namespace detail {
@@ -120,6 +118,13 @@ model put_in(const S& system, const bath& in) {
 
 /// A system that is made of its parameters.
 struct initial_value_problem {
+  /// A function of a state, by name.
+  struct named_observable {
+    std::string name;  ///< name in --observables
+    detail::over_scalars<detail::of_state>
+        value;  ///< function of one state, or of those in the lanes of packs
+  };
+
   nysalt::model system;    ///< system in its bath
   initial_states starts;   ///< the initial distribution
   double frequency = 0.0;  ///< the highest of the motion, rare starts included; 0: not known
@@ -147,7 +152,7 @@ initial_value_problem made_of(const S& system, const bath& in, initial_states st
 struct system_declaration {
   std::string name;   ///< name in commands and files
   std::string title;  ///< title, one line: the Hamiltonian, in words or as a formula
-  std::vector<declared_parameter> parameters{};  ///< parameters in the order of help and files
+  std::vector<detail::declared_parameter> parameters{};  ///< parameters in the order of help and files
   /// Makes the system with a value for each parameter. The deviations of the starts are multiplied by the
   /// spread. Throws std::invalid_argument for values out of range.
   std::function<initial_value_problem(const parameter_values&, const bath&, double spread)> make{};

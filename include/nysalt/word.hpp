@@ -15,12 +15,12 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Evaluation of force(q) before a letter acts: none, where the letter does not read the force or finds the
 /// force known; unshared, for this letter only, so that the force need not be stored; or shared with later
 /// letters.
 enum class evaluation { none, unshared, shared };
-
-namespace detail {
 
 // Refusals of words: a word that is a constant does not compile where it would call one of them.
 [[noreturn]] void refuse_word_without_letters();
@@ -84,7 +84,7 @@ class word {
   /// Properties of letter i.
   constexpr const letter_facts& facts(std::size_t i) const {
     if (const letter_facts* found = own_letter(text[i])) return *found;
-    for (const letter_facts& known : letter_table) {
+    for (const letter_facts& known : detail::letter_table) {
       if (known.letter == text[i]) return known;
     }
     detail::refuse_unknown_letter(view(), text[i]);
@@ -116,11 +116,12 @@ class word {
 
   /// The evaluations of all letters.
   struct evaluation_plan {
-    std::array<evaluation, most_letters> in_step{};  ///< of a plain step, which starts from only q and p
+    std::array<detail::evaluation, most_letters>
+        in_step{};  ///< of a plain step, which starts from only q and p
     /// Of a step of an open run, if another one follows; from letter first_in_loop() on.
-    std::array<evaluation, most_letters> in_loop{};
-    std::array<evaluation, most_letters> in_last{};  ///< the same, if the run may be observed then
-    bool is_known_when_open = false;                 ///< the force, whenever a run may be observed
+    std::array<detail::evaluation, most_letters> in_loop{};
+    std::array<detail::evaluation, most_letters> in_last{};  ///< the same, if the run may be observed then
+    bool is_known_when_open = false;                         ///< the force, whenever a run may be observed
   };
   /// Plan of force evaluations, in a plain step and in an open run.
   constexpr evaluation_plan plan() const {
@@ -207,7 +208,7 @@ class word {
     const evaluation_plan found = plan();
     const auto count = [](const auto& all) {
       int result = 0;
-      for (const evaluation one : all) result += one != evaluation::none ? 1 : 0;
+      for (const detail::evaluation one : all) result += one != detail::evaluation::none ? 1 : 0;
       return result;
     };
     if (merges) evaluations_to_observe = facts(0).displaced_forces;  // once a run and observation
@@ -237,24 +238,25 @@ class word {
 
   /// A letter that does not find the force known evaluates it. Returns whether it is known after the last
   /// letter.
-  constexpr bool find_known(std::array<evaluation, most_letters>& found, std::size_t first,
+  constexpr bool find_known(std::array<detail::evaluation, most_letters>& found, std::size_t first,
                             bool known) const {
     for (std::size_t i = first; i < length; ++i) {
       const letter_facts& one = facts(i);
       const bool reads_force = one.reads != field::none;
-      found[i] = reads_force && !known ? evaluation::shared : evaluation::none;
+      found[i] = reads_force && !known ? detail::evaluation::shared : detail::evaluation::none;
       known = (known || reads_force) && !one.moves_q;
     }
     return known;
   }
   /// Who evaluates it for others, if it is needed after the last letter or not. Returns whether it is needed
   /// before the first.
-  constexpr bool find_needed(std::array<evaluation, most_letters>& found, std::size_t first,
+  constexpr bool find_needed(std::array<detail::evaluation, most_letters>& found, std::size_t first,
                              bool needed) const {
     for (std::size_t i = length; i-- > first;) {
       if (facts(i).reads == field::none) continue;
-      if (found[i] != evaluation::none) found[i] = needed ? evaluation::shared : evaluation::unshared;
-      needed = found[i] == evaluation::none;
+      if (found[i] != detail::evaluation::none)
+        found[i] = needed ? detail::evaluation::shared : detail::evaluation::unshared;
+      needed = found[i] == detail::evaluation::none;
     }
     return needed;
   }
@@ -269,10 +271,10 @@ constexpr word word_of() {
   };
   static_assert((are_told_apart(std::type_identity<L>()) && ...),
                 "nysalt: letters of one's own must have different names; name one of them otherwise");
-  static_assert(((detail::is_among<L, known_letters> || !detail::is_known_letter(L::letter)) && ...),
+  static_assert(((detail::is_among<L, detail::known_letters> || !detail::is_known_letter(L::letter)) && ...),
                 "nysalt: a letter of one's own takes a character that no known letter has");
   constexpr std::array letters{L::letter...};
-  constexpr std::array facts{facts_of_letter<L>()...};
+  constexpr std::array facts{detail::facts_of_letter<L>()...};
   return word(std::string_view(letters.data(), letters.size()), facts);
 }
 
@@ -284,6 +286,8 @@ constexpr word alternating_word() {
     return word_of<std::conditional_t<I % 2 == 0, First, Second>...>();
   }(std::make_index_sequence<Length>{});
 }
+
+namespace detail {
 
 /// The coefficients x_1 y_1 x_2 y_2 ... y_2 x_2 y_1 x_1 of such a word from its first ones: the middle one
 /// and its neighbour follow from consistency, sum x = sum y = 1. Symmetric, hence of even order.
@@ -307,6 +311,8 @@ constexpr std::array<C, Length> palindrome(const std::array<C, (Length - 3) / 2>
   for (std::size_t i = 0; i < middle; ++i) all[Length - 1 - i] = all[i];
   return all;
 }
+
+}  // namespace detail
 
 /// Evaluations of the force of a part of V in a step of an open run, which a declared price multiplies.
 /// Letters that do not say, such as drifts, evaluate none.
@@ -345,7 +351,7 @@ std::vector<C> conservative_part(const word& letters, const std::vector<C>& all)
   std::size_t slot = 0;
   for (std::size_t i = 0; i < letters.length; ++i) {
     for (std::size_t k = 0; k < letters.slots_of(i); ++k, ++slot) {
-      if (letters.letter(i) != bath_letter) result.push_back(all[slot]);
+      if (letters.letter(i) != detail::bath_letter) result.push_back(all[slot]);
     }
   }
   return result;

@@ -150,8 +150,8 @@ method family_member(const std::string& name, const std::vector<double>& paramet
 const std::vector<classical_method>& classical_methods() {
   static const auto all = [] {
     std::vector<classical_method> rows;
-    for (const auto& row : classical_table) rows.push_back({as_data(row), row.source});
-    for (const auto& row : processed_table) rows.push_back({as_data(row), row.source});
+    for (const auto& row : detail::classical_table) rows.push_back({detail::as_data(row), row.source});
+    for (const auto& row : detail::processed_table) rows.push_back({detail::as_data(row), row.source});
     return rows;
   }();
   return all;
@@ -188,7 +188,7 @@ adaptive_method adaptive(const char* name) {
 
 adaptive_method fitted(const family& family, const method& classical) {
   return {"phase_fitted_" + classical.name(),
-          phase_fitted_source,
+          detail::phase_fitted_source,
           classical.letters(),
           {classical.order, true, classical.requires_quadratic_kinetic || family.requires_quadratic_kinetic},
           to_fit,

@@ -33,7 +33,7 @@ estimate distance_to(const gathered_statistics& ensemble, std::span<const gather
   estimate result{0.0, 0.0};
   const auto share = 1.0 / static_cast<double>(others.size());
   for (const auto& other : others) {
-    const acf_distance found = acf_error(*ensemble.autocovariance, *other.autocovariance);
+    const autocovariance::distance found = acf_error(*ensemble.autocovariance, *other.autocovariance);
     result.mean += found.rms * share;
     result.standard_error += found.standard_error * share;
   }

@@ -27,7 +27,7 @@ rates rates_of(const initial_value_problem& problem, std::int64_t count) {
   const model& system = problem.system;
   std::mt19937_64 bits{1};
   rates found;
-  auto f = make_vector<double>(system);
+  auto f = detail::make_vector<double>(system);
   for (std::int64_t n = 0; n < count; ++n) {
     const auto x = sound_start(system, problem.starts, 1, n % problem.starts.size());
     if (n < problem.starts.size()) {
@@ -37,7 +37,7 @@ rates rates_of(const initial_value_problem& problem, std::int64_t count) {
     const double size = x.q.norm();
     const double scale = size > 0.0 ? 0.1 * size / std::sqrt(static_cast<double>(x.q.size())) : 1.0;
     auto q = x.q;
-    for (double& one : q) one += scale * (2.0 * uniform_by_bits(bits()) - 1.0);
+    for (double& one : q) one += scale * (2.0 * detail::uniform_by_bits(bits()) - 1.0);
     force<double>(system, q, f);
     if (!f.allFinite()) continue;
     found.q.push_back(q);

@@ -46,7 +46,7 @@ inline fit_options options_for(const family& family, const learning_options& how
   for (Eigen::Index k = 0; k < theta.size(); ++k) {
     theta[k] = options.fixed[static_cast<std::size_t>(k)].value_or(theta[k]);
   }
-  require_in_range(family, theta);
+  detail::require_in_range(family, theta);
   return options;
 }
 

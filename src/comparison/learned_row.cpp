@@ -86,11 +86,11 @@ learned_row learned_row_from(const json& document, const std::string& method, co
     row.parameters.emplace_back(name, parameters.at(name).get<double>());
   }
   const auto theta = row.theta();
-  require_in_range(family, Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta)));
+  detail::require_in_range(family, Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta)));
   return row;
 }
 
-json by_name(const fit_summary& fit, double fitted_parameter::*field) {
+json by_name(const fit_summary& fit, double fit_summary::fitted_parameter::*field) {
   json result = json::object();
   for (const auto& parameter : fit.parameters) result[parameter.name] = parameter.*field;
   return result;
@@ -100,8 +100,8 @@ json fit_json(const fit_summary& fit) {
   const bool is_of_trajectories = fit.trajectory_steps > 1;
   return {
       {"family", fit.family},
-      {"parameters", by_name(fit, &fitted_parameter::value)},
-      {"standard_errors", by_name(fit, &fitted_parameter::standard_error)},
+      {"parameters", by_name(fit, &fit_summary::fitted_parameter::value)},
+      {"standard_errors", by_name(fit, &fit_summary::fitted_parameter::standard_error)},
       {"standard_errors_withheld", fit.errors_withheld.empty() ? json(nullptr) : json(fit.errors_withheld)},
       {"step", fit.step},
       {"objective", fit.loss_name},

@@ -41,7 +41,7 @@ learned_row learned_row_from(const json& document, const std::string& method, co
 inline json to_json(const learned_row& row) { return row.document; }
 
 /// A field of each parameter, by its name.
-json by_name(const fit_summary& fit, double fitted_parameter::*field);
+json by_name(const fit_summary& fit, double fit_summary::fitted_parameter::*field);
 
 /// The report of a fit that all commands share.
 json fit_json(const fit_summary& fit);

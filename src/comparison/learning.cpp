@@ -19,7 +19,7 @@ namespace nysalt {
 double learning_options::horizon_at(double step) const {
   if (horizon) return *horizon;
   const loss_choice chosen = loss.empty() ? loss_choice{} : loss_named(loss);
-  if (chosen.kind->stages == after_each_step) return std::max(0.5, 10.0 * step);
+  if (chosen.kind->stages == detail::after_each_step) return std::max(0.5, 10.0 * step);
   constexpr double steps = 200.0;  // of more the mean error says no more, and in chaos less
   return steps * step;
 }
@@ -57,7 +57,7 @@ learned_scheme learn_enough(const prepared_problem& system, learn_plan plan, pro
     learned.emplace(system.learn(plan, shown.counter(trajectories)));
     return learned->fit;
   };
-  const auto course = until_enough(plan.how.trajectories, enough, learn);
+  const auto course = detail::until_enough(plan.how.trajectories, enough, learn);
   learned->course = course;
   return *learned;
 }

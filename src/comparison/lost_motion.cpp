@@ -30,7 +30,7 @@ struct motions {
 };
 
 motions motions_at_starts(const prepared_problem& system, const trajectories_plan& plan) {
-  const model dynamics = nysalt::detail::own_copy(system.definition().system);
+  const model dynamics = own_copy(system.definition().system);
   const Eigen::Index n = dynamics.size();
   const std::int64_t starts = std::clamp<std::int64_t>(100'000 / n, 1, 16);
   motions found(n);

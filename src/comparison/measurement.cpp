@@ -55,18 +55,18 @@ std::vector<double> numbers_from(const json& text) {
   return result;
 }
 
-json to_json(const distribution_of_errors& errors) {
+json to_json(const method_error::distribution& errors) {
   return {{"count", errors.largest.count},
           {"skewness", number(errors.largest.skewness)},
           {"deciding", number(errors.largest.deciding)},
           {"median", to_json(errors.median)},
           {"quantiles", numbers({errors.quantiles.begin(), errors.quantiles.end()})}};
 }
-distribution_of_errors spread_from(const json& text) {
-  distribution_of_errors errors{.largest = {.count = text.at("count").get<double>(),
-                                            .skewness = double_from(text.at("skewness")),
-                                            .deciding = double_from(text.at("deciding"))},
-                                .median = estimate_from(text.at("median"))};
+method_error::distribution spread_from(const json& text) {
+  method_error::distribution errors{.largest = {.count = text.at("count").get<double>(),
+                                                .skewness = double_from(text.at("skewness")),
+                                                .deciding = double_from(text.at("deciding"))},
+                                    .median = estimate_from(text.at("median"))};
   const auto quantiles = numbers_from(text.at("quantiles"));
   require(quantiles.size() == errors.quantiles.size(), "quantiles");
   require(!(errors.median.mean < 0.0), "median");
@@ -127,9 +127,9 @@ void measurement::lose(const std::vector<diverged_trajectory>& lost, std::int64_
   reason = fmt::format("every trajectory diverged, the first of them at step {}", earliest.step);
 }
 
-distribution_of_errors spread_of(const measurement& outcome) {
+method_error::distribution spread_of(const measurement& outcome) {
   if (outcome.spread) return *outcome.spread;
-  distribution_of_errors none;
+  method_error::distribution none;
   none.quantiles.fill(std::numeric_limits<double>::quiet_NaN());
   none.largest.deciding = std::numeric_limits<double>::quiet_NaN();
   return none;

@@ -35,7 +35,7 @@ struct measurement {
   std::int64_t diverged = 0;
   std::vector<diverged_trajectory> diverged_at{};  // the first hundred, in the order of their numbers
   std::optional<drawn_law> law{};
-  std::optional<distribution_of_errors> spread{};  // of single trajectories, along paths
+  std::optional<method_error::distribution> spread{};  // of single trajectories, along paths
   std::vector<double> groups{};  // what groups of trajectories have in the value, see means_of_groups()
 
   /// Of that number of trajectories; says why if none is left.
@@ -43,7 +43,7 @@ struct measurement {
 };
 
 /// NaN where there is none.
-distribution_of_errors spread_of(const measurement& outcome);
+method_error::distribution spread_of(const measurement& outcome);
 
 /// Means over up to 1024 groups of as many trajectories each, in their order; those that are left over are
 /// left out. Two methods on the same trajectories differ by the mean of the differences of theirs, known as

@@ -56,7 +56,7 @@ std::vector<Eigen::VectorXd> parameters_in(const json& parameters, const family&
     refuse("{}: \"parameters\" must be those of the family {}, got others too: it has {}", read.file(),
            family.name, listed(family.parameter_names));
   }
-  for (const auto& theta : thetas) require_in_range(family, theta);
+  for (const auto& theta : thetas) detail::require_in_range(family, theta);
   return thetas;
 }
 
@@ -71,7 +71,7 @@ placement placement_in(const document_reader& read) {
 /// Nothing where the system has no energy, and where the loss asked for no data.
 std::optional<energy_range> energies_in(const document_reader& read) {
   if (read.member("energy_range").is_null()) return {};
-  const auto loss = find_loss(read.text("objective"));
+  const auto loss = detail::find_loss(read.text("objective"));
   if (loss && !loss->kind->asks_data()) return {};
   const auto ends = read.numbers("energy_range");
   if (ends.size() != 2 || !(ends[0] <= ends[1])) {
@@ -104,7 +104,7 @@ char letter_in(const document_reader& read, const std::vector<letter_facts>& bef
   const std::string name = read.text("letter");
   const bool is_free =
       name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0])) != 0 &&
-      std::ranges::find(letter_table, name[0], &letter_facts::letter) == letter_table.end() &&
+      std::ranges::find(detail::letter_table, name[0], &letter_facts::letter) == detail::letter_table.end() &&
       std::ranges::find(before, name[0], &letter_facts::letter) == before.end();
   if (!is_free) {
     refuse(
@@ -117,7 +117,7 @@ char letter_in(const document_reader& read, const std::vector<letter_facts>& bef
 
 /// Of which parts its coefficients are the times, a character for each.
 std::string times_in(const document_reader& read) {
-  constexpr std::size_t most = short_text::most;
+  constexpr std::size_t most = detail::short_text::most;
   std::string times = read.text("times");
   const bool are_names = std::ranges::all_of(times, [](unsigned char c) { return std::isgraph(c) != 0; });
   if (times.empty() || times.size() > most || !are_names) {
@@ -212,7 +212,7 @@ std::string sums_of(const nysalt::word& word, const std::vector<double>& coeffic
   std::map<std::string, double> sums{{word.rotates() ? "R" : "A", 0.0}, {word.rotates() ? "S" : "B", 0.0}};
   for (std::size_t i = 0; i < word.length; ++i) {
     std::string letter(1, word.letters()[i]);
-    if (letter[0] == bath_letter) continue;
+    if (letter[0] == detail::bath_letter) continue;
     if (letter == "G" || letter == "D") letter = "B";  // their first coefficient is that of a kick
     if (letter == "H") letter = "S";
     sums[letter] += coefficients[word.first_slot(i)];
@@ -287,7 +287,8 @@ method table_in(const json& document, const document_reader& read,
       return table_of_system(name, word, coefficients, read, declared);
     }
     const method bare(name, word, coefficients, {1, false, false});
-    if (word.stochastic_letters > 0) intervals_of_noise(word, coefficients);  // letters O cover the step once
+    if (word.stochastic_letters > 0)
+      detail::intervals_of_noise(word, coefficients);  // letters O cover the step once
     const auto found = taylor_order(bare);
     if (found.quadratic_kinetic < 1) {
       refuse(
@@ -336,7 +337,7 @@ method scheme::at(double step) const {
     const auto& [low, high, open] = placed_family.ranges[static_cast<std::size_t>(k)];
     if (!open) theta[k] = std::clamp(theta[k], low, high);
   }
-  require_in_range(placed_family, theta);
+  detail::require_in_range(placed_family, theta);
   return method(placed_family.name, placed_family.letters, placed_family.coefficients(theta),
                 {placed_family.order, placed_family.symmetric, placed_family.requires_quadratic_kinetic});
 }

@@ -41,7 +41,7 @@ bool is_file_name(const std::string& text) {
 
 }  // namespace
 
-method_source find_method(const std::string& typed, const held_methods& held,
+method_source find_method(const std::string& typed, const std::map<std::string, std::string>& held,
                           const std::vector<letter_facts>& of_system) {
   if (of_letters(typed) != typed) {  // reports show the name in every format
     refuse(
@@ -315,7 +315,7 @@ std::optional<placement> placement_in(const method_source& source, const prepare
 
 int noise_parts(const method& method, const prepared_problem& system) {
   if (system.heat_bath().sigma() == 0.0) return 0;
-  return intervals_of_noise(method.letters(), method.coefficients()).parts;
+  return detail::intervals_of_noise(method.letters(), method.coefficients()).parts;
 }
 
 std::optional<placement> placement_asked(const std::string& text) {

@@ -2,6 +2,7 @@
 // What `--method` and `--methods` may name, and the coefficients of it.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -29,7 +30,7 @@ struct method_source {
 
 /// What is held goes before all else. Words and tables may have letters of the system that they are for.
 /// Throws refusal, listing what is known, if the text names nothing.
-method_source find_method(const std::string& text, const held_methods& held = {},
+method_source find_method(const std::string& text, const std::map<std::string, std::string>& held = {},
                           const std::vector<letter_facts>& of_system = {});
 
 /// What a step costs with a system: differences of a black box call it twice for each f'(q) v.

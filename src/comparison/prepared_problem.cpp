@@ -90,7 +90,7 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
   if (made_.frequency == 0.0) made_.frequency = conditions.frequency.value_or(0.0);
   require_square_of_frequency(description(), made_.frequency);
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
-  const bool is_unknown = is_black_box(made_.system) && !made_.system.facts().has_bands;
+  const bool is_unknown = detail::is_black_box(made_.system) && !made_.system.facts().has_bands;
   if (start_ == start::gibbs && is_start_usual_ && is_unknown) {
     take_law(
         "chains that find it would call the force of a black box some million times; take --start gibbs for "
@@ -114,7 +114,7 @@ double prepared_problem::energy(std::span<const double> q, std::span<const doubl
 }
 
 void prepared_problem::force(std::span<const double> q, std::span<double> f) const {
-  auto forces = make_vector<double>(made_.system);
+  auto forces = detail::make_vector<double>(made_.system);
   nysalt::force<double>(made_.system, vector_of(q), forces);
   std::copy_n(forces.data(), forces.size(), f.begin());
 }
@@ -228,7 +228,7 @@ void prepared_problem::start_state(std::uint64_t seed, std::uint64_t n, std::spa
   std::copy_n(state.p.data(), state.p.size(), p.begin());
 }
 
-int prepared_problem::lanes() const { return made_.system.facts().in_lanes ? default_lanes : 1; }
+int prepared_problem::lanes() const { return made_.system.facts().in_lanes ? pack<double>::lanes : 1; }
 
 void prepared_problem::require_served(const nysalt::word& word) const {
   try {
@@ -334,7 +334,7 @@ void prepared_problem::require_sound_letters(const std::string& name, const nysa
     if (!found.passed()) refuse("cannot take {}: {}", name, found.report());
   }
   std::string letters = word.letters();
-  std::erase(letters, bath_letter);
+  std::erase(letters, detail::bath_letter);
   const nysalt::word conservative = word.with_letters(letters);
   const auto rates = rates_of_sum(base, conservative, times_of_slots(conservative), states, step);
   for (const auto& [which, rate] : {std::pair("q", rates[0]), std::pair("p", rates[1])}) {
@@ -367,14 +367,14 @@ std::optional<double> prepared_problem::frequency_along_starts(std::uint64_t see
 }
 
 bool prepared_problem::is_followed() const {
-  return size(made_.system) <= most_for_all_frequencies && !is_black_box(made_.system) &&
+  return size(made_.system) <= detail::most_for_all_frequencies && !detail::is_black_box(made_.system) &&
          made_.frequency > 0.0 && std::isfinite(made_.frequency);
 }
 
 states_in_double prepared_problem::states_along_motion() const {
   const model system = made_.system.base();
   constexpr std::int64_t some = 64;
-  auto begun = typical_and_energetic_starts(system, made_.starts, 1, 0, some);
+  auto begun = detail::typical_and_energetic_starts(system, made_.starts, 1, 0, some);
   if (!is_followed()) return begun;
   constexpr double angle = 0.1;  // of the fastest motion in a step
   constexpr std::int64_t steps = 500;
@@ -397,7 +397,7 @@ const prepared_problem::seen_frequencies& prepared_problem::highest_seen() const
     std::vector<double> highest;
     try {
       const model system = made_.system.base();
-      for (const auto& of_state : frequencies_of_states(system, states_along_motion()).of_state) {
+      for (const auto& of_state : detail::frequencies_of_states(system, states_along_motion()).of_state) {
         if (!of_state.empty()) highest.push_back(of_state.back());
       }
     } catch (const std::invalid_argument&) {  // the force has no derivative there
@@ -412,12 +412,13 @@ const prepared_problem::seen_frequencies& prepared_problem::highest_seen() const
 const std::vector<frequency_band>& prepared_problem::bands_along_motion() const {
   return kept_in(bands_along_motion_, [&]() -> std::vector<frequency_band> {
     const model system = made_.system.base();
-    if (system.facts().has_bands || size(system) > most_for_all_frequencies || is_black_box(system))
+    if (system.facts().has_bands || size(system) > detail::most_for_all_frequencies ||
+        detail::is_black_box(system))
       return {};
     std::vector<frequency_band> bands;
     const states_in_double states = states_along_motion();
     try {
-      if (!states.empty()) bands = stability_guard(system, states, false).frequencies();
+      if (!states.empty()) bands = detail::stability_guard(system, states, false).frequencies();
     } catch (const std::invalid_argument&) {  // the force has no derivative there: the run will show it
     }
     if (bands.size() == 1) bands.clear();
@@ -425,17 +426,17 @@ const std::vector<frequency_band>& prepared_problem::bands_along_motion() const 
   });
 }
 
-stability_guard prepared_problem::guard(const nysalt::word& word) const {
-  const auto states = typical_and_energetic_starts(made_.system, made_.starts, 1, 0, 64);
+detail::stability_guard prepared_problem::guard(const nysalt::word& word) const {
+  const auto states = detail::typical_and_energetic_starts(made_.system, made_.starts, 1, 0, 64);
   return {made_.system, states, word};
 }
 
 const judgement& prepared_problem::judged(const method& method, double step, int threads) const {
-  return judged_by(method, step, threads, evaluations_of_trial(made_.system));
+  return judged_by(method, step, threads, detail::evaluations_of_trial(made_.system));
 }
 
 const judgement& prepared_problem::judged_before(const method& method, const trajectories_plan& run) const {
-  const std::int64_t all = evaluations_of_trial(made_.system);
+  const std::int64_t all = detail::evaluations_of_trial(made_.system);
   const auto taken =
       static_cast<double>(run.count) * static_cast<double>(run.steps) * method.letters().evaluations_per_step;
   // A trial of all evaluations is some tenths of a second in lanes, if a force costs what it is taken to
@@ -446,7 +447,7 @@ const judgement& prepared_problem::judged_before(const method& method, const tra
   constexpr double few = 16.0;  // coordinates, whose pairs cost little
   double dearer = 1.0;
   if (!is_bundled_ && !is_stated && made_.system.sites() == nullptr) dearer = coordinates / few;
-  dearer = std::max(dearer, static_cast<double>(default_lanes) / lanes());
+  dearer = std::max(dearer, static_cast<double>(pack<double>::lanes) / lanes());
   const double least = static_cast<double>(all) / dearer;
   if (std::max(taken, least) >= static_cast<double>(all)) return judged(method, run.step, run.threads);
   return judged_by(method, run.step, run.threads, static_cast<std::int64_t>(std::max(taken, least)));
@@ -465,11 +466,11 @@ const judgement& prepared_problem::judged_by(const method& method, double step, 
   };
   // 500 steps of one trajectory would cost more than twice what a judge may do, as with 10^5 rows of data.
   constexpr double most_cost = 2e6;
-  if (const double cost = force_cost(made_.system); cost > most_cost && !is_black_box(made_.system)) {
+  if (const double cost = force_cost(made_.system); cost > most_cost && !detail::is_black_box(made_.system)) {
     return not_tried(fmt::format(
         "an evaluation of the force costs as much as {:.1e} coordinates, too much for a trial", cost));
   }
-  const std::int64_t all = evaluations_of_trial(made_.system);
+  const std::int64_t all = detail::evaluations_of_trial(made_.system);
   const std::int64_t fewest = std::int64_t{500} * method.letters().evaluations_per_step;
   if (evaluations < all && fewest > 5 * evaluations / 2) {
     return not_tried(

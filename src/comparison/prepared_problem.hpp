@@ -24,8 +24,11 @@
 #include "nysalt/system_declaration.hpp"
 #include "plans.hpp"
 
-namespace nysalt {
+namespace nysalt::detail {
 class stability_guard;
+}  // namespace nysalt::detail
+
+namespace nysalt {
 class family;
 }  // namespace nysalt
 
@@ -129,7 +132,7 @@ class prepared_problem {
   const std::vector<frequency_band>& bands_along_motion() const;
   /// For a word, of its bands, or of the frequencies along some states of the initial distribution, and of
   /// kicks of parts of V as a fit has it.
-  stability_guard guard(const nysalt::word& word) const;
+  detail::stability_guard guard(const nysalt::word& word) const;
   /// The judgement of a method at a step, on starts of its own, see starts_to_judge(): equal for equal
   /// coefficients, whatever the method is called and whichever command asks. Cost: that of step_judge::of();
   /// of a method that was judged at the step before none.

@@ -58,7 +58,7 @@ std::int64_t prepared_problem::most_trajectories(const learn_plan& plan) const {
   const data_options options{.step = plan.step,
                              .horizon = plan.how.horizon_at(plan.step),
                              .noise_parts = noise_parts(placed(plan.family, plan.where, letters()))};
-  return nysalt::most_trajectories(options, size(made_.system));
+  return nysalt::detail::most_trajectories(options, size(made_.system));
 }
 
 learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& progress) const {
@@ -90,14 +90,14 @@ learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& pr
   auto& held_out = (kept != nullptr ? *kept : fresh)[1];
   const auto reference_solution = reference().at(plan.step, plan.how.fine_step, parts);
   const auto make = [&](auto& pairs, std::uint64_t seed) {
-    extend_data(made_.system, *starts_, reference_solution,
-                {.step = plan.step,
-                 .horizon = plan.how.horizon_at(plan.step),
-                 .trajectories = plan.how.trajectories,
-                 .seed = seed,
-                 .noise_parts = parts,
-                 .execution = {.threads = plan.threads, .ranks = &all_ranks(), .progress = progress}},
-                pairs);
+    detail::extend_data(made_.system, *starts_, reference_solution,
+                        {.step = plan.step,
+                         .horizon = plan.how.horizon_at(plan.step),
+                         .trajectories = plan.how.trajectories,
+                         .seed = seed,
+                         .noise_parts = parts,
+                         .execution = {.threads = plan.threads, .ranks = &all_ranks(), .progress = progress}},
+                        pairs);
   };
   make(data, plan.seed);
   make(held_out, plan.held_out_seed);
@@ -107,7 +107,7 @@ learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& pr
 
 int prepared_problem::noise_parts(const family& family) const {
   if (made_.system.bath().sigma() == 0.0) return 0;
-  return intervals_of_noise(family.letters, family.coefficients(family.starts.front().theta)).parts;
+  return detail::intervals_of_noise(family.letters, family.coefficients(family.starts.front().theta)).parts;
 }
 
 }  // namespace nysalt::program

@@ -62,11 +62,11 @@ void prepared_problem::require_measure(const asked_metric& metric, const traject
       refuse(
           "the metric acceptance must be of a system without a bath, which changes H; leave --friction away");
     }
-    require_room(options_of(plan), 1, 1);
+    detail::require_room(options_of(plan), 1, 1);
     return;
   }
   const auto measure = measure_named(metric);
-  require_room(options_of(plan), 1, measure.width);
+  detail::require_room(options_of(plan), 1, measure.width);
   if (measure.needs_reference) reference().fine_step(plan.step, fine_step, noise_parts);
 }
 
@@ -96,7 +96,7 @@ std::vector<double> prepared_problem::values_at_starts(const trajectories_plan& 
   std::vector<double> values;
   nysalt::detail::with_scalar_of(made_.system, [&]<class T>(T) {
     for (std::int64_t m = 0; m < std::min(plan.count, enough); m += lanes_in<T>) {
-      const auto x = sound_starts<T>(made_.system, *starts_, plan.seed, m, lanes_in<T>);
+      const auto x = detail::sound_starts<T>(made_.system, *starts_, plan.seed, m, lanes_in<T>);
       for (int k = 0; k < lanes_in<T>; ++k) values.push_back(value(lane(x, k)));
     }
   });
@@ -159,7 +159,7 @@ std::function<void()> prepared_problem::timed_run(const method& method, const tr
     std::vector<phase_point<T, Eigen::Dynamic>> starts;
     for (std::int64_t m = 0; m < plan.count; m += lanes_in<T>) {
       const auto count = static_cast<int>(std::min<std::int64_t>(lanes_in<T>, plan.count - m));
-      starts.push_back(sound_starts<T>(made_.system, *starts_, plan.seed, m, count));
+      starts.push_back(detail::sound_starts<T>(made_.system, *starts_, plan.seed, m, count));
     }
     return [stepper, starts = std::move(starts), steps = plan.steps] {
       for (const auto& start : starts) {

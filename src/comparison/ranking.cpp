@@ -274,7 +274,7 @@ std::vector<double> levels_for(const comparison& all, std::size_t m) {
     for (const double digit : {1.0, 2.0, 5.0}) {
       const double level = digit * std::pow(10.0, decade);
       const auto crossing = static_cast<std::size_t>(std::ranges::count_if(by_method, [&](const auto& rows) {
-        return !rows.empty() && threshold(rows, level).kind == crossing_kind::found;
+        return !rows.empty() && threshold(rows, level).kind == threshold_crossing::crossing_kind::found;
       }));
       if (crossing > most) best.clear();
       most = std::max(most, crossing);
@@ -299,7 +299,8 @@ std::vector<cost_at_level> costs_at(const comparison& all, std::size_t m, double
                       .seconds = threshold(seconds, level, same_trajectories)});
   }
   const auto order = [](const cost_at_level& cost) {
-    return std::pair(cost.evaluations.kind == crossing_kind::above_from_first, cost.evaluations.x);
+    return std::pair(cost.evaluations.kind == threshold_crossing::crossing_kind::above_from_first,
+                     cost.evaluations.x);
   };
   std::ranges::stable_sort(result, {}, order);
   return result;

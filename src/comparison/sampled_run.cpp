@@ -134,7 +134,7 @@ double run_from(const initial_states& starts, const initial_value_problem& made,
     return run_on_shared_sites(made, starts, method, plan, take, progress, all_ranks());
   }
   // Few trajectories would leave most lanes empty, and lanes of a large system would leave the cache.
-  const bool fills_lanes = plan.trajectories.count >= default_lanes / 4 && size(made.system) <= 20'000;
+  const bool fills_lanes = plan.trajectories.count >= pack<double>::lanes / 4 && size(made.system) <= 20'000;
   if (!fills_lanes || !made.system.facts().in_lanes) {
     return run_in_batches<double>(made, starts, method, plan, take, progress, all_ranks());
   } else {

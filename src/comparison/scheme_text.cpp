@@ -26,7 +26,7 @@ json scheme_document(const std::vector<learned_scheme>& learned, const prepared_
     for (const auto& one : learned) all.push_back(value_of(one.fit));
     return all;
   };
-  const auto by_parameter = [&](double fitted_parameter::*value) {
+  const auto by_parameter = [&](double fit_summary::fitted_parameter::*value) {
     json all = json::object();
     for (std::size_t k = 0; k < fit.parameters.size(); ++k) {
       all[fit.parameters[k].name] =
@@ -52,8 +52,8 @@ json scheme_document(const std::vector<learned_scheme>& learned, const prepared_
                   : plan.where ? with_placement
                                : known_version},
       {"family", fit.family},
-      {"parameters", by_parameter(&fitted_parameter::value)},
-      {"standard_errors", by_parameter(&fitted_parameter::standard_error)},
+      {"parameters", by_parameter(&fit_summary::fitted_parameter::value)},
+      {"standard_errors", by_parameter(&fit_summary::fitted_parameter::standard_error)},
       {is_curve ? "steps" : "step", at_steps([](const fit_summary& one) { return one.step; })},
       {"system", of_system},
       {"energy_range", nullptr},

@@ -191,7 +191,7 @@ class shared_trajectory {
   const model* system_;
   const communicator* ranks_;
   distributed_run run_;
-  divergence<model, double> diverged_;
+  detail::divergence<model, double> diverged_;
   bool has_energy_;  // that ranks can sum
   double initial_;   // the sum of the ranks
   std::optional<std::int64_t> diverged_at_;

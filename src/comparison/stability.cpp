@@ -13,7 +13,7 @@ std::vector<stability_window> stability_of(const method& method) { return chart_
 double limit_of(const nysalt::method& method) { return stability_limit(method); }
 
 double half_trace_of(const nysalt::method& method, double z) {
-  return matrix_on_oscillator(method.letters(), method.coefficients(), z * z).half_trace();
+  return detail::matrix_on_oscillator(method.letters(), method.coefficients(), z * z).half_trace();
 }
 
 }  // namespace nysalt::program

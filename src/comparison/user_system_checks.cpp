@@ -45,7 +45,7 @@ void require_force(const initial_value_problem& made, const std::string& name) {
     const auto start = sound_start(made.system, made.starts, 1, static_cast<std::int64_t>(n));
     points.push_back(start.q);
     momenta.push_back(start.p);
-    auto f = make_vector<double>(made.system);
+    auto f = detail::make_vector<double>(made.system);
     force<double>(made.system, start.q, f);
     if (!f.allFinite())
       refuse("{}: the force must be finite, got another value at start {}; check the force", name, n);
@@ -73,7 +73,7 @@ double frequency_of(const initial_value_problem& made) {
     const auto stiffness = hessian_spectrum(made.system, starts);
     found = std::sqrt(std::max({stiffness.highest, -stiffness.lowest, 0.0}));
   } else {
-    found = frequencies_of_states(made.system, starts).highest().frequency;
+    found = detail::frequencies_of_states(made.system, starts).highest().frequency;
   }
   return std::isfinite(found) ? found : 0.0;
 }

@@ -89,7 +89,7 @@ void remove_unfinished_files() noexcept {
 
 namespace nysalt {
 
-void put_folder_on_disk(const std::filesystem::path& file) {
+void detail::put_folder_on_disk(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -282,7 +282,7 @@ void atomic_file::commit(bool durable) {
   if (failure) fail();
   committed_ = true;
   name_.reset();
-  if (durable) put_folder_on_disk(path_);
+  if (durable) detail::put_folder_on_disk(path_);
 }
 
 void atomic_file::fail() const { detail::failed_to_write(path_); }

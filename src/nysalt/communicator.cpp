@@ -73,8 +73,8 @@ void on_first(const communicator& ranks, const std::function<void()>& work) {
   });
 }
 
-progress_callback progress_of_share(const communicator& ranks, std::int64_t count, std::int64_t total,
-                                    const progress_callback& progress) {
+progress_callback detail::progress_of_share(const communicator& ranks, std::int64_t count, std::int64_t total,
+                                            const progress_callback& progress) {
   if (!progress || ranks.is_single()) return progress;
   if (!ranks.is_first()) return {};
   return [progress, count, total](std::int64_t done) {

@@ -51,7 +51,7 @@ detail::step_program<double> letters_of(const model& system, const method& metho
   }
   (void)make_stepper(system, method, step);  // throws what is not a step
   detail::step_program<double> result =
-      prepared_word<double, Eigen::Dynamic>(system, word, method.coefficients(), step, {}).program();
+      detail::prepared_word<double, Eigen::Dynamic>(system, word, method.coefficients(), step, {}).program();
   result.keeps_last_force = false;  // only a word whose letters merge reads that force, and computes it again
   return result;
 }
@@ -59,7 +59,7 @@ detail::step_program<double> letters_of(const model& system, const method& metho
 /// Leaf first_of(r) is the first of rank r.
 std::int64_t first_leaf_of(const site_layout& layout, int rank, int ranks) {
   const std::int64_t leaves = (layout.sites - 1) / sites_of_leaf(layout) + 1;
-  return first_of_part(leaves, rank, ranks);
+  return detail::first_of_part(leaves, rank, ranks);
 }
 
 Eigen::Index first_site_of(const site_layout& layout, int rank, int ranks) {

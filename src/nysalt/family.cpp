@@ -23,7 +23,7 @@ Eigen::MatrixXd thermostatted_jacobian(const family& plain, placement where, con
     for (std::size_t i = 0; i < c.size(); ++i) {
       lifted[i].derivative[0] = slopes(static_cast<Eigen::Index>(i), k);
     }
-    const auto placed = thermostatted_coefficients(plain.letters, where, lifted);
+    const auto placed = detail::thermostatted_coefficients(plain.letters, where, lifted);
     result.conservativeResize(static_cast<Eigen::Index>(placed.size()), slopes.cols());
     for (std::size_t i = 0; i < placed.size(); ++i) {
       result(static_cast<Eigen::Index>(i), k) = placed[i].derivative[0];
@@ -51,7 +51,7 @@ void family::contain(family inner) {
   const Eigen::Index count = parameters();
   const bool is_smaller = inner.letters.letters() == letters.letters() && inner.parameters() < count &&
                           count <= std::ssize(inner.coefficients(somewhere));
-  contained_family result{std::move(inner), {}, {}};
+  detail::contained_family result{std::move(inner), {}, {}};
   const auto is_member = [&](const Eigen::VectorXd& theta) {
     constexpr double rounding = 1e-12;  // sums of some coefficients of order one
     const auto ours = coefficients(result.embed(theta));
@@ -70,7 +70,7 @@ void family::contain(family inner) {
         "parameters, got {} of the word {} in {}",
         name, result.family.name, result.family.letters.letters(), letters.letters()));
   }
-  contained = std::make_shared<const contained_family>(std::move(result));
+  contained = std::make_shared<const detail::contained_family>(std::move(result));
 }
 
 bool family::is_defined(const Eigen::VectorXd& theta) const {
@@ -90,18 +90,18 @@ bool family::is_in_range(const Eigen::VectorXd& theta) const {
 family thermostatted(const family& plain, placement where) {
   family result = plain;
   result.letters = thermostatted(plain.letters, where);
-  result.order = thermostatted_order(where, plain.order, plain.symmetric);
+  result.order = detail::thermostatted_order(where, plain.order, plain.symmetric);
   result.symmetric = where != placement::end && plain.symmetric;
   result.coefficients_ = [plain, where](const Eigen::VectorXd& theta) {
-    return thermostatted_coefficients(plain.letters, where, plain.coefficients(theta));
+    return detail::thermostatted_coefficients(plain.letters, where, plain.coefficients(theta));
   };
   result.jacobian_ = [plain, where](const Eigen::VectorXd& theta) {
     return thermostatted_jacobian(plain, where, theta);
   };
   if (plain.contained) {
     const auto& [inner, slopes, origin] = *plain.contained;
-    result.contained = std::make_shared<const contained_family>(
-        contained_family{thermostatted(inner, where), slopes, origin});
+    result.contained = std::make_shared<const detail::contained_family>(
+        detail::contained_family{thermostatted(inner, where), slopes, origin});
   }
   return result;
 }
@@ -133,9 +133,9 @@ Eigen::VectorXd with_identity(const Eigen::VectorXd& theta, Eigen::Index further
 }  // namespace
 
 family processed(const family& kernel, int pairs) {
-  if (pairs < 2 || pairs > most_processor_pairs) {
+  if (pairs < 2 || pairs > detail::most_processor_pairs) {
     throw std::invalid_argument(sentence("{}: a processor must have from 2 to {} pairs of letters, got {}",
-                                         kernel.name, most_processor_pairs, pairs));
+                                         kernel.name, detail::most_processor_pairs, pairs));
   }
   if (!kernel.symmetric) {
     throw std::invalid_argument(
@@ -146,8 +146,8 @@ family processed(const family& kernel, int pairs) {
   const Eigen::Index known = kernel.parameters();
   const Eigen::Index further = Eigen::Index{2} * (pairs - 1);
   const Eigen::Index all = known + further;
-  result.contained = std::make_shared<const contained_family>(
-      contained_family{kernel, Eigen::MatrixXd::Identity(all, known), Eigen::VectorXd::Zero(all)});
+  result.contained = std::make_shared<const detail::contained_family>(
+      detail::contained_family{kernel, Eigen::MatrixXd::Identity(all, known), Eigen::VectorXd::Zero(all)});
   std::string letters = kernel.letters.letters() + word::processor_mark;
   for (int k = 0; k < pairs; ++k) letters += "BA";
   result.letters = word(letters);
@@ -274,7 +274,7 @@ family symmetric_word(std::string name, const nysalt::word& word, const std::str
     if (std::none_of(all.begin() + static_cast<std::ptrdiff_t>(n) + 1, all.end(), is_of_part)) continue;
     all[n].parameter = result.parameters();
     result.parameter_names.push_back(sentence("{}{}", all[n].part, before + 1));
-    result.ranges.push_back({-farthest_parameter, farthest_parameter, false});
+    result.ranges.push_back({-detail::farthest_parameter, detail::farthest_parameter, false});
     start.push_back(equal_steps[all[n].first]);
   }
   const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(start.data(), std::ssize(start));
@@ -325,14 +325,14 @@ method member(const family& family, const std::vector<double>& theta) {
                                          family.parameters(), theta.size()));
   }
   const Eigen::VectorXd column = Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
-  require_in_range(family, column);
+  detail::require_in_range(family, column);
   return {family.name,
           family.letters,
           family.coefficients(column),
           {family.order, family.symmetric, family.requires_quadratic_kinetic}};
 }
 
-void require_in_range(const family& family, const Eigen::VectorXd& theta) {
+void detail::require_in_range(const family& family, const Eigen::VectorXd& theta) {
   for (std::size_t k = 0; k < family.ranges.size(); ++k) {
     detail::require_in_range(family.name, family.parameter_names[k], family.ranges[k],
                              theta[static_cast<Eigen::Index>(k)]);

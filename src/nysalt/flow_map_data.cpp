@@ -250,12 +250,12 @@ flow_map_data make_flow_map_data(const model& system, const initial_states& ense
                                  const reference& reference, const data_options& options) {
   detail::steps_of_each(options, size(system));
   flow_map_data data;
-  extend_data(system, ensemble, reference, options, data);
+  detail::extend_data(system, ensemble, reference, options, data);
   return data;
 }
 
-void extend_data(const model& system, const initial_states& ensemble, const reference& reference,
-                 const data_options& options, flow_map_data& data) {
+void detail::extend_data(const model& system, const initial_states& ensemble, const reference& reference,
+                         const data_options& options, flow_map_data& data) {
   const std::int64_t there = data.share().total();
   if (there >= options.trajectories) return;
   const auto began = std::chrono::steady_clock::now();
@@ -274,7 +274,7 @@ void extend_data(const model& system, const initial_states& ensemble, const refe
   flow_map_data further = detail::make_some_pairs(system, ensemble, reference, of_further, all.beyond(there));
   detail::add_up(further);
   detail::append(data, std::move(further));
-  data.further_starts = typical_and_energetic_starts(
+  data.further_starts = detail::typical_and_energetic_starts(
       system, ensemble, options.seed, options.first + options.trajectories, options.trajectories);
   data.judged_starts = starts_to_judge(system, ensemble);
   data.shared.reset();
@@ -287,7 +287,7 @@ void extend_data(const model& system, const initial_states& ensemble, const refe
   data.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
 
-std::int64_t most_trajectories(data_options options, Eigen::Index dimension) {
+std::int64_t detail::most_trajectories(data_options options, Eigen::Index dimension) {
   options.trajectories = 1;
   const auto steps = static_cast<double>(detail::steps_of_each(options, dimension));
   return static_cast<std::int64_t>(detail::numbers_in_memory /

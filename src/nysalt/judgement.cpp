@@ -191,9 +191,9 @@ void decide(judgement& found, Eigen::Index size, double least_growth) {
 
 }  // namespace
 
-std::int64_t evaluations_of_trial(const model& system, const judging_options& options) {
+std::int64_t detail::evaluations_of_trial(const model& system, const judging_options& options) {
   constexpr double of_black_box = 2000.0;
-  const double cost = is_black_box(system) ? of_black_box : force_cost(system);
+  const double cost = detail::is_black_box(system) ? of_black_box : force_cost(system);
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(static_cast<double>(options.work) / cost));
 }
 
@@ -230,8 +230,8 @@ struct step_judge::known {
   judging_options options;
   std::int64_t evaluations;
   accurate_motion motion;
-  std::optional<stability_guard> guard;  // for words of drifts and kicks
-  std::string no_guard;                  // why there is none
+  std::optional<detail::stability_guard> guard;  // for words of drifts and kicks
+  std::string no_guard;                          // why there is none
   mutable detail::unconfined_starts unconfined;
 };
 
@@ -257,27 +257,28 @@ phase_points states_of(const accurate_motion& motion, const states& starts, Eige
   return result;
 }
 
-stability_guard guard_of(const model& system, const accurate_motion& motion, const states& starts,
-                         std::int64_t evaluations, const nysalt::word& word) {
+detail::stability_guard guard_of(const model& system, const accurate_motion& motion, const states& starts,
+                                 std::int64_t evaluations, const nysalt::word& word) {
   std::size_t typical = 0;
   const phase_points at = states_of(motion, starts, size(system), evaluations, typical);
   return {system, at, word, linear_steps, typical == 0 ? at.size() : typical};
 }
 
 /// What linear theory says of the method; nothing where the force has no derivatives.
-void add_linear(const stability_guard& guard, const nysalt::method& method, Eigen::Index size,
+void add_linear(const detail::stability_guard& guard, const nysalt::method& method, Eigen::Index size,
                 judgement& found) {
   const nysalt::word& word = method.letters();
   const auto& coefficients = method.coefficients();
-  const auto& bands = guard.frequencies(met::often);
+  const auto& bands = guard.frequencies(detail::met::often);
   found.frequencies = guard.description();
-  constexpr double wider = 1.0 + stability_guard::widened;
-  constexpr double narrower = 1.0 - stability_guard::widened;
+  constexpr double wider = 1.0 + detail::stability_guard::widened;
+  constexpr double narrower = 1.0 - detail::stability_guard::widened;
   for (const auto& band : guard.frequencies()) {
     found.highest_frequency = std::max(found.highest_frequency, band.high / wider);
   }
-  found.linear_objection = guard.objection(word, coefficients, found.step,
-                                           shows_rare_states(found, size) ? met::often : met::ever);
+  found.linear_objection =
+      guard.objection(word, coefficients, found.step,
+                      shows_rare_states(found, size) ? detail::met::often : detail::met::ever);
   if (word.has_own_letters()) return;
   if (!word.reads_modes) {
     const auto chart = chart_stability(word, coefficients);
@@ -287,9 +288,9 @@ void add_linear(const stability_guard& guard, const nysalt::method& method, Eige
       found.margin = std::min(found.margin.value_or(margin), margin);
     }
   }
-  if (found.steps < long_run || found.trajectories == 0) return;
-  if (const auto near = near_resonance(word, coefficients, bands, found.step))
-    found.resonance = in_words(*near);
+  if (found.steps < detail::long_run || found.trajectories == 0) return;
+  if (const auto near = detail::near_resonance(word, coefficients, bands, found.step))
+    found.resonance = detail::in_words(*near);
 }
 
 }  // namespace
@@ -313,7 +314,7 @@ step_judge::step_judge(model system, const phase_points& starts, double step,
                                             .no_guard = {},
                                             .unconfined = {}});
   const model& of = made->system;
-  made->evaluations = evaluations_of_trial(of, options);
+  made->evaluations = detail::evaluations_of_trial(of, options);
   made->motion = detail::follow(of, made->starts, step, made->evaluations, options);
   try {
     made->guard = guard_of(of, made->motion, made->starts, made->evaluations, nysalt::word("BAB"));

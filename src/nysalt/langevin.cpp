@@ -18,7 +18,7 @@ word thermostatted(const word& letters, placement where) {
                     "kernel that is made for a processor gives modes another temperature",
                     text));
   }
-  const std::string o(1, bath_letter);
+  const std::string o(1, detail::bath_letter);
   if (where == placement::end) return letters.with_letters(text + o);
   if (where == placement::symmetric) return letters.with_letters(o + text + o);
   if (text.size() % 2 == 0) {
@@ -31,12 +31,13 @@ word thermostatted(const word& letters, placement where) {
   return letters.with_letters(text.substr(0, central + 1) + o + text.substr(central));
 }
 
-noise_intervals intervals_of_noise(const word& letters, const std::vector<double>& coefficients) {
+detail::noise_intervals detail::intervals_of_noise(const word& letters,
+                                                   const std::vector<double>& coefficients) {
   std::vector<double> of_bath;
   for (std::size_t i = 0; i < letters.length; ++i) {
-    if (letters.letter(i) == bath_letter) of_bath.push_back(coefficients[letters.first_slot(i)]);
+    if (letters.letter(i) == detail::bath_letter) of_bath.push_back(coefficients[letters.first_slot(i)]);
   }
-  return intervals_of_noise(letters.letters(), of_bath);
+  return detail::intervals_of_noise(letters.letters(), of_bath);
 }
 
 }  // namespace nysalt

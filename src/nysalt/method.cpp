@@ -82,8 +82,8 @@ method thermostat(const method& method, placement where) {
   }
   const word letters = thermostatted(method.letters(), where);
   return nysalt::method(method.name(), letters,
-                        thermostatted_coefficients(method.letters(), where, method.coefficients()),
-                        {thermostatted_order(where, method.order, method.symmetric),
+                        detail::thermostatted_coefficients(method.letters(), where, method.coefficients()),
+                        {detail::thermostatted_order(where, method.order, method.symmetric),
                          where != placement::end && method.symmetric, method.requires_quadratic_kinetic});
 }
 

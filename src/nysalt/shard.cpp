@@ -19,7 +19,7 @@ shard::shard(std::int64_t total, const communicator& ranks, std::int64_t leaf)
 }
 
 std::int64_t shard::first_of(int rank) const {
-  const std::int64_t block = first_of_part(blocks_, rank, ranks_->size());
+  const std::int64_t block = detail::first_of_part(blocks_, rank, ranks_->size());
   return std::clamp<std::int64_t>((block << level_) * leaf_ - known_, 0, total_);
 }
 

@@ -21,13 +21,13 @@ std::string text_of(const parameter_value& value) {
   return std::visit([](const auto& known) { return sentence("{}", known); }, value);
 }
 
-std::string text_of_bound(const declared_parameter& parameter, double bound) {
+std::string text_of_bound(const detail::declared_parameter& parameter, double bound) {
   return parameter.is_whole() ? sentence("{}", static_cast<std::int64_t>(bound)) : sentence("{}", bound);
 }
 
 }  // namespace
 
-void declared_parameter::require(const parameter_value& value) const {
+void detail::declared_parameter::require(const parameter_value& value) const {
   if (is_text()) return;  // what makes the system judges it
   const double x = as_real(value);
   const auto refuse = [&](const std::string& condition) {

@@ -12,7 +12,7 @@ namespace {
 /// The letters of the library of which `is_meant` holds.
 std::string listed(const auto& is_meant) {
   std::string all;
-  for (const letter_facts& one : letter_table) {
+  for (const letter_facts& one : detail::letter_table) {
     if (is_meant(one)) (all += all.empty() ? "" : ", ") += one.letter;
   }
   return all;
@@ -104,7 +104,7 @@ bool is_palindrome(const word& letters, const std::vector<double>& coefficients)
 
 word conservative_part(const word& letters) {
   std::string kept = letters.letters();
-  std::erase(kept, bath_letter);
+  std::erase(kept, detail::bath_letter);
   return letters.with_letters(kept);
 }
 

@@ -128,7 +128,8 @@ columns_of_starts columns_of(const std::string& file, const std::vector<std::str
     // What `run` and `sample` write beside the state.
     constexpr std::array<std::string_view, 6> known{"trajectory", "step", "t", "chain", "draw", "potential"};
     if (std::ranges::find(known, name) != known.end() || is_built_in_observable(made, name) ||
-        std::ranges::find(made.observables, name, &named_observable::name) != made.observables.end()) {
+        std::ranges::find(made.observables, name, &initial_value_problem::named_observable::name) !=
+            made.observables.end()) {
       continue;
     }
     refuse("--start {}: column {} must be one of {}, got '{}'; leave the column away", file, k + 1,

@@ -71,7 +71,7 @@ struct learn_command {
 struct run_command {
   system_settings system;
   std::string method;
-  held_methods held = {};
+  std::map<std::string, std::string> held = {};
   std::string placement;
   double step = 0.0;
   double horizon = 0.0;

@@ -147,7 +147,7 @@ surroundings surroundings_of(const system_settings& settings) {
 }
 
 /// The typed value of a parameter, as its declaration has it.
-parameter_value value_of(const declared_parameter& parameter, const std::string& text) {
+parameter_value value_of(const detail::declared_parameter& parameter, const std::string& text) {
   const std::string option = "--parameter " + parameter.name;
   if (parameter.is_text()) return text;
   parameter_value value = parameter.is_whole() ? parameter_value(number_of<std::int64_t>(option, text))
@@ -190,10 +190,11 @@ void require_options(const system_settings& settings, const std::map<std::string
 
 /// Adds coordinates and momenta by the names of the coordinates to the observables.
 void add_named(const std::vector<std::string>& coordinates, initial_value_problem& made) {
-  std::vector<named_observable> momenta;
+  std::vector<initial_value_problem::named_observable> momenta;
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    const auto add = [&](std::vector<named_observable>& to, const std::string& name, auto value) {
+    const auto add = [&](std::vector<initial_value_problem::named_observable>& to, const std::string& name,
+                         auto value) {
       const bool is_known =
           is_built_in_observable(made, name) || std::ranges::find(coordinates, name) != coordinates.end();
       if (&to == &momenta ? is_known : is_built_in_observable(made, name)) return;

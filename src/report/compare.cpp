@@ -32,7 +32,7 @@ program::json seen_at_starts(const initial_value_problem& problem) {
   program::json seen = program::json::array();
   for (std::int64_t n = 0; n < 4; ++n) {
     const auto start = sound_start(problem.system, problem.starts, 1, n);
-    auto f = make_vector<double>(problem.system);
+    auto f = detail::make_vector<double>(problem.system);
     force<double>(problem.system, start.q, f);
     double sum = 0.0;  // of weights that differ: no two coordinates can be exchanged
     for (Eigen::Index i = 0; i < f.size(); ++i) sum += f[i] / static_cast<double>(i + 1);
@@ -43,9 +43,9 @@ program::json seen_at_starts(const initial_value_problem& problem) {
 
 }  // namespace
 
-std::vector<compared_method> comparison::rows() const {
+std::vector<comparison::row> comparison::rows() const {
   const auto& all = found_->all;
-  std::vector<compared_method> result;
+  std::vector<row> result;
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     for (const auto& row : all.rows()) {
       const auto& one = row.measurements[m];

@@ -43,8 +43,8 @@ json row_json(const comparison& all, std::size_t m, const row& line) {
   if (!one.reason.empty()) result["reason"] = one.reason;
   if (one.spread) {
     json quantiles = json::object();
-    for (std::size_t i = 0; i < shown_quantiles.size(); ++i) {
-      quantiles[fmt::format("{:g} %", 100.0 * shown_quantiles[i])] = number(one.spread->quantiles[i]);
+    for (std::size_t i = 0; i < detail::shown_quantiles.size(); ++i) {
+      quantiles[fmt::format("{:g} %", 100.0 * detail::shown_quantiles[i])] = number(one.spread->quantiles[i]);
     }
     result["median"] = number(one.spread->median.mean);
     result["median_standard_error"] = number(one.spread->median.standard_error);
@@ -217,7 +217,7 @@ std::string csv_of(const comparison& all) {
     for (const row& line : all.rows()) {
       const measurement& one = line.measurements[m];
       const baseline& against = baseline_of(all, m, line);
-      const distribution_of_errors spread = spread_of(one);
+      const method_error::distribution spread = spread_of(one);
       const auto& quantiles = spread.quantiles;
       result.add({all.metrics()[m].text(),
                   line.method,

@@ -59,13 +59,13 @@ std::string listed_front(const std::vector<const row*>& front) {
 std::string text_of(const threshold_crossing& crossing, double unit) {
   const auto number = [&](double x) { return fmt::format("{:.4g}", x * unit); };
   switch (crossing.kind) {
-    case crossing_kind::found:
+    case threshold_crossing::crossing_kind::found:
       return with_error({crossing.x * unit, crossing.standard_error * unit});
-    case crossing_kind::bracketed:
+    case threshold_crossing::crossing_kind::bracketed:
       return fmt::format("{} to {}", number(crossing.first_above), number(crossing.last_below));
-    case crossing_kind::below_all:
+    case threshold_crossing::crossing_kind::below_all:
       return fmt::format("below {}", number(crossing.x));
-    case crossing_kind::above_from_first:
+    case threshold_crossing::crossing_kind::above_from_first:
       return fmt::format("above {}", number(crossing.x));
   }
   return {};
@@ -75,11 +75,12 @@ std::string text_of(const threshold_crossing& crossing, double unit) {
 /// all its rows, and only a bound where its rows stay below, or lose the level between two.
 std::string against_classical(const cost_at_level& cost, const std::vector<cost_at_level>& all) {
   const auto best = std::ranges::find_if(all, [](const cost_at_level& other) {
-    return !other.is_learned && other.evaluations.kind != crossing_kind::above_from_first;
+    return !other.is_learned && other.evaluations.kind != threshold_crossing::crossing_kind::above_from_first;
   });
-  if (best == all.end() || cost.evaluations.kind != crossing_kind::found) return "-";
+  if (best == all.end() || cost.evaluations.kind != threshold_crossing::crossing_kind::found) return "-";
   const double ratio = best->evaluations.x / cost.evaluations.x;
-  return fmt::format("{}{:.2f}", best->evaluations.kind == crossing_kind::found ? "" : "< ", ratio);
+  return fmt::format("{}{:.2f}",
+                     best->evaluations.kind == threshold_crossing::crossing_kind::found ? "" : "< ", ratio);
 }
 
 /// After how much time of one trajectory the evaluations of learning are saved, against the cheapest
@@ -87,13 +88,15 @@ std::string against_classical(const cost_at_level& cost, const std::vector<cost_
 std::string repaid_after(const comparison& all, const cost_at_level& cost,
                          const std::vector<cost_at_level>& costs) {
   const auto best = std::ranges::find_if(costs, [](const cost_at_level& other) {
-    return !other.is_learned && other.evaluations.kind == crossing_kind::found;
+    return !other.is_learned && other.evaluations.kind == threshold_crossing::crossing_kind::found;
   });
   double spent = 0.0;
   for (const auto& fit : all.fits()) {
     if (fit.method == cost.method) spent = std::max(spent, fit.evaluations);
   }
-  if (best == costs.end() || spent == 0.0 || cost.evaluations.kind != crossing_kind::found) return "-";
+  if (best == costs.end() || spent == 0.0 ||
+      cost.evaluations.kind != threshold_crossing::crossing_kind::found)
+    return "-";
   const double saved = best->evaluations.x - cost.evaluations.x;
   return saved > 0.0 ? fmt::format("{:.2g}", spent / saved) : "never";
 }

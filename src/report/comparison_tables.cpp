@@ -83,7 +83,7 @@ table rows_of(const comparison& all, std::size_t m) {
                                    shown(one.value.mean),
                                    in_short(one.value.standard_error)};
     if (has_spread) {
-      const distribution_of_errors spread = spread_of(one);
+      const method_error::distribution spread = spread_of(one);
       cells.push_back(in_short(spread.median.mean));
       const bool is_known = one.spread && std::isfinite(spread.quantiles.front());
       cells.push_back(is_known ? fmt::format("{} to {}", in_short(spread.quantiles.front()),

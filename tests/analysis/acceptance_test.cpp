@@ -74,12 +74,12 @@ acceptance_step step_of(const method& method, double acceptance, double guess,
 // The midpoint rule errs by the jump of the slope at x = 0 times the square of its interval, 8e-5, over 24.
 BOOST_AUTO_TEST_CASE(the_acceptance_of_normal_energy_errors_is_the_mean_of_metropolis_rule) {
   for (const double mu : {1e-3, 0.0316, 0.5, 3.0}) {
-    BOOST_TEST(std::abs(acceptance_at(mu) - accepted(mu)) <= 1e-9);
-    BOOST_TEST(std::abs(acceptance_at(1.001 * mu) - accepted(mu)) > 1e-9);
-    BOOST_TEST(energy_error_at(acceptance_at(mu)) == mu, tolerance(1e-11));
+    BOOST_TEST(std::abs(detail::acceptance_at(mu) - accepted(mu)) <= 1e-9);
+    BOOST_TEST(std::abs(detail::acceptance_at(1.001 * mu) - accepted(mu)) > 1e-9);
+    BOOST_TEST(energy_error_at(detail::acceptance_at(mu)) == mu, tolerance(1e-11));
   }
-  BOOST_TEST(acceptance_at(0.0) == 1.0);
-  BOOST_TEST(acceptance_at(infinite) == 0.0);
+  BOOST_TEST(detail::acceptance_at(0.0) == 1.0);
+  BOOST_TEST(detail::acceptance_at(infinite) == 0.0);
 }
 
 // d oscillators of one frequency and Verlet's method: d z^4/(64 (1 - z^2/4)) = mu is quadratic in z^2. The
@@ -96,9 +96,9 @@ BOOST_AUTO_TEST_CASE(the_gaussian_step_of_verlet_is_the_closed_form) {
     BOOST_TEST(std::abs(gaussian_step(by_verlet, frequencies, 0.89) / closed - 1.0) > 1e-3);
     BOOST_TEST(std::abs(gaussian_step(by_verlet, frequencies, 0.9, 5.0 * closed) / closed - 1.0) <= 2e-9);
     // Errors add up over oscillators.
-    BOOST_TEST(gaussian_energy_error(by_verlet, frequencies, found) == mu, tolerance(1e-6));
+    BOOST_TEST(detail::gaussian_energy_error(by_verlet, frequencies, found) == mu, tolerance(1e-6));
   }
-  BOOST_TEST(gaussian_energy_error(by_verlet, std::vector{1.0}, 2.5) == infinite);
+  BOOST_TEST(detail::gaussian_energy_error(by_verlet, std::vector{1.0}, 2.5) == infinite);
 }
 
 // What diverged is rejected: a mean of errors would leave it out.
@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_proposal_is_refused) {
 BOOST_AUTO_TEST_CASE(of_a_gaussian_target_many_times_larger_the_step_is_that_of_its_spectrum) {
   constexpr double larger = 500.0;
   const proposal_options options{.length = 100.0, .times_larger = larger, .states = 400, .seed = seed(1)};
-  const double of_part = acceptance_at(energy_error_at(0.9) / larger);
+  const double of_part = detail::acceptance_at(energy_error_at(0.9) / larger);
   for (const auto& method : {by_verlet, nysalt::method(bcss3{})}) {
     const double exact = gaussian_step(method, spectrum, of_part);
     const auto found = step_of(method, 0.9, 0.5 * exact, options);
@@ -198,7 +198,8 @@ BOOST_AUTO_TEST_CASE(chains_are_accepted_as_often_as_asked) {
                [](const hmc_draw&) {})
         .acceptance;
   };
-  const auto here = acceptance_of_proposals(system_of_all, by_verlet, found.step, thermal(0.5), options);
+  const auto here =
+      detail::acceptance_of_proposals(system_of_all, by_verlet, found.step, thermal(0.5), options);
   const auto of_chains = accepted(found.step);
   const double error = standard_errors(false_alarms) *
                        (here.probability.standard_error + of_chains.standard_error + 0.1 / std::sqrt(2000.0));
@@ -241,7 +242,7 @@ BOOST_AUTO_TEST_CASE(targets_and_proposals_that_cannot_be_are_refused) {
   BOOST_TEST(refuses([&] { gaussian_step(method(mclachlan_atela4{}), one, 0.9); }, {"must be reversible"}));
 
   const auto at = [&](proposal_options options, double step = 0.1) {
-    return acceptance_of_proposals(system_of_all, by_verlet, step, thermal(), options);
+    return detail::acceptance_of_proposals(system_of_all, by_verlet, step, thermal(), options);
   };
   BOOST_TEST(refuses([&] { at({.length = 0.0}); }, {"length must be positive"}));
   BOOST_TEST(refuses([&] { at({.length = 1.0, .times_larger = -1.0}); }, {"times_larger"}));

@@ -278,7 +278,7 @@ BOOST_AUTO_TEST_CASE(an_oscillator_that_stays_has_the_error_of_its_turn) {
 BOOST_AUTO_TEST_CASE(the_horizon_is_where_the_sums_cross) {
   const planar start = of_energy(0.165);
   planar x = start;
-  planar y = perturbed(start, 1e-3, 1, 0);
+  planar y = detail::perturbed(start, 1e-3, 1, 0);
   double perturbed_sum = 0.0;
   double null_sum = 0.0;
   double expected = 0.0;
@@ -306,8 +306,8 @@ BOOST_AUTO_TEST_CASE(in_a_bath_the_noise_is_common) {
 }
 
 BOOST_AUTO_TEST_CASE(samples_count_from_where_the_errors_stay_above) {
-  predictable_samples<double> squares(averaging::root_of_all);
-  predictable_samples<double> moduli(averaging::mean);
+  detail::predictable_samples<double> squares(averaging::root_of_all);
+  detail::predictable_samples<double> moduli(averaging::mean);
   const std::array<double, 5> sums{1.0, 2.0, 3.0, 4.0, NAN};
   const std::array<double, 5> null_sums{0.0, 8.0, 8.0, 8.0, 8.0};
   std::vector<double> of_squares;
@@ -327,15 +327,15 @@ BOOST_AUTO_TEST_CASE(perturbations_are_relative_and_independent) {
   const planar x{{2.0, 0.0}, {-1e-3, 1e3}};
   Eigen::Vector4d z;
   standard_normals(1, {.trajectory = 7, .purpose = noise_purpose::perturbation}, z);
-  const planar y = perturbed(x, 0.01, 1, 7);
+  const planar y = detail::perturbed(x, 0.01, 1, 7);
   const auto near = tolerance(4.0 * eps);
   BOOST_TEST(y.q[0] == 2.0 * (1.0 + 0.01 * z[0]), near);
   BOOST_TEST(y.q[1] == 0.0);
   BOOST_TEST(y.p[0] == -1e-3 * (1.0 + 0.01 * z[2]), near);
   BOOST_TEST(y.p[1] == 1e3 * (1.0 + 0.01 * z[3]), near);
-  BOOST_TEST(perturbed(x, 0.01, 1, 0).q[0] != perturbed(x, 0.01, 2, 0).q[0]);
+  BOOST_TEST(detail::perturbed(x, 0.01, 1, 0).q[0] != detail::perturbed(x, 0.01, 2, 0).q[0]);
   // Not with the numbers of a start: else what is far out would move far.
   const normal_around<2> law({{1.0, 1.0}, {1.0, 1.0}}, 0.01, 0.01);
   const planar ones{{1.0, 1.0}, {1.0, 1.0}};
-  BOOST_TEST(perturbed(ones, 0.01, 1, 5).q[0] != law(1, 5).q[0]);
+  BOOST_TEST(detail::perturbed(ones, 0.01, 1, 5).q[0] != law(1, 5).q[0]);
 }

@@ -30,18 +30,18 @@ series random_walk(int samples, double offset) {
 }
 
 /// By the definition, term by term.
-pair_sums by_definition(const series& x, std::size_t lag, double centre) {
-  pair_sums sum;
+detail::pair_sums by_definition(const series& x, std::size_t lag, double centre) {
+  detail::pair_sums sum;
   for (std::size_t t = 0; t + lag < x.size(); ++t) {
     const double head = x[t] - centre;
     const double tail = x[t + lag] - centre;
-    sum = sum + pair_sums{1.0, head * tail, head, tail};
+    sum = sum + detail::pair_sums{1.0, head * tail, head, tail};
   }
   return sum;
 }
 
-autocovariance_sums along(const series& x, int lags, double centre) {
-  autocovariance_along<double> sums(lags, centre);
+detail::autocovariance_sums along(const series& x, int lags, double centre) {
+  detail::autocovariance_along<double> sums(lags, centre);
   for (const double value : x) sums.add(value);
   return sums.in_lane(0);
 }
@@ -180,11 +180,12 @@ BOOST_AUTO_TEST_CASE(errors_are_those_of_theory) {
 }
 
 BOOST_AUTO_TEST_CASE(groups_without_a_trajectory_do_not_count) {
-  autocovariance_sums one(2);
+  detail::autocovariance_sums one(2);
   one[0] = {3.0, 6.0, 1.0, 1.0};
   one[1] = {2.0, 2.0, 1.0, 0.0};
   const autocovariance alone(1.0, 0.0, {one});
-  const autocovariance among_none(1.0, 0.0, {autocovariance_sums(2), one, autocovariance_sums(2)});
+  const autocovariance among_none(1.0, 0.0,
+                                  {detail::autocovariance_sums(2), one, detail::autocovariance_sums(2)});
   BOOST_TEST(among_none.groups() == 1U);
   BOOST_TEST(among_none.covariance(1) == alone.covariance(1));
   BOOST_TEST(std::isnan(among_none.standard_error()[1]));
@@ -269,24 +270,24 @@ BOOST_AUTO_TEST_CASE(an_oscillation_does_not_close_the_window) {
 
 BOOST_AUTO_TEST_CASE(what_has_no_autocovariance_is_refused) {
   using failure = std::runtime_error;
-  BOOST_TEST(refuses([] { autocovariance_along<double>(0, 0.0); }, {"got 0"}));
-  BOOST_TEST(refuses([] { autocovariance_along<double>(1'000'000, 0.0); }, {"got 1000000"}));
-  BOOST_TEST(refuses([] { autocovariance_along<double>(3, std::nan("")); }, {"centre"}));
+  BOOST_TEST(refuses([] { detail::autocovariance_along<double>(0, 0.0); }, {"got 0"}));
+  BOOST_TEST(refuses([] { detail::autocovariance_along<double>(1'000'000, 0.0); }, {"got 1000000"}));
+  BOOST_TEST(refuses([] { detail::autocovariance_along<double>(3, std::nan("")); }, {"centre"}));
   BOOST_TEST(refuses([] { along({1.0, 2.0, 3.0}, 3, 0.0); }, {"3 lags", "got 3"}));
-  const autocovariance none(1.0, 0.0, {autocovariance_sums(3)});
+  const autocovariance none(1.0, 0.0, {detail::autocovariance_sums(3)});
   BOOST_TEST(std::isnan(none.mean()));
   BOOST_TEST(refuses<failure>([&] { none.normalised(); }, {"no trajectory counts"}));
   const autocovariance frozen(1.0, 4.0, {along(series(9, 4.0), 2, 4.0)});
   BOOST_TEST(refuses<failure>([&] { frozen.normalised(); }, {"does not vary"}));
   BOOST_TEST(refuses([] { autocovariance(1.0, 0.0, {}); }, {"groups", "must be one or more"}));
-  const std::vector unequal{autocovariance_sums(3), autocovariance_sums(5)};
+  const std::vector unequal{detail::autocovariance_sums(3), detail::autocovariance_sums(5)};
   BOOST_TEST(refuses([&] { autocovariance(1.0, 0.0, unequal); }, {"got 2 and 4"}));
   BOOST_TEST(refuses([] { integrated_autocorrelation_time(series{1.0}); }, {"lags must be one or more"}));
 
   const auto a = short_one(0.6, 1, 2);
   const auto fewer = autocovariance_of(0.6, 1, 2, 200, 9);
   BOOST_TEST(refuses([&] { acf_error(a, fewer); }, {"10 lags", "9 lags"}));
-  autocovariance_sums sums(11);
+  detail::autocovariance_sums sums(11);
   sums[0].pairs = 1.0;
   const autocovariance slower(1.01, 0.0, {sums});
   BOOST_TEST(refuses([&] { acf_error(a, slower); }, {"1.01", "same times"}));
@@ -360,7 +361,7 @@ BOOST_AUTO_TEST_CASE(statistics_are_those_of_stored_trajectories) {
   histogram all(*wanted.histogram);
   std::int64_t counted = 0;
   std::size_t lost = 0;
-  pair_sums at_lag;
+  detail::pair_sums at_lag;
   std::vector<double> means;
   for (std::size_t m = 0; m < 50; ++m) {
     if (diverged[m]) {
@@ -374,7 +375,7 @@ BOOST_AUTO_TEST_CASE(statistics_are_those_of_stored_trajectories) {
     BOOST_TEST(std::ssize(x) == found.samples);
     for (const double value : x) all.add(value);
     for (std::size_t t = 0; t + 5 < x.size(); ++t) {
-      at_lag = at_lag + pair_sums{1.0, x[t] * x[t + 5], x[t], x[t + 5]};
+      at_lag = at_lag + detail::pair_sums{1.0, x[t] * x[t + 5], x[t], x[t + 5]};
     }
     means.push_back(mean(x));
   }
@@ -447,7 +448,7 @@ BOOST_AUTO_TEST_CASE(memory_does_not_grow_with_the_steps) {
 // A jackknife over 33 groups knows its errors to 13 %.
 BOOST_AUTO_TEST_CASE(there_are_enough_groups) {
   for (std::int64_t n = 1; n < 20'000; ++n) {
-    const std::int64_t size = trajectories_of_group(n);
+    const std::int64_t size = detail::trajectories_of_group(n);
     const std::int64_t groups = (n - 1) / size + 1;
     if (groups > 64 || groups < std::min<std::int64_t>(n, 33)) BOOST_ERROR(groups << " groups of " << n);
     if (16 % size != 0 && size % 16 != 0) BOOST_ERROR(size << " in a group do not fit lanes");

@@ -12,7 +12,7 @@ using namespace nysalt::test;
 
 namespace {
 
-using lanes = pack<double, default_lanes>;
+using lanes = pack<double>;
 
 const auto near = tolerance(32 * eps);  // a few dozen operations
 
@@ -30,7 +30,7 @@ double error_of(const error_measure& measure, const phase_point<double, N>& seen
                 const phase_point<double, N>& expected) {
   const lanes error = measure.error(numbers(measure, seen), numbers(measure, expected));
   const double alone = measure.error(measure.numbers_of(seen), measure.numbers_of(expected));
-  for (int k = 0; k < default_lanes; ++k) BOOST_TEST(lane(error, k) == alone);
+  for (int k = 0; k < pack<double>::lanes; ++k) BOOST_TEST(lane(error, k) == alone);
   return alone;
 }
 
@@ -65,7 +65,7 @@ const auto position = relative_measure(oscillator, [](const auto& x) { return x.
 const auto path_of_position = path_measure(oscillator, [](const auto& x) { return x.q[0]; });
 
 /// The mean of t^k over samples of a step, by weights.
-double mean_of_power(const sample_weights& weights, double step, std::int64_t samples, int k) {
+double mean_of_power(const detail::sample_weights& weights, double step, std::int64_t samples, int k) {
   double sum = 0.0;
   for (std::int64_t i = 0; i <= samples; ++i) {
     sum += weights(i) * std::pow(static_cast<double>(i) * step, k);
@@ -220,8 +220,8 @@ BOOST_AUTO_TEST_CASE(an_error_is_the_mean_of_its_parts) {
 
 // Lane 1 is lost at the third sample; lane 2 holds nothing that counts; the others go on.
 BOOST_AUTO_TEST_CASE(a_sum_tells_where_which_lane_was_lost) {
-  errors_along<lanes> errors(position);
-  auto live = first_lanes<lanes>(default_lanes);
+  detail::errors_along<lanes> errors(position);
+  auto live = detail::first_lanes<lanes>(pack<double>::lanes);
   live.set(2, false);
   const std::vector<lanes> expected{lanes(1.0)};
   const auto add = [&](std::int64_t i, double lost) {
@@ -248,24 +248,24 @@ BOOST_AUTO_TEST_CASE(a_sum_tells_where_which_lane_was_lost) {
 BOOST_AUTO_TEST_CASE(means_up_to_a_horizon_are_those_of_what_lies_between) {
   for (const double step : {0.1, 0.083, 0.0999, 0.05, 0.011}) {
     const auto samples = static_cast<std::int64_t>(std::ceil(1.0 / step - 1e-9));
-    const sample_weights weights(step, samples, 1.0);
+    const detail::sample_weights weights(step, samples, 1.0);
     const auto near = tolerance(100 * eps);  // of that many terms at most
     BOOST_TEST(weights.total() == 1.0 / step, near);
     BOOST_TEST(mean_of_power(weights, step, samples, 0) == 1.0, near);
     BOOST_TEST(mean_of_power(weights, step, samples, 1) == 0.5, near);
     BOOST_TEST(std::abs(3.0 * mean_of_power(weights, step, samples, 2) - 1.0) <= 0.51 * step * step);
   }
-  const sample_weights alike(10);
+  const detail::sample_weights alike(10);
   for (std::int64_t i = 0; i <= 10; ++i) BOOST_TEST(alike(i) == (i > 0 ? 1.0 : 0.0));
   BOOST_TEST(alike.total() == 10.0);
   BOOST_TEST(3.0 * mean_of_power(alike, 0.1, 10, 2) > 1.15);
-  BOOST_TEST(3.0 * mean_of_power(sample_weights(12), 0.08, 12, 2) < 1.07);
+  BOOST_TEST(3.0 * mean_of_power(detail::sample_weights(12), 0.08, 12, 2) < 1.07);
   // A horizon ends within the last step.
-  BOOST_CHECK_NO_THROW(sample_weights(0.1, 10, 0.901));
-  BOOST_CHECK_NO_THROW(sample_weights(0.1, 3, 0.3));  // 0.30000000000000004/0.1
-  BOOST_CHECK_NO_THROW(sample_weights(-0.1, 10, 1.0));
+  BOOST_CHECK_NO_THROW(detail::sample_weights(0.1, 10, 0.901));
+  BOOST_CHECK_NO_THROW(detail::sample_weights(0.1, 3, 0.3));  // 0.30000000000000004/0.1
+  BOOST_CHECK_NO_THROW(detail::sample_weights(-0.1, 10, 1.0));
   for (const double horizon : {0.9, 1.1, 0.0, -1.0, std::nan("")}) {
-    BOOST_TEST(refuses([&] { sample_weights(0.1, 10, horizon); },
+    BOOST_TEST(refuses([&] { detail::sample_weights(0.1, 10, horizon); },
                        {"sample_weights: horizon must lie", "10 steps of 0.1"}));
   }
 }

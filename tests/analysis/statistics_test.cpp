@@ -91,14 +91,14 @@ BOOST_AUTO_TEST_CASE(the_error_of_a_median_is_that_of_its_place) {
   for (int n = 0; n <= 100; ++n) uniform.push_back(n / 100.0);
   const auto rounding = tolerance(1e-14);
   const double error = 0.5 / std::sqrt(101.0);
-  BOOST_TEST(median_and_error(uniform).mean == 0.5, rounding);
-  BOOST_TEST(median_and_error(uniform).standard_error == error, rounding);
+  BOOST_TEST(detail::median_and_error(uniform).mean == 0.5, rounding);
+  BOOST_TEST(detail::median_and_error(uniform).standard_error == error, rounding);
   uniform.back() = INFINITY;
-  BOOST_TEST(median_and_error(uniform).standard_error == error, rounding);
+  BOOST_TEST(detail::median_and_error(uniform).standard_error == error, rounding);
   for (std::size_t n = 55; n <= 100; ++n) uniform[n] += 0.1;  // a gap among the places that count
-  BOOST_TEST(median_and_error(uniform).mean == 0.5, rounding);
-  BOOST_TEST(median_and_error(uniform).standard_error > 1.5 * error);
-  BOOST_TEST(std::isnan(median_and_error(numbers{7.0}).standard_error));
+  BOOST_TEST(detail::median_and_error(uniform).mean == 0.5, rounding);
+  BOOST_TEST(detail::median_and_error(uniform).standard_error > 1.5 * error);
+  BOOST_TEST(std::isnan(detail::median_and_error(numbers{7.0}).standard_error));
 }
 
 BOOST_AUTO_TEST_CASE(what_two_share_of_chance_cancels) {
@@ -148,7 +148,7 @@ BOOST_AUTO_TEST_CASE(a_tail_is_what_its_moments_say) {
 BOOST_AUTO_TEST_CASE(a_power_law_crosses_where_it_must) {
   const auto found = threshold(power_law(), .3);
   const auto near = tolerance(20 * eps);
-  BOOST_TEST((found.kind == crossing_kind::found));
+  BOOST_TEST((found.kind == threshold_crossing::crossing_kind::found));
   BOOST_TEST(found.x == where, near);
   BOOST_TEST(found.last_below == .2);
   BOOST_TEST(found.first_above == .4);
@@ -173,11 +173,11 @@ BOOST_AUTO_TEST_CASE(a_power_law_crosses_where_it_must) {
 
 BOOST_AUTO_TEST_CASE(what_is_not_crossed_is_bounded) {
   const auto below = threshold(power_law(), 2.0);
-  BOOST_TEST((below.kind == crossing_kind::below_all));
+  BOOST_TEST((below.kind == threshold_crossing::crossing_kind::below_all));
   BOOST_TEST(below.x == .8);
   BOOST_TEST(std::isnan(below.first_above));
   const auto above = threshold(power_law(), .01);
-  BOOST_TEST((above.kind == crossing_kind::above_from_first));
+  BOOST_TEST((above.kind == threshold_crossing::crossing_kind::above_from_first));
   BOOST_TEST(above.x == .1);
   BOOST_TEST(std::isnan(above.last_below));
   for (const auto& crossing : {below, above}) BOOST_TEST(std::isnan(crossing.standard_error));
@@ -188,18 +188,18 @@ BOOST_AUTO_TEST_CASE(what_diverged_is_above_any_level) {
     rows some = power_law();
     some[2] = {.4, diverged, no_number};
     const auto found = threshold(some, .3);
-    BOOST_TEST((found.kind == crossing_kind::bracketed));
+    BOOST_TEST((found.kind == threshold_crossing::crossing_kind::bracketed));
     BOOST_TEST(found.x == .2);
     BOOST_TEST(found.last_below == .2);
     BOOST_TEST(found.first_above == .4);
     BOOST_TEST(std::isnan(found.standard_error));
-    BOOST_TEST((threshold(some, .05).kind == crossing_kind::found));  // before that
+    BOOST_TEST((threshold(some, .05).kind == threshold_crossing::crossing_kind::found));  // before that
     some[0].error = diverged;
-    BOOST_TEST((threshold(some, .3).kind == crossing_kind::above_from_first));
+    BOOST_TEST((threshold(some, .3).kind == threshold_crossing::crossing_kind::above_from_first));
   }
   rows exact = power_law();
   exact[1].error = 0.0;
-  BOOST_TEST((threshold(exact, .3).kind == crossing_kind::bracketed));
+  BOOST_TEST((threshold(exact, .3).kind == threshold_crossing::crossing_kind::bracketed));
 }
 
 BOOST_AUTO_TEST_CASE(thresholds_that_cannot_be_are_refused) {

@@ -138,7 +138,7 @@ struct kept_path {
     }
   }
   auto stepper_of(const nysalt::method& method, double step) const {
-    const auto intervals = intervals_of_noise(method.letters(), method.coefficients());
+    const auto intervals = detail::intervals_of_noise(method.letters(), method.coefficients());
     return make_stepper(warm, method, step, along_path<double, Eigen::Dynamic>(path, intervals, step));
   }
   recorded_path<double, Eigen::Dynamic> path;
@@ -524,17 +524,17 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_compared_is_refused) {
 // one measure of this width, and 1.2e9 with two.
 BOOST_AUTO_TEST_CASE(several_measures_must_fit_into_memory) {
   error_measure wide = by_state;
-  wide.width = 600'000'000 / (3 * 64 * default_lanes);
+  wide.width = 600'000'000 / (3 * 64 * pack<double>::lanes);
   const std::vector two{wide, wide};
   const trajectory_options options{.step = .02, .steps = 5, .trajectories = 1};
   const auto judge = [&](std::span<const error_measure> measures) {
     trajectory_errors(of_chain, on_the_chain.reference, law, by_verlet, measures, options);
   };
-  BOOST_CHECK_NO_THROW(require_room(options, 1, wide.width));
+  BOOST_CHECK_NO_THROW(detail::require_room(options, 1, wide.width));
   BOOST_TEST(refuses([&] { judge(two); }, {std::to_string(2 * wide.width) + " numbers", "fit into memory"}));
   const trajectory_options many{.step = .02, .steps = 5, .trajectories = 40'000'000};
-  BOOST_CHECK_NO_THROW(require_room(many, 1, 1, 2));
-  BOOST_TEST(refuses([&] { require_room(many, 1, 1, 3); }, {"fit into memory"}));
+  BOOST_CHECK_NO_THROW(detail::require_room(many, 1, 1, 2));
+  BOOST_TEST(refuses([&] { detail::require_room(many, 1, 1, 3); }, {"fit into memory"}));
   BOOST_TEST(refuses([&] { judge({}); }, {"measures must be one or more"}));
 }
 

@@ -31,7 +31,7 @@ double some_size(draws& random, double low, double high) {
 }
 
 using O = ornstein_uhlenbeck;
-using cursor = noise_cursor<counter_noise, double, 2, no_room>;
+using cursor = detail::noise_cursor<counter_noise, double, 2, detail::no_room>;
 using state = flow_state<double, 2>;
 
 const counter_noise source(1);
@@ -42,7 +42,7 @@ struct meeting {
   bath heat_bath;
   O::prepared<double> end = O::prepare(0.3, 0.5, heat_bath);
   O::prepared<double> begin = O::prepare(0.7, 0.5, heat_bath);
-  merged_half_steps<double> seam{end, begin, heat_bath.sigma() > 0.0};
+  detail::merged_half_steps<double> seam{end, begin, heat_bath.sigma() > 0.0};
 };
 
 cursor at(std::uint64_t trajectory, std::int64_t step) {
@@ -241,7 +241,7 @@ BOOST_AUTO_TEST_CASE(what_crosses_a_seam_is_its_two_halves_which_are_independent
 BOOST_AUTO_TEST_CASE(a_seam_without_a_duration_does_nothing) {
   const auto heat_bath = bath::of_sigma(0.8, 0.6);
   const auto none = O::prepare(0.0, 0.5, heat_bath);
-  const merged_half_steps<double> seam(none, none, true);
+  const detail::merged_half_steps<double> seam(none, none, true);
   auto x = moving(1.0);
   auto where = at(0, 3);
   seam.end(system_of_unit_masses, where, x);

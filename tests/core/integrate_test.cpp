@@ -131,7 +131,7 @@ model in(const bath& heat_bath) { return in_bath(harmonic_oscillator(1.0), heat_
 
 /// Whether the bound lies at 1e3 times the scale, to a part in a thousand.
 bool has_scale(const model& system, double scale, double start = 0.0) {
-  divergence diverged(system, with_energy(start));
+  detail::divergence diverged(system, with_energy(start));
   return !diverged(with_energy(start + 0.999e3 * scale)) && diverged(with_energy(start + 1.001e3 * scale));
 }
 
@@ -139,7 +139,8 @@ template <System S, NoiseSource Noise = no_noise>
 std::size_t allocations_of(const S& chain, const method& method, std::int64_t steps,
                            const Noise& noise = {}) {
   const auto stepper = make_stepper(chain, method, 1e-3, noise);
-  phase_point<double, S::dimension> start{make_vector<double>(chain), make_vector<double>(chain)};
+  phase_point<double, S::dimension> start{detail::make_vector<double>(chain),
+                                          detail::make_vector<double>(chain)};
   start.q.setConstant(0.7);
   start.p.setConstant(0.1);
   auto run = stepper.open(start);
@@ -351,7 +352,8 @@ BOOST_AUTO_TEST_CASE(the_scale_of_divergence_is_the_energy_at_the_start_or_that_
   BOOST_TEST(!has_scale(in(bath::of_temperature(0.1, 5.0)), 1.0));
   BOOST_TEST(has_scale(in(bath::of_sigma(0.0, 0.0)), 7.0, 7.0));  // what does not act changes nothing
   BOOST_TEST(has_scale(in(bath::of_sigma(0.1, 0.0)), 7.0, 7.0));
-  divergence at_rest(oscillator, with_energy(0.0));  // nothing has a scale: only what is not finite is lost
+  detail::divergence at_rest(oscillator,
+                             with_energy(0.0));  // nothing has a scale: only what is not finite is lost
   BOOST_TEST(!at_rest(with_energy(1e100)));
   BOOST_TEST(at_rest.last_change() == 1e100, tolerance(1e-12));
   BOOST_TEST(at_rest(one(std::nan(""), 1.0)));
@@ -359,7 +361,7 @@ BOOST_AUTO_TEST_CASE(the_scale_of_divergence_is_the_energy_at_the_start_or_that_
   const auto moving = [](double p) {
     return state{Eigen::VectorXd::Zero(4), Eigen::VectorXd::Constant(4, p)};
   };
-  divergence diverged(many, moving(0.0));  // 4 p^2/2 against 1e3 4 kT
+  detail::divergence diverged(many, moving(0.0));  // 4 p^2/2 against 1e3 4 kT
   BOOST_TEST(!diverged(moving(std::sqrt(0.999e3 * 10.0))));
   BOOST_TEST(diverged(moving(std::sqrt(1.001e3 * 10.0))));
 }
@@ -368,11 +370,11 @@ BOOST_AUTO_TEST_CASE(each_lane_has_its_own_bound) {
   using T = pack<double, 2>;
   const auto both_at = [](double first, double second) {
     auto x = with_energy(first).cast<T>();
-    set_lane(x, 1, with_energy(second));
+    detail::set_lane(x, 1, with_energy(second));
     return x;
   };
   const model warm = in(bath::of_temperature(0.1, 5.0));
-  divergence<model, T> diverged(warm, both_at(0.0, 7.0));
+  detail::divergence<model, T> diverged(warm, both_at(0.0, 7.0));
   const auto found = diverged(both_at(6000.0, 6000.0));
   BOOST_TEST(found[0]);
   BOOST_TEST(!found[1]);
@@ -381,7 +383,7 @@ BOOST_AUTO_TEST_CASE(each_lane_has_its_own_bound) {
 // Noise without friction: the energy grows for ever, and rightly so. Only what is not finite is lost.
 BOOST_AUTO_TEST_CASE(a_bath_that_heats_has_no_bound) {
   const model heated = in(bath::of_sigma(0.0, 1.0));
-  divergence diverged(heated, with_energy(0.0));
+  detail::divergence diverged(heated, with_energy(0.0));
   BOOST_TEST(!diverged(with_energy(1e100)));
   for (const double bad : {infinite, std::nan("")}) {
     BOOST_TEST(diverged(one(bad, 1.0)));
@@ -483,13 +485,13 @@ BOOST_AUTO_TEST_CASE(the_noisy_loop_allocates_nothing) {
 BOOST_AUTO_TEST_CASE(the_loop_in_lanes_allocates_nothing) {
   using T = pack<double, 8>;
   const auto stepper = make_stepper(fixed, verlet(), .01);
-  const auto start = sound_starts<T>(fixed, fpu_law<3>(fixed), 1, 0, 8);
-  lockstep<decltype(stepper), T> all(stepper, start, 8);
+  const auto start = detail::sound_starts<T>(fixed, fpu_law<3>(fixed), 1, 0, 8);
+  detail::lockstep<decltype(stepper), T> all(stepper, start, 8);
   struct sum_of_energies {
     T sum{0.0};
     static std::size_t width() { return 1; }
     static void read(const phase_point<T, 6>& x, std::span<T> numbers) { numbers[0] = fixed.stiff_energy(x); }
-    void see(std::int64_t, std::span<const T> numbers, const condition_of<T>&) { sum += numbers[0]; }
+    void see(std::int64_t, std::span<const T> numbers, const detail::condition_of<T>&) { sum += numbers[0]; }
   } measure;
   all.go_on(64, 1, measure);  // finds its room
   const auto before = allocations;

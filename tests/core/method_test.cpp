@@ -71,13 +71,13 @@ void check_coefficients(const family& family, std::optional<placement> where = {
   for (int n = 0; n < 5; ++n) {
     auto theta = F::start();
     for (double& x : theta) x += random.uniform(-0.05, 0.05);
-    std::array<theta_dual<F>, parameters_of<F>{}.size()> lifted;
+    std::array<detail::theta_dual<F>, detail::parameters_of<F>{}.size()> lifted;
     for (std::size_t k = 0; k < lifted.size(); ++k) {
-      lifted[k] = theta_dual<F>::variable(theta[k], static_cast<int>(k));
+      lifted[k] = detail::theta_dual<F>::variable(theta[k], static_cast<int>(k));
     }
     const auto plain = F::coefficients(lifted);
-    std::vector<theta_dual<F>> expected(plain.begin(), plain.end());
-    if (where) expected = thermostatted_coefficients(F::letters, *where, expected);
+    std::vector<detail::theta_dual<F>> expected(plain.begin(), plain.end());
+    if (where) expected = detail::thermostatted_coefficients(F::letters, *where, expected);
     const auto values = family.coefficients(column_of(theta));
     const auto slopes = family.jacobian(column_of(theta));
     BOOST_TEST_CONTEXT(family.name << " as " << family.letters.letters()) {
@@ -126,7 +126,7 @@ void check_thermostatted(placement where, const char* letters, int order) {
   const auto slopes = family.jacobian(column_of(F::start()));
   for (std::size_t i = 0; i < family.letters.length; ++i) {
     const auto row = static_cast<Eigen::Index>(family.letters.first_slot(i));
-    if (family.letters.letter(i) == bath_letter) BOOST_TEST(slopes.row(row).norm() == 0.0);
+    if (family.letters.letter(i) == detail::bath_letter) BOOST_TEST(slopes.row(row).norm() == 0.0);
   }
 }
 
@@ -147,7 +147,7 @@ bool embeds(const family& larger) {
 struct with_further_start : aba<4> {
   static std::vector<std::array<double, 3>> further_starts() { return {{0.2, 0.5, -0.2}}; }
 };
-struct with_wrong_letters_first : free_composition<drift, kick, 3> {
+struct with_wrong_letters_first : detail::free_composition<drift, kick, 3> {
   static constexpr std::string_view name = "wrong";
   using contained = bab<3>;
 };
@@ -259,7 +259,7 @@ BOOST_AUTO_TEST_CASE(parameters_have_ranges_of_which_some_are_open) {
                                                              {{0.5, 0.0}, ""},
                                                              {{0.5, 0.5}, ""}};
   for (const auto& [theta, words] : refused) {  // the ends of beta1 may be attained
-    BOOST_TEST(refusal_of([&, &at = theta] { require_in_range(family, column_of(at)); }) == words);
+    BOOST_TEST(refusal_of([&, &at = theta] { detail::require_in_range(family, column_of(at)); }) == words);
     BOOST_TEST(refusal_of([&, &at = theta] { member(nystrom(), {at[0], at[1]}); }) == words);
   }
   BOOST_TEST(refusal_of([&] { member(nystrom(), {not_a_number, 0.4}); }) == of_b1 + "nan");

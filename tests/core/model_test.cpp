@@ -52,7 +52,7 @@ void add_state(std::vector<double>& all, const auto& x) {
 start_states starts_of(const auto& system) {
   draws random;
   start_states all;
-  for (int k = 0; k < default_lanes; ++k) {
+  for (int k = 0; k < pack<double>::lanes; ++k) {
     const auto x = random.state(system, 0.5);
     all.push_back({x.q, x.p});
   }
@@ -60,7 +60,7 @@ start_states starts_of(const auto& system) {
 }
 template <class R, int N>
 phase_point<R, N> gathered(const start_states& starts) {
-  return gather<R, N>(lanes_in<R>, [&](int k) -> phase_point<double, N> {
+  return detail::gather<R, N>(lanes_in<R>, [&](int k) -> phase_point<double, N> {
     const auto& x = starts[static_cast<std::size_t>(k)];
     return {x.q, x.p};
   });
@@ -255,15 +255,15 @@ BOOST_AUTO_TEST_CASE(facts_are_those_of_the_concepts) {
       BOOST_TEST(has_modes(erased) == HasModes<S>);
       BOOST_TEST(erased.facts().has_quadratic_part == HasQuadraticPart<S>);
       BOOST_TEST(erased.facts().has_bands == HasFrequencyBands<S>);
-      BOOST_TEST(is_black_box(erased) == BlackBoxForce<S>);
-      BOOST_TEST(erased.facts().derivative_calls == derivative_calls<S>);
-      BOOST_TEST(erased.facts().derivative_source == std::string(derivative_source<S>()));
-      BOOST_TEST(erased.facts().in_lanes == (lanes_of<S> > 1 && SystemOver<S, lanes>));
+      BOOST_TEST(detail::is_black_box(erased) == BlackBoxForce<S>);
+      BOOST_TEST(erased.facts().derivative_calls == detail::derivative_calls<S>);
+      BOOST_TEST(erased.facts().derivative_source == std::string(detail::derivative_source<S>()));
+      BOOST_TEST(erased.facts().in_lanes == (detail::lanes_of<S> > 1 && SystemOver<S, lanes>));
       BOOST_TEST(erased.has_unit_mass() == !HasInverseMass<S>);
       if constexpr (HasInverseMass<S>) {
         for (Eigen::Index i = 0; i < size(system); ++i) {
           BOOST_TEST(erased.inverse_mass(i) == system.inverse_mass(i));
-          BOOST_TEST(erased.root_mass(i) == 1.0 / std::sqrt(system.inverse_mass(i)));
+          BOOST_TEST(root_mass(erased, i) == 1.0 / std::sqrt(system.inverse_mass(i)));
         }
       }
       if constexpr (HasModes<S>) {
@@ -288,28 +288,75 @@ BOOST_AUTO_TEST_CASE(facts_are_those_of_the_concepts) {
   BOOST_TEST(describe(alone) == describe(fixed_chain));
 }
 
+BOOST_AUTO_TEST_CASE(functions_of_a_model_have_the_bits_of_its_system) {
+  constexpr double reach = 1e-3;
+  const auto check = []<class S>(const S& system) {
+    constexpr int N = S::dimension;
+    const model erased(system);
+    const auto own = gathered<double, N>(starts_of(system));
+    const phase_point<double, Eigen::Dynamic> x{own.q, own.p};
+    auto found = x.q;
+    auto expected = own.q;
+    BOOST_TEST_CONTEXT(describe(system)) {
+      velocity<double>(system, own.p, expected);
+      velocity<double>(erased, x.p, found);
+      BOOST_TEST((found == expected));
+      lifted_room<double, N> own_room(own.q.size());
+      lifted_room<double, Eigen::Dynamic> room(own.q.size());
+      force_along<field::whole, double>(system, own.q, own.p, expected, own_room, reach);
+      force_along<field::whole, double>(erased, x.q, x.p, found, room, reach);
+      BOOST_TEST((found == expected));
+      if constexpr (BlackBoxForce<S>) {
+        auto at_first = own.q;
+        force<double>(system, own.q, at_first);
+        directional_derivative(system, own.q, own.p, at_first, expected);
+        directional_derivative(erased, x.q, x.p, Eigen::VectorXd(at_first), found);
+        BOOST_TEST((found == expected));
+      }
+      using D = dual<double, 1>;
+      auto slope = own.template cast<D>().p;
+      for (Eigen::Index i = 0; i < slope.size(); ++i) slope[i].derivative[0] = own.q[i];
+      auto expected_slope = slope;
+      velocity<D>(system, slope, expected_slope);
+      vector<D, Eigen::Dynamic> found_slope(slope.size());
+      velocity<D>(erased, vector<D, Eigen::Dynamic>(slope), found_slope);
+      for (Eigen::Index i = 0; i < slope.size(); ++i) {
+        BOOST_TEST(found_slope[i].value == expected_slope[i].value);
+        BOOST_TEST(found_slope[i].derivative[0] == expected_slope[i].derivative[0]);
+      }
+      if constexpr (HasEnergy<S>) {
+        BOOST_TEST(kinetic_energy<double>(erased, x.p) == kinetic_energy<double>(system, own.p));
+        BOOST_TEST(energy<double>(erased, x) == energy<double>(system, own));
+      }
+    }
+  };
+  for_each_type(check);
+  check(relativistic());
+}
+
 BOOST_AUTO_TEST_CASE(starts_are_typical_and_energetic_where_the_model_has_an_energy) {
   for (const model& system : {model(fixed_chain), model(box)}) {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(size(system));
     const normal_around<Eigen::Dynamic> law({zero, zero}, 0.1, 0.2);
-    const auto starts = typical_and_energetic_starts(system, law, 1, 5, 10);
-    BOOST_TEST(starts.size() == plain_starts + (has_energy(system) ? 64U : 0U));
-    for (std::size_t n = 0; n < plain_starts; ++n) {
+    const auto starts = detail::typical_and_energetic_starts(system, law, 1, 5, 10);
+    BOOST_TEST(starts.size() == detail::plain_starts + (has_energy(system) ? 64U : 0U));
+    for (std::size_t n = 0; n < detail::plain_starts; ++n) {
       BOOST_TEST((starts[n].q == law(1, 5 + n).q && starts[n].p == law(1, 5 + n).p));
       BOOST_TEST((starts[n].q != law(2, 5 + n).q && starts[n].p != law(2, 5 + n).p));
     }
     if (!has_energy(system)) continue;
     std::vector<double> energies;  // the 64 most energetic of the 896 that come next
     for (std::uint64_t n = 0; n < 896; ++n)
-      energies.push_back(energy<double>(system, law(1, 5 + plain_starts + n)));
+      energies.push_back(energy<double>(system, law(1, 5 + detail::plain_starts + n)));
     std::ranges::sort(energies, std::greater<>());
     for (std::size_t k = 0; k < 64; ++k) {
-      const phase_point<double, Eigen::Dynamic> x = starts[plain_starts + k];
+      const phase_point<double, Eigen::Dynamic> x = starts[detail::plain_starts + k];
       BOOST_TEST(energy<double>(system, x) == energies[k]);
     }
   }
   const normal_around<2> of_two({{0.0, 0.0}, {0.0, 0.0}}, 0.1, 0.2);
-  BOOST_TEST(refuses([&] { typical_and_energetic_starts(box, of_two, 1, 0, 10); }, {"the dimension of"}));
+  BOOST_TEST(
+      refuses([&] { detail::typical_and_energetic_starts(box, of_two, 1, 0, 10); }, {"the dimension of"}));
 }
 
 BOOST_AUTO_TEST_CASE(packs_are_refused_by_a_system_of_one_lane) {
@@ -323,7 +370,7 @@ BOOST_AUTO_TEST_CASE(packs_are_refused_by_a_system_of_one_lane) {
     return detail::with_scalar_of(system, []<class T>(T) { return lanes_in<T>; });
   };
   BOOST_TEST(lanes_taken_by(erased) == 1);
-  BOOST_TEST(lanes_taken_by(fixed_chain) == default_lanes);
+  BOOST_TEST(lanes_taken_by(fixed_chain) == pack<double>::lanes);
 }
 
 BOOST_AUTO_TEST_CASE(copies_share_a_copy_of_the_system_and_a_separate_one_has_its_own) {

@@ -61,8 +61,8 @@ BOOST_AUTO_TEST_CASE(a_force_counts_one_and_each_call_of_a_black_box) {
   BOOST_TEST((evaluations_over<dual<double, 2>>(black_box_with_derivative()) == 3));
   // A potential that can be differentiated goes before differences.
   BOOST_TEST((evaluations_over<dual<double, 2>>(with_potential()) == 1));
-  BOOST_TEST(derivative_source<with_potential>() == std::string("automatic differentiation"));
-  BOOST_TEST(derivative_source<box>() == std::string("central differences of the force"));
+  BOOST_TEST(detail::derivative_source<with_potential>() == std::string("automatic differentiation"));
+  BOOST_TEST(detail::derivative_source<box>() == std::string("central differences of the force"));
   const box real;
   vector<dual<double, 2>, 1> q(dual<double, 2>(2.0));
   q[0].derivative = {1.0, 1e9};  // the second displacement is far too long
@@ -77,22 +77,25 @@ BOOST_AUTO_TEST_CASE(a_force_counts_one_and_each_call_of_a_black_box) {
 // Where squares of entries overflow or underflow too. A power of four scales without rounding.
 BOOST_AUTO_TEST_CASE(frequencies_scale_with_the_root_of_the_stiffness_and_zero_is_no_rounding) {
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(3);
-  const auto known = stiffness_modes(of_free_chain, ones, "test").frequencies;
+  const auto known = detail::stiffness_modes(of_free_chain, ones, "test").frequencies;
   for (const int power : {-260, -1, 1, 260}) {
-    const auto scaled = stiffness_modes(std::ldexp(1.0, 2 * power) * of_free_chain, ones, "test").frequencies;
+    const auto scaled =
+        detail::stiffness_modes(std::ldexp(1.0, 2 * power) * of_free_chain, ones, "test").frequencies;
     BOOST_TEST((scaled == std::ldexp(1.0, power) * known), "4^" << power << ": " << scaled.transpose());
   }
   BOOST_TEST(known[0] == 0.0);
   BOOST_TEST(known[1] > 0.1);
-  BOOST_TEST(stiffness_modes(Eigen::MatrixXd::Zero(2, 2), Eigen::Vector2d(1.0, 1.0), "").frequencies.norm() ==
-             0.0);
-  const auto soft = stiffness_modes(Eigen::Vector2d(1.0, 1e-12).asDiagonal(), Eigen::Vector2d(1.0, 1.0), "");
+  BOOST_TEST(detail::stiffness_modes(Eigen::MatrixXd::Zero(2, 2), Eigen::Vector2d(1.0, 1.0), "")
+                 .frequencies.norm() == 0.0);
+  const auto soft =
+      detail::stiffness_modes(Eigen::Vector2d(1.0, 1e-12).asDiagonal(), Eigen::Vector2d(1.0, 1.0), "");
   BOOST_TEST(soft.frequencies[0] == 1e-6, tolerance(1e-3));  // eps/1e-12
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_stiffness_matrix_is_refused) {
   const auto refused = [](const Eigen::MatrixXd& stiffness, Eigen::Index masses, said words) {
-    return refuses([&] { stiffness_modes(stiffness, Eigen::VectorXd::Ones(masses), "who asks"); }, words);
+    return refuses([&] { detail::stiffness_modes(stiffness, Eigen::VectorXd::Ones(masses), "who asks"); },
+                   words);
   };
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(2, 2);
   BOOST_TEST(refused(Eigen::MatrixXd(0, 0), 0, {"who asks", "square", "0 x 0"}));
@@ -106,7 +109,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_stiffness_matrix_is_refused) {
 
 BOOST_AUTO_TEST_CASE(modal_coordinates_are_the_modes_with_masses) {
   const linear_chain chain(Eigen::MatrixXd{{2.0, -2.0}, {-2.0, 5.0}}, Eigen::Vector2d(4.0, 9.0));
-  const auto part = modal_coordinates::of(chain);
+  const auto part = detail::modal_coordinates::of(chain);
   const auto modes = chain.modes();
   BOOST_REQUIRE(part->frequencies().size() == 2U);
   BOOST_REQUIRE(part->entries().size() == 4U);
@@ -135,13 +138,14 @@ BOOST_AUTO_TEST_CASE(modal_coordinates_are_the_modes_with_masses) {
   BOOST_TEST(std::abs(sum(x) - energy) <= 32.0 * eps * energy);
   BOOST_TEST(std::abs(sum(q) - energy) > 0.01);
   // Entries that are zero are left out: each mode of this chain has two masses of its own.
-  BOOST_TEST(modal_coordinates::of(fpu_chain<>(8, 50.0))->entries().size() == 2U * 16U);
+  BOOST_TEST(detail::modal_coordinates::of(fpu_chain<>(8, 50.0))->entries().size() == 2U * 16U);
 }
 
 BOOST_AUTO_TEST_CASE(modes_that_cannot_be_are_refused) {
   const auto refused = [](const Eigen::MatrixXd& basis, const Eigen::VectorXd& frequencies) {
     const told system{{basis, frequencies}};
-    return refuses([&] { modal_coordinates::of(system); }, {"two springs", "2 x 2", "frequency >= 0"});
+    return refuses([&] { detail::modal_coordinates::of(system); },
+                   {"two springs", "2 x 2", "frequency >= 0"});
   };
   const Eigen::Matrix2d identity = Eigen::Matrix2d::Identity();
   const Eigen::Vector2d right(0.0, 1.0);

@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(what_is_written_to_an_item_is_in_the_list) {
   BOOST_TEST((is_point(points[0], 8.0) && is_point(points[2], 8.0)));
   static_assert(!std::is_assignable_v<decltype((std::declval<const phase_points&>()[0].q[0])), double>);
   static_assert(std::is_assignable_v<decltype((std::declval<phase_points&>()[0].q[0])), double>);
-  static_assert(!std::is_assignable_v<decltype(std::declval<const vector_list&>()[0][0]), double>);
+  static_assert(!std::is_assignable_v<decltype(std::declval<const detail::vector_list&>()[0][0]), double>);
 }
 
 // Where a list takes points of its own it may move in memory.
@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(points_that_are_there_stay_when_the_number_changes) {
 }
 
 BOOST_AUTO_TEST_CASE(vectors_stand_one_after_the_other) {
-  vector_list vectors(2, 3);
+  detail::vector_list vectors(2, 3);
   for (int i = 0; i < 2; ++i) vectors[static_cast<std::size_t>(i)].setConstant(i);
   BOOST_TEST(vectors[1].data() == vectors[0].data() + 3);
   vectors.push_back(vectors[0]);
@@ -143,12 +143,12 @@ BOOST_AUTO_TEST_CASE(pieces_of_a_sentence_come_in_order_and_numbers_are_cut_to_t
              "ab of text, text; true");
   BOOST_TEST(sentence("{}", "{}") == "{}");  // a piece has no holes
   BOOST_TEST(sentence("{} x {}", 3U, -4L) == "3 x -4");
-  BOOST_TEST(in_digits(0.125, 2) == "0.12");
-  BOOST_TEST(in_digits(2.0 / 3.0, 6) == "0.666667");
-  BOOST_TEST(in_digits(1234567.0, 6) == "1.23457e+06");
-  BOOST_TEST(in_digits(100.0, 4) == "100");
-  BOOST_TEST(in_digits(0.005, 12) == "0.005");
-  BOOST_TEST(in_digits(-limits::infinity(), 6) == "-inf");
+  BOOST_TEST(detail::in_digits(0.125, 2) == "0.12");
+  BOOST_TEST(detail::in_digits(2.0 / 3.0, 6) == "0.666667");
+  BOOST_TEST(detail::in_digits(1234567.0, 6) == "1.23457e+06");
+  BOOST_TEST(detail::in_digits(100.0, 4) == "100");
+  BOOST_TEST(detail::in_digits(0.005, 12) == "0.005");
+  BOOST_TEST(detail::in_digits(-limits::infinity(), 6) == "-inf");
 }
 
 BOOST_AUTO_TEST_CASE(numbers_are_written_as_by_fmt) {

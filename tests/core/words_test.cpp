@@ -24,8 +24,8 @@ struct lonely_kick : kick {
 std::string as_text(const auto& evaluations, std::size_t length) {
   std::string text;
   for (std::size_t i = 0; i < length; ++i) {
-    const evaluation one = evaluations[i];
-    text += one == evaluation::shared ? 's' : one == evaluation::unshared ? 'u' : '-';
+    const detail::evaluation one = evaluations[i];
+    text += one == detail::evaluation::shared ? 's' : one == detail::evaluation::unshared ? 'u' : '-';
   }
   return text;
 }
@@ -63,7 +63,7 @@ using enum placement;
 void has_letters_o(const char* plain, placement where, const char* letters, const numbers& expected,
                    const numbers& coefficients) {
   BOOST_TEST(thermostatted(word(plain), where).letters() == letters);
-  const numbers found = thermostatted_coefficients(word(plain), where, coefficients);
+  const numbers found = detail::thermostatted_coefficients(word(plain), where, coefficients);
   BOOST_TEST(found == expected, boost::test_tools::per_element());
 }
 
@@ -103,9 +103,10 @@ BOOST_AUTO_TEST_CASE(a_word_of_flows_is_the_word_of_their_names) {
 }
 
 BOOST_AUTO_TEST_CASE(a_palindrome_follows_from_its_first_coefficients) {
-  BOOST_TEST((palindrome<3>({}) == std::array{0.5, 1.0, 0.5}));
-  BOOST_TEST((palindrome<5>({0.25}) == std::array{0.25, 0.5, 0.5, 0.5, 0.25}));
-  BOOST_TEST((palindrome<7>({0.125, 0.25}) == std::array{0.125, 0.25, 0.375, 0.5, 0.375, 0.25, 0.125}));
+  BOOST_TEST((detail::palindrome<3>({}) == std::array{0.5, 1.0, 0.5}));
+  BOOST_TEST((detail::palindrome<5>({0.25}) == std::array{0.25, 0.5, 0.5, 0.5, 0.25}));
+  BOOST_TEST(
+      (detail::palindrome<7>({0.125, 0.25}) == std::array{0.125, 0.25, 0.375, 0.5, 0.375, 0.25, 0.125}));
 }
 
 BOOST_AUTO_TEST_CASE(letters_and_words_that_cannot_be_are_refused) {
@@ -152,9 +153,11 @@ BOOST_AUTO_TEST_CASE(without_letters_o_the_conservative_part_is_left) {
 }
 
 BOOST_AUTO_TEST_CASE(letters_o_share_a_step_in_their_order_each_by_its_coefficient) {
-  using intervals = std::vector<noise_interval>;
-  const auto of_letters = [](const numbers& c) { return intervals_of_noise(std::string(c.size(), 'O'), c); };
-  const auto shared = [](const noise_intervals& found, int parts, const intervals& expected) {
+  using intervals = std::vector<detail::noise_interval>;
+  const auto of_letters = [](const numbers& c) {
+    return detail::intervals_of_noise(std::string(c.size(), 'O'), c);
+  };
+  const auto shared = [](const detail::noise_intervals& found, int parts, const intervals& expected) {
     return found.parts == parts && found.of_letters == expected;
   };
   BOOST_TEST(shared(of_letters({1.0}), 1, {{0, 1}}));
@@ -168,9 +171,10 @@ BOOST_AUTO_TEST_CASE(letters_o_share_a_step_in_their_order_each_by_its_coefficie
   BOOST_TEST(shared(of_letters({0.1, 0.9}), 10, {{0, 1}, {1, 10}}));  // ten times .1 is 1 to rounding
   BOOST_TEST(shared(of_letters({0.0, 1.0}), 1, {{0, 0}, {0, 1}}));    // one that does nothing
   BOOST_TEST(shared(of_letters({0.5, 0.5}).in_parts(6), 6, {{0, 3}, {3, 6}}));
-  const auto of_word = intervals_of_noise(obabo().letters(), obabo().coefficients());
+  const auto of_word = detail::intervals_of_noise(obabo().letters(), obabo().coefficients());
   BOOST_TEST(shared(of_word, 2, {{0, 1}, {1, 2}}));
-  BOOST_TEST(shared(intervals_of_noise(verlet().letters(), verlet().coefficients()).in_parts(6), 6, {}));
+  BOOST_TEST(
+      shared(detail::intervals_of_noise(verlet().letters(), verlet().coefficients()).in_parts(6), 6, {}));
 
   const auto refused = [&](const numbers& c, said words) { return refuses([&] { of_letters(c); }, words); };
   BOOST_TEST(refused({0.5}, {"letters O of O", "cover one step", "got 0.5"}));

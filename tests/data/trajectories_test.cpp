@@ -107,7 +107,7 @@ Eigen::VectorXd noise_between(std::uint64_t seed, std::uint64_t trajectory, std:
   std::vector<vector<double, 6>> each(static_cast<std::size_t>(to - from));
   for (auto& xi : each) counter_noise(seed).normals(noise_place{trajectory, from++, 0}, xi);
   vector<double, 6> whole;
-  coarse_graining(heat_bath.friction() * fine).over(std::span<const vector<double, 6>>(each), whole);
+  detail::coarse_graining(heat_bath.friction() * fine).over(std::span<const vector<double, 6>>(each), whole);
   return whole;
 }
 
@@ -225,7 +225,7 @@ BOOST_AUTO_TEST_CASE(more_trajectories_of_the_same_are_those_made_at_once) {
   flow_map_data grown;
   for (const std::int64_t trajectories : {5, 13, 21}) {
     options.trajectories = trajectories;
-    extend_data(warm, law, fine_paths(fine), options, grown);
+    detail::extend_data(warm, law, fine_paths(fine), options, grown);
     BOOST_TEST(grown.trajectories() == static_cast<std::size_t>(trajectories));
     require_valid(grown, warm);
   }
@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(more_trajectories_of_the_same_are_those_made_at_once) {
     BOOST_TEST((finish.p - grown.finish[pair].p).norm() < 0.01 * (finish.p - grown.start[pair].p).norm());
   }
   options.trajectories = 4;
-  extend_data(warm, law, fine_paths(fine), options, grown);
+  detail::extend_data(warm, law, fine_paths(fine), options, grown);
   BOOST_TEST(grown.trajectories() == 21U);  // there are enough
 }
 

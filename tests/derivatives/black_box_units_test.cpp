@@ -55,15 +55,15 @@ vector<double, N> by_absolute_step(const boxed_wells<N>& system, const vector<do
 template <int N>
 void check_derivatives(const units& scales) {
   const in_both<N> wells(scales);
-  lifted_room<double, N> room(N);
+  detail::lifted_room<double, N> room(N);
   for (std::size_t n = 0; n < wells.states.size(); ++n) {
     const auto& x = wells.states[n];
     vector<double, N> v;
     for (Eigen::Index i = 0; i < N; ++i) v[i] = 0.3 * x.p[i] * wells.boxed.inverse_mass(i) * scales.time;
     vector<double, N> found;
     vector<double, N> exact;
-    force_along<field::whole, double>(wells.boxed, x.q, v, found, room);
-    force_along<field::whole, double>(wells.open, x.q, v, exact, room);
+    detail::force_along<field::whole, double>(wells.boxed, x.q, v, found, room);
+    detail::force_along<field::whole, double>(wells.open, x.q, v, exact, room);
     BOOST_TEST(wells.relative(found, exact) < 1e-7);
     if (scales.length * scales.mixed == 1e-6 && scales.length == 1e-6 && scales.offset == 0.0) {
       BOOST_TEST(wells.relative(by_absolute_step(wells.boxed, x.q, v), exact) > 1e-2);

@@ -30,8 +30,8 @@ Eigen::MatrixXd symmetric(draws& random, const Eigen::VectorXd& eigenvalues) {
   return basis * eigenvalues.asDiagonal() * basis.transpose();
 }
 
-spectrum_ends ends_of(const Eigen::MatrixXd& a, const Eigen::VectorXd& start) {
-  return ends_of_spectrum([&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return a * v; }, start);
+detail::spectrum_ends ends_of(const Eigen::MatrixXd& a, const Eigen::VectorXd& start) {
+  return detail::ends_of_spectrum([&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return a * v; }, start);
 }
 
 /// Products and projections round each entry of A by some n eps of its size.
@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(isolated_ends_are_not_passed_inwards) {
   const auto multiply = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return values.cwiseProduct(v); };
   draws random;
   for (int trial = 0; trial < 4; ++trial) {
-    const auto ends = ends_of_spectrum(multiply, random_vector(random, n));
+    const auto ends = detail::ends_of_spectrum(multiply, random_vector(random, n));
     BOOST_TEST(ends.highest >= 1.0);
     BOOST_TEST(ends.lowest <= -1.0);
     // By Rayleigh quotients of the Ritz vectors: the values themselves are inside.
@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(all_frequencies_of_a_state_are_those_of_the_hessian) {
   for (int n = 0; n < 10; ++n) {
     const auto state = random.state(ring, 0.8);
     const Eigen::VectorXd squares = symmetric_eigen(hessian(ring, state.q)).values;
-    const auto found = frequencies_at(ring, state);
+    const auto found = detail::frequencies_at(ring, state);
     BOOST_REQUIRE(std::ssize(found) == squares.size());
     for (std::size_t k = 0; k < found.size(); ++k) {  // squares of order ten that are known to rounding
       const double square = std::max(0.0, squares[static_cast<Eigen::Index>(k)]);
@@ -234,8 +234,8 @@ BOOST_AUTO_TEST_CASE(all_frequencies_of_a_state_are_those_of_the_hessian) {
 BOOST_AUTO_TEST_CASE(a_kinetic_energy_of_any_kind_counts) {
   for (const double p : {0.0, 0.5, 2.0}) {
     for (const double q : {0.0, 0.3, 1.0}) {
-      const auto found =
-          frequencies_at(fast_particle{}, {Eigen::VectorXd::Constant(1, q), Eigen::VectorXd::Constant(1, p)});
+      const auto found = detail::frequencies_at(
+          fast_particle{}, {Eigen::VectorXd::Constant(1, q), Eigen::VectorXd::Constant(1, p)});
       const double expected = std::sqrt((100.0 + 240.0 * q * q) * std::pow(1.0 + p * p, -1.5));
       BOOST_TEST(std::abs(found[0] / expected - 1.0) < 1e-14);
     }
@@ -244,9 +244,9 @@ BOOST_AUTO_TEST_CASE(a_kinetic_energy_of_any_kind_counts) {
 
 BOOST_AUTO_TEST_CASE(of_large_systems_the_highest_alone_is_known) {
   draws random;
-  const dynamic_potential large{most_for_all_frequencies + 1};
+  const dynamic_potential large{detail::most_for_all_frequencies + 1};
   const std::vector states{random.state(large, 0.5), random.state(large, 0.5)};
-  const auto found = frequencies_of_states(large, states);
+  const auto found = detail::frequencies_of_states(large, states);
   BOOST_TEST(!found.are_complete);
   BOOST_REQUIRE(found.of_state.size() == 2U);
   for (std::size_t n = 0; n < 2; ++n) {

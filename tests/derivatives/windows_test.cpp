@@ -23,7 +23,7 @@ using windows = std::vector<stability_window>;
 
 /// The eigenvalues' largest absolute value, from the exact Jacobian of a step.
 double spectral_radius(const method& method, double z) {
-  const Eigen::MatrixXd step = jacobian(step_map(unit_oscillator, method, z), at_one);
+  const Eigen::MatrixXd step = detail::jacobian(detail::step_map(unit_oscillator, method, z), at_one);
   return test::spectral_radius(step);
 }
 
@@ -104,8 +104,8 @@ stability_chart chart_of_eulers(std::size_t n) {
 }
 
 /// (x - r_1) (x - r_2) ... on low..high.
-bernstein_polynomial with_roots(double low, double high, const std::vector<double>& roots) {
-  bernstein_polynomial product(low, high, 1.0);
+detail::bernstein_polynomial with_roots(double low, double high, const std::vector<double>& roots) {
+  detail::bernstein_polynomial product(low, high, 1.0);
   for (const double r : roots) {
     auto next = product.times_x();
     next += -r * product;
@@ -115,8 +115,8 @@ bernstein_polynomial with_roots(double low, double high, const std::vector<doubl
 }
 
 /// Chebyshev's polynomial of degree n on -1..1, between -1 and 1, which it takes n + 1 times.
-bernstein_polynomial chebyshev(int n, double low, double high) {
-  bernstein_polynomial before(low, high, 1.0);
+detail::bernstein_polynomial chebyshev(int n, double low, double high) {
+  detail::bernstein_polynomial before(low, high, 1.0);
   auto here = before.times_x();
   for (int k = 1; k < n; ++k) {
     auto after = 2.0 * here.times_x();
@@ -256,13 +256,14 @@ BOOST_AUTO_TEST_CASE(stable_steps_are_those_of_all_bands) {
 BOOST_AUTO_TEST_CASE(gaps_are_what_is_left_of_the_windows) {
   const auto are_gaps = [](double up_to, const std::vector<double>& expected) {
     std::vector<double> ends;
-    for (const auto& [low, high] : gaps_below(with_a_gap, up_to)) ends.insert(ends.end(), {low, high});
+    for (const auto& [low, high] : detail::gaps_below(with_a_gap, up_to))
+      ends.insert(ends.end(), {low, high});
     return ends == expected;
   };
   BOOST_TEST(are_gaps(2.5, {}));
   BOOST_TEST(are_gaps(3.0, {end, 3.0}));
   BOOST_TEST(are_gaps(5.0, {end, again, last, 5.0}));
-  BOOST_TEST(gaps_below({}, 1.0).size() == 1U);
+  BOOST_TEST(detail::gaps_below({}, 1.0).size() == 1U);
 }
 
 // A step of phase t is n of phase t/n: cos t = +-1 at t = pi, ..., (n - 1) pi, and an Euler step of phase a
@@ -313,20 +314,20 @@ BOOST_AUTO_TEST_CASE(a_strip_that_is_only_touched_is_not_left) {
   for (const int n : {2, 3, 6, 9, 12}) {
     // Twice the previous at each degree: rounding grows like that of 2^n terms.
     const double rounding = 4.0 * std::pow(2.0, n) * eps;
-    BOOST_TEST(!where_larger(chebyshev(n, -1.0, 1.0), 1.0 + rounding).has_value());
-    BOOST_TEST(where_larger(chebyshev(n, -1.0, 1.0), 1.0 - 1e-6).has_value());
-    BOOST_TEST(where_larger(chebyshev(n, -1.0, 1.001), 1.0 + rounding).value_or(0.0) > 1.0);
+    BOOST_TEST(!detail::where_larger(chebyshev(n, -1.0, 1.0), 1.0 + rounding).has_value());
+    BOOST_TEST(detail::where_larger(chebyshev(n, -1.0, 1.0), 1.0 - 1e-6).has_value());
+    BOOST_TEST(detail::where_larger(chebyshev(n, -1.0, 1.001), 1.0 + rounding).value_or(0.0) > 1.0);
   }
 }
 
 // 1 + 1e-8 at x = 1/3, and below 1 but for 2e-4 around it.
 BOOST_AUTO_TEST_CASE(the_narrowest_hump_is_found) {
   auto hump = -1.0 * with_roots(0.0, 1.0, {1.0 / 3.0, 1.0 / 3.0});
-  hump += bernstein_polynomial(0.0, 1.0, 1.0 + 1e-8);
-  const auto x = where_larger(hump, 1.0);
+  hump += detail::bernstein_polynomial(0.0, 1.0, 1.0 + 1e-8);
+  const auto x = detail::where_larger(hump, 1.0);
   BOOST_REQUIRE(x.has_value());
   BOOST_TEST(std::abs(*x - 1.0 / 3.0) <= 1e-4);
-  BOOST_TEST(!where_larger(hump, 1.0 + 1e-8 + eps).has_value());
+  BOOST_TEST(!detail::where_larger(hump, 1.0 + 1e-8 + eps).has_value());
 }
 
 // Chebyshev's polynomial of degree n turns n - 1 times, and its Bernstein coefficients alternate.
@@ -335,7 +336,7 @@ BOOST_AUTO_TEST_CASE(turns_are_counted) {
     BOOST_TEST(chebyshev(n, -1.0, 1.0).turns(0.0) == n - 1);
     BOOST_TEST(chebyshev(n, 1.0, 2.0).turns(0.0) == 0);
   }
-  auto rounded = bernstein_polynomial(0.0, 1.0, 1.0);
+  auto rounded = detail::bernstein_polynomial(0.0, 1.0, 1.0);
   rounded += eps * chebyshev(6, 0.0, 1.0);
   BOOST_TEST(rounded.turns(1000.0 * eps) == 0);
   // Two roots of the derivative, 1/4 and 3/4, in one interval; one in each half.
@@ -348,6 +349,6 @@ BOOST_AUTO_TEST_CASE(turns_are_counted) {
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_number_is_within_nothing) {
-  BOOST_TEST(where_larger(bernstein_polynomial(0.0, 1.0, not_a_number), 1e300).has_value());
-  BOOST_TEST(where_larger(with_roots(0.0, 1.0, {0.1, not_a_number, 0.2}), 1e300).has_value());
+  BOOST_TEST(detail::where_larger(detail::bernstein_polynomial(0.0, 1.0, not_a_number), 1e300).has_value());
+  BOOST_TEST(detail::where_larger(with_roots(0.0, 1.0, {0.1, not_a_number, 0.2}), 1e300).has_value());
 }

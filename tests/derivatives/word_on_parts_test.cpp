@@ -133,7 +133,7 @@ constexpr std::int64_t steps = 20'000;
 struct examined {
   two_parts system;
   nysalt::word word = respa.letters();
-  stability_guard guard;
+  detail::stability_guard guard;
   explicit examined(const two_parts& of, std::int64_t plan = steps, const phase_points& states = of_two)
       : system(of), guard(system, states, word, plan) {
     BOOST_REQUIRE(guard.parts() != nullptr);
@@ -174,35 +174,35 @@ double closest_phases(const Eigen::MatrixXd& m) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(opposite_signatures_meet_where_the_sum_of_two_angles_is_a_whole_turn) {
-  const auto met = spectrum_of(turned_by(1.0, 2.0 * pi - 1.0));
+  const auto met = detail::spectrum_of(turned_by(1.0, 2.0 * pi - 1.0));
   BOOST_TEST(met.growth <= 16.0 * eps);
   BOOST_TEST(met.krein_distance <= 16.0 * eps);
   // The first turns by 1.0, the second by 1.0 short of a whole turn and 0.01 more.
-  const auto near = spectrum_of(turned_by(1.0, 2.0 * pi - 0.99));
+  const auto near = detail::spectrum_of(turned_by(1.0, 2.0 * pi - 0.99));
   BOOST_TEST(std::abs(near.krein_distance - 0.01) <= 64.0 * eps);
   // The difference of angles is a whole turn: of like signature. Of opposite signature are +-1, 2 apart.
-  const auto like = spectrum_of(turned_by(1.0, 1.0));
+  const auto like = detail::spectrum_of(turned_by(1.0, 1.0));
   BOOST_TEST(like.growth <= 16.0 * eps);
   BOOST_TEST(std::abs(like.krein_distance - 2.0) <= 64.0 * eps);
 }
 
 BOOST_AUTO_TEST_CASE(a_step_off_the_circle_has_its_growth_and_no_distance) {
   const Eigen::Matrix2d stretched{{2.0, 0.0}, {0.0, 0.5}};
-  const auto spectrum = spectrum_of(stretched);
+  const auto spectrum = detail::spectrum_of(stretched);
   BOOST_TEST(std::abs(spectrum.growth - std::log(2.0)) <= 4.0 * eps);
   BOOST_TEST(spectrum.krein_distance == 0.0);
   BOOST_TEST(!spectrum.is_on_circle());
-  const auto turned = spectrum_of(-stretched);  // the phase is that of the multiplier
+  const auto turned = detail::spectrum_of(-stretched);  // the phase is that of the multiplier
   BOOST_TEST(std::abs(std::abs(turned.first) - pi) <= 4.0 * eps);
   BOOST_TEST(turned.second == turned.first);
-  BOOST_TEST(spectrum_of(turned_by(1.0, 2.0)).is_on_circle());
+  BOOST_TEST(detail::spectrum_of(turned_by(1.0, 2.0)).is_on_circle());
   const Eigen::Matrix2d shear{{1.0, 1.0}, {0.0, 1.0}};  // both eigenvalues 1, with one vector
-  BOOST_TEST(spectrum_of(shear).krein_distance <= 1e-6);
-  BOOST_TEST(!(spectrum_of(turned_by(1.0, 2.0)).krein_distance <= 1e-6));
-  const auto none = spectrum_of(Eigen::MatrixXd(0, 0));  // a step so small that no mode turns
+  BOOST_TEST(detail::spectrum_of(shear).krein_distance <= 1e-6);
+  BOOST_TEST(!(detail::spectrum_of(turned_by(1.0, 2.0)).krein_distance <= 1e-6));
+  const auto none = detail::spectrum_of(Eigen::MatrixXd(0, 0));  // a step so small that no mode turns
   BOOST_TEST((none.growth == 0.0 && none.krein_distance == pi));
-  BOOST_TEST(
-      refuses([] { spectrum_of(Eigen::MatrixXd::Identity(3, 3)); }, {"even number of rows", "got 3 rows"}));
+  BOOST_TEST(refuses([] { detail::spectrum_of(Eigen::MatrixXd::Identity(3, 3)); },
+                     {"even number of rows", "got 3 rows"}));
 }
 
 BOOST_AUTO_TEST_CASE(powers_of_two_show_the_largest_power) {
@@ -217,7 +217,7 @@ BOOST_AUTO_TEST_CASE(powers_of_two_show_the_largest_power) {
       largest = std::max(largest, spectral_norm(power));
       power = (power * m).eval();
     }
-    const double found = largest_power(m, steps);
+    const double found = detail::largest_power(m, steps);
     if (largest >= 1e6) {
       BOOST_TEST(std::isinf(found));
       continue;
@@ -229,7 +229,7 @@ BOOST_AUTO_TEST_CASE(powers_of_two_show_the_largest_power) {
   BOOST_TEST(large >= 2);
   // Fewer steps than the difference of phases needs do not show it.
   const Eigen::Matrix4d slow = kick_of_chance(1, 1e-3) * turned_by(1.0, 2.0 * pi - 1.0 + 0.0002);
-  BOOST_TEST(largest_power(slow, 4) < 1.05);
+  BOOST_TEST(detail::largest_power(slow, 4) < 1.05);
 }
 
 // Hessians of the parts do not commute; of a linear system the letters' product is the step itself.
@@ -239,10 +239,10 @@ BOOST_AUTO_TEST_CASE(the_product_of_linearised_letters_has_the_eigenvalues_of_a_
   BOOST_TEST(one.guard.parts()->is_known());
   BOOST_TEST(one.guard.parts()->has_mean());
   for (const double h : {0.1, 0.31, 0.47}) {
-    const Eigen::MatrixXd step =
-        jacobian(step_map(one.system, respa, h), state{Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.3, 0.4)});
-    const auto exact = spectrum_of(step);
-    const auto found = spectrum_of(one.step(h));
+    const Eigen::MatrixXd step = detail::jacobian(
+        detail::step_map(one.system, respa, h), state{Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.3, 0.4)});
+    const auto exact = detail::spectrum_of(step);
+    const auto found = detail::spectrum_of(one.step(h));
     // Rounding of 2 * 16 letters, by the condition of the eigenvalues, some 10.
     BOOST_TEST(std::abs(found.growth - exact.growth) <= 1e4 * eps);
     BOOST_TEST(std::abs(found.krein_distance - exact.krein_distance) <= 1e5 * eps);
@@ -253,7 +253,7 @@ BOOST_AUTO_TEST_CASE(a_sum_resonance_has_the_growth_and_the_width_of_the_theory)
   constexpr double coupling = 0.5;
   const examined pair(pair_coupled_by(coupling));
   const auto growth_at = [&](double couplings) {
-    return spectrum_of(pair.step(step_at(coupling, couplings))).growth;
+    return detail::spectrum_of(pair.step(step_at(coupling, couplings))).growth;
   };
   // Of second order in h k/omega = 0.03: a tenth of the width is more.
   BOOST_TEST(std::abs(growth_at(0.0) / theory(coupling, step_at(coupling, 0.0)).coupling - 1.0) <= 0.1);
@@ -283,12 +283,12 @@ BOOST_AUTO_TEST_CASE(the_guard_admits_a_difference_resonance) {
   const examined pair(pair_coupled_by(1e-5, of_other_ratio));
   // Nearer than a guard that ignores signatures would admit.
   constexpr double met = 1e-5;
-  static_assert(met < 2.0 / steps && met < word_on_parts::least_turn);
+  static_assert(met < 2.0 / steps && met < detail::word_on_parts::least_turn);
   // h (omega_1 - omega_2) = 2 pi at 1.396, moved by less than 6 % by the phases of Verlet.
   const double difference = step_where_cosines_meet(pair, 1.30, 1.42);
   BOOST_TEST(closest_phases(pair.step(difference)) <= met);
-  BOOST_TEST(spectrum_of(pair.step(difference)).is_on_circle());
-  BOOST_TEST(spectrum_of(pair.step(difference)).krein_distance > 0.1);
+  BOOST_TEST(detail::spectrum_of(pair.step(difference)).is_on_circle());
+  BOOST_TEST(detail::spectrum_of(pair.step(difference)).krein_distance > 0.1);
   BOOST_TEST(pair.objection(difference).empty(), pair.objection(difference));
   // h (omega_1 + omega_2) = 2 pi at .405: phases as near, of opposite signature.
   const double sum = step_where_cosines_meet(pair, 0.39, 0.42);
@@ -308,7 +308,7 @@ BOOST_AUTO_TEST_CASE(a_short_plan_refuses_resonances_and_no_slow_modes) {
                                     springs{0.1 * slow * slow * Eigen::Matrix2d{{1.0, 0.1}, {0.1, 1.0}}}),
                           few);
       constexpr double h = 0.12;
-      slower += spectrum_of(pair.step(h)).krein_distance < 2.0 / few ? 1 : 0;
+      slower += detail::spectrum_of(pair.step(h)).krein_distance < 2.0 / few ? 1 : 0;
       BOOST_TEST(pair.objection(h).empty(), pair.objection(h));
     }
   }
@@ -318,7 +318,7 @@ BOOST_AUTO_TEST_CASE(a_short_plan_refuses_resonances_and_no_slow_modes) {
   int refused = 0;
   for (int k = 0; k <= 400; ++k) {
     const double h = 0.30 + 0.02 * k / 400;  // pi/10, less the phase of Verlet
-    const auto spectrum = spectrum_of(pair.step(h));
+    const auto spectrum = detail::spectrum_of(pair.step(h));
     if (spectrum.is_on_circle()) continue;
     ++refused;
     BOOST_TEST(pair.objection(h).find("at the phase") != std::string::npos, pair.objection(h));
@@ -358,7 +358,7 @@ BOOST_AUTO_TEST_CASE(of_two_growths_a_refused_one_is_the_worse) {
   for (int k = 0; k < 2000; ++k) {
     const auto drawn = [&] {
       const auto [low, high] = std::minmax({std::pow(10.0, power(bits)), std::pow(10.0, power(bits))});
-      return growth_of_energy{.early = low, .late = high};
+      return detail::growth_of_energy{.early = low, .late = high};
     };
     const auto one = drawn();
     const auto other = drawn();
@@ -381,7 +381,7 @@ BOOST_AUTO_TEST_CASE(states_that_lie_far_apart_have_no_mean_of_however_many_coor
             state{Eigen::VectorXd::Constant(size, k == 5 ? elsewhere : 1.0), Eigen::VectorXd::Ones(size)});
       }
       const two_parts system(wells, wells);
-      const word_on_parts parts(system, states, respa.letters());
+      const detail::word_on_parts parts(system, states, respa.letters());
       BOOST_TEST(parts.has_mean() == (elsewhere < 2.0));
     }
   }
@@ -390,8 +390,8 @@ BOOST_AUTO_TEST_CASE(states_that_lie_far_apart_have_no_mean_of_however_many_coor
 BOOST_AUTO_TEST_CASE(what_is_not_analysed_is_said_and_admitted) {
   const examined pair(pair_coupled_by(0.5));
   constexpr word with_turns = word_of<lettered::turn, kick_of_part<0>, lettered::turn>();
-  const stability_guard guard(with_letters<two_parts, lettered::turn>(pair.system), of_two, with_turns,
-                              steps);
+  const detail::stability_guard guard(with_letters<two_parts, lettered::turn>(pair.system), of_two,
+                                      with_turns, steps);
   BOOST_TEST(guard.parts() == nullptr);
   BOOST_TEST(guard.description().find("was not analysed, as the letter t is neither") != std::string::npos,
              guard.description());
@@ -405,7 +405,8 @@ BOOST_AUTO_TEST_CASE(what_is_not_analysed_is_said_and_admitted) {
   BOOST_TEST(pair.objection(0.1).empty());
   // An ordinary word is examined as ever.
   const nysalt::word ordinary("BAB");
-  const stability_guard of_bands(pair.system, of_two, ordinary, steps);
-  BOOST_TEST(of_bands.description() == stability_guard(pair.system, of_two, false, steps).description());
+  const detail::stability_guard of_bands(pair.system, of_two, ordinary, steps);
+  BOOST_TEST(of_bands.description() ==
+             detail::stability_guard(pair.system, of_two, false, steps).description());
   BOOST_TEST(!of_bands.objection(ordinary, {0.5, 1.0, 0.5}, 0.3).empty());
 }

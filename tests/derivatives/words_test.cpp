@@ -38,7 +38,7 @@ std::vector<double> triple_jump(const std::vector<double>& lengths, int n) {
 }
 
 taylor_orders of_verlet_steps(const std::vector<double>& lengths) {
-  return taylor_order_of(lengths, [](const auto& system, const auto& steps) {
+  return detail::taylor_order_of(lengths, [](const auto& system, const auto& steps) {
     auto x = system.start();
     for (const double h : steps) make_stepper(system, verlet(), h).step(x);
     return x;
@@ -61,18 +61,19 @@ taylor_orders order_in_other_coordinates(double c) {
 constexpr double pi = std::numbers::pi;
 
 method classical_word(std::string_view name) {
-  std::vector<classical_row> rows(std::begin(classical_table), std::end(classical_table));
-  rows.insert(rows.end(), std::begin(processed_table), std::end(processed_table));
-  return as_data(*std::ranges::find(rows, name, &classical_row::name));
+  std::vector<detail::classical_row> rows(std::begin(detail::classical_table),
+                                          std::end(detail::classical_table));
+  rows.insert(rows.end(), std::begin(detail::processed_table), std::end(detail::processed_table));
+  return detail::as_data(*std::ranges::find(rows, name, &detail::classical_row::name));
 }
 
 double rho(const method& method, double z) {
-  return energy_error_on_oscillator(method.letters(), method.coefficients(), z);
+  return detail::energy_error_on_oscillator(method.letters(), method.coefficients(), z);
 }
 
 /// The mean growth of (omega q)^2/2 + p^2/2 after n steps from independent normal omega q and p.
 double growth(const method& method, double z, int steps) {
-  const auto m = matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
+  const auto m = detail::matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
   const Eigen::Matrix2d step{{m.qq, m.qp * z}, {m.pq / z, m.pp}};
   Eigen::Matrix2d power = Eigen::Matrix2d::Identity();
   for (int n = 0; n < steps; ++n) power = step * power;
@@ -85,7 +86,7 @@ const std::vector<double> halves{0.5, 1.0, 0.5};
 double by_powers(const nysalt::word& word, const std::vector<double>& c, double theta, double k, int steps) {
   const auto times_k = [k](double x) { return k * x; };
   Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
-  for (const int i : {0, 1}) step_on_oscillator(word, c, theta, times_k, one(0, i), one(1, i));
+  for (const int i : {0, 1}) detail::step_on_oscillator(word, c, theta, times_k, one(0, i), one(1, i));
   const double omega = std::sqrt(theta * theta + k);
   one(0, 1) *= omega;
   one(1, 0) /= omega;
@@ -110,11 +111,12 @@ with_quadratic_part<linear_chain> two_modes(const Eigen::Matrix2d& rest) {
 double growth_of_step(const auto& system, const nysalt::word& word, const std::vector<double>& c, double h) {
   const method method("a step", word, c, {1, false, false});
   const phase_point<double, Eigen::Dynamic> anywhere{Eigen::Vector2d(0.1, 0.2), Eigen::Vector2d(0.3, 0.1)};
-  return std::log(spectral_radius(jacobian(step_map(system, method, h), anywhere)));
+  return std::log(spectral_radius(detail::jacobian(detail::step_map(system, method, h), anywhere)));
 }
 
-std::optional<resonance> near(const method& method, const std::vector<frequency_band>& bands, double step) {
-  return near_resonance(method.letters(), method.coefficients(), bands, step);
+std::optional<detail::resonance> near(const method& method, const std::vector<frequency_band>& bands,
+                                      double step) {
+  return detail::near_resonance(method.letters(), method.coefficients(), bands, step);
 }
 
 /// Position Verlet in that many equal steps, whose phase at z is 2 n asin(z/(2 n)).
@@ -177,8 +179,8 @@ BOOST_AUTO_TEST_CASE(triple_jumps_gain_two_orders_each) {
 
 BOOST_AUTO_TEST_CASE(the_highest_order_means_this_or_more) {
   const auto exact = [](const auto& system, const auto&) { return system.flow(); };
-  const int highest = highest_taylor_order;
-  BOOST_TEST(in_words(taylor_order_of({1.0}, exact)) == in_words(taylor_orders{highest, highest}));
+  const int highest = detail::highest_taylor_order;
+  BOOST_TEST(in_words(detail::taylor_order_of({1.0}, exact)) == in_words(taylor_orders{highest, highest}));
 }
 
 // A slip in the sixth decimal: the order that is left depends on what the slip spares.
@@ -227,8 +229,8 @@ BOOST_AUTO_TEST_CASE(what_is_no_number_is_not_consistent) {
 
 // On the oscillator this one has order 6 (see methods/laws_test.cpp).
 BOOST_AUTO_TEST_CASE(an_accident_on_the_oscillator_does_not_count) {
-  const auto c = palindrome<11>({0.18685656311551122, 0.5642486163110636,  //
-                                 0.5520581660514783, -0.23936270217732913});
+  const auto c = detail::palindrome<11>({0.18685656311551122, 0.5642486163110636,  //
+                                         0.5520581660514783, -0.23936270217732913});
   BOOST_TEST(orders("BABABABABAB", {c.begin(), c.end()}) == "4 and 4");
 }
 
@@ -237,7 +239,7 @@ BOOST_AUTO_TEST_CASE(an_accident_on_the_oscillator_does_not_count) {
 BOOST_AUTO_TEST_CASE(traces_are_the_known_ones) {
   const auto are = [](const char* letters, const std::vector<double>& c, double theta, double low,
                       double high, double at_low, double at_high) {
-    const auto trace = half_trace(nysalt::word(letters), c, theta, low, high);
+    const auto trace = detail::half_trace(nysalt::word(letters), c, theta, low, high);
     BOOST_TEST(std::abs(trace.at_low() - at_low) < 10.0 * eps, letters);
     BOOST_TEST(std::abs(trace.at_high() - at_high) < 100.0 * eps, letters);
   };
@@ -254,7 +256,7 @@ BOOST_AUTO_TEST_CASE(the_energy_grows_by_rho_times_the_square_of_a_sine) {
                            "chin4a", "chin4a_displaced"}) {
     const nysalt::method method = classical_word(name);
     for (const double z : {0.3, 0.9, 1.5}) {
-      const auto m = matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
+      const auto m = detail::matrix_on_oscillator(method.letters(), method.coefficients(), z * z);
       const double angle = std::acos(m.half_trace());
       for (const int steps : {1, 2, 7}) {
         const double sine = std::sin(steps * angle);
@@ -296,7 +298,7 @@ BOOST_AUTO_TEST_CASE(beyond_the_window_it_is_infinite_and_words_that_are_no_plai
   for (const char* name : {"impulse", "baoab", "takahashi_imada_processed"}) {
     BOOST_TEST(refuses([&] { rho(classical_word(name), 0.5); }, {"no rotation", "no processor"}));
   }
-  BOOST_TEST(refuses([] { energy_error_on_oscillator(nysalt::word("BAB"), {0.5, 1.0}, 0.5); }, {}));
+  BOOST_TEST(refuses([] { detail::energy_error_on_oscillator(nysalt::word("BAB"), {0.5, 1.0}, 0.5); }, {}));
 }
 
 // The formula lets n t come to pi/2, which some n of 200 do to within a few degrees.
@@ -307,7 +309,7 @@ BOOST_AUTO_TEST_CASE(it_is_that_of_all_powers) {
     const double theta = n % 5 == 0 ? 0.0 : random.uniform(0.1, 7.0);
     const double k = random.uniform(0.01, 4.0);
     const double expected = by_powers(nysalt::word("RSR"), halves, theta, k, 200);
-    const double found = transient_growth(nysalt::word("RSR"), halves, theta, k, 200);
+    const double found = detail::transient_growth(nysalt::word("RSR"), halves, theta, k, 200);
     if (expected > 1e6) ++unstable;
     BOOST_TEST_CONTEXT("seed " << draws::seed << ", theta " << theta << ", k " << k) {
       if (expected < 1e6) BOOST_TEST(std::abs(found - expected) <= 0.05 * expected);
@@ -323,17 +325,18 @@ BOOST_AUTO_TEST_CASE(impulses_grow_linearly_at_a_resonance) {
   const double k = 0.09;
   const double per_step = k / std::sqrt(pi * pi + k);
   for (const std::int64_t steps : {1000, 10'000}) {
-    const double found = transient_growth(nysalt::word("SRS"), {0.5, 1.0, 0.5}, pi, k, steps);
+    const double found = detail::transient_growth(nysalt::word("SRS"), {0.5, 1.0, 0.5}, pi, k, steps);
     const double g = per_step * static_cast<double>(steps);
     // Rounding of pi makes t some 2e-9, and the error (n t)^2.
     BOOST_TEST(std::abs(found / (0.5 * g + std::sqrt(1.0 + 0.25 * g * g)) - 1.0) < 1e-8);
   }
-  BOOST_TEST(transient_growth(nysalt::word("RSR"), halves, 0.9 * pi, k, 10'000) < 1.1);
+  BOOST_TEST(detail::transient_growth(nysalt::word("RSR"), halves, 0.9 * pi, k, 10'000) < 1.1);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_exact_magnifies_nothing_and_what_is_no_number_is_not_within_a_bound) {
-  BOOST_TEST(transient_growth(nysalt::word("R"), {1.0}, 2.0, 1e-30, 10'000) <= 1.0 + 1e-9);
-  BOOST_TEST(!(transient_growth(nysalt::word("RSR"), {0.5, std::nan(""), 0.5}, 2.0, 0.1, 100) <= 1e300));
+  BOOST_TEST(detail::transient_growth(nysalt::word("R"), {1.0}, 2.0, 1e-30, 10'000) <= 1.0 + 1e-9);
+  BOOST_TEST(
+      !(detail::transient_growth(nysalt::word("RSR"), {0.5, std::nan(""), 0.5}, 2.0, 0.1, 100) <= 1e300));
 }
 
 BOOST_AUTO_TEST_CASE(growth_is_that_of_the_eigenvalues_of_a_step) {
@@ -349,7 +352,7 @@ BOOST_AUTO_TEST_CASE(growth_is_that_of_the_eigenvalues_of_a_step) {
       const Eigen::Matrix2d k = random.uniform(0.1, 3.0) * soft;
       const auto system = two_modes(k);
       const double expected = growth_of_step(system, word, c, h);
-      const double found = growth_of_pair(word, c, h * omega, h * h * k);
+      const double found = detail::growth_of_pair(word, c, h * omega, h * h * k);
       // Eigenvalues of a defective matrix err by the root of rounding, times entries of some tens.
       BOOST_TEST(std::abs(found - expected) < 1e-6,
                  letters << " at " << h << ": " << found << ", " << expected);
@@ -359,7 +362,7 @@ BOOST_AUTO_TEST_CASE(growth_is_that_of_the_eigenvalues_of_a_step) {
   BOOST_TEST(growing > 10);
   // At a difference resonance there is nothing.
   const double h = 2.0 * pi / (omega[1] - omega[0]);
-  BOOST_TEST(growth_of_pair(nysalt::word("SRS"), halves, h * omega, h * h * soft) < 1e-6);
+  BOOST_TEST(detail::growth_of_pair(nysalt::word("SRS"), halves, h * omega, h * h * soft) < 1e-6);
 }
 
 // Sixty-four steps turn by z to within z^3/(24 n^2), 0.3 % at 2 pi.
@@ -391,7 +394,7 @@ BOOST_AUTO_TEST_CASE(a_band_is_near_where_one_of_its_frequencies_is) {
 }
 
 BOOST_AUTO_TEST_CASE(in_words_it_says_which) {
-  const std::string text = in_words(*near(many_steps(64), {{49.0, 51.0}}, 0.118));
+  const std::string text = detail::in_words(*near(many_steps(64), {{49.0, 51.0}}, 0.118));
   for (const char* words : {"2 pi", "10 %", "49 to 51"})
     BOOST_TEST(text.find(words) != std::string::npos, text);
 }

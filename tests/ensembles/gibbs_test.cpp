@@ -36,7 +36,7 @@ template <class S, class E>
 auto states_of(const S& system, const E& ensemble, std::uint64_t which) {
   std::vector<phase_point<double, S::dimension>> result;
   for (std::int64_t first = 0; first < count; first += width) {
-    const auto all = sound_starts<lanes>(system, ensemble, which, first, width);
+    const auto all = detail::sound_starts<lanes>(system, ensemble, which, first, width);
     for (int k = 0; k < width; ++k) result.push_back(lane(all, k));
   }
   return result;
@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(it_says_what_it_is) {
 }
 
 BOOST_AUTO_TEST_CASE(lanes_beyond_the_last_trajectory_have_the_state_of_the_first) {
-  const auto filled = sound_starts<lanes>(in_the_papers_bath, papers(), seed(7), 3, 5);
+  const auto filled = detail::sound_starts<lanes>(in_the_papers_bath, papers(), seed(7), 3, 5);
   for (int k = 1; k < 5; ++k) BOOST_TEST(!same_bits(lane(filled, k), lane(filled, 0)));
   for (int k = 5; k < width; ++k) BOOST_TEST(same_bits(lane(filled, k), lane(filled, 0)));
   BOOST_TEST(same_bits(lane(filled, 0), papers_states()[3]));
@@ -249,7 +249,8 @@ BOOST_AUTO_TEST_CASE(a_bath_may_be_much_colder_than_the_starts) {
     BOOST_TEST(off <= standard_errors(false_alarms), "kT = " << cold << ": off by " << off);
   }
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  for (const discrepancy overflowed : {discrepancy{1.0, infinity}, discrepancy{std::nan(""), 1.0}})
+  for (const burn_in_report::discrepancy overflowed :
+       {burn_in_report::discrepancy{1.0, infinity}, burn_in_report::discrepancy{std::nan(""), 1.0}})
     BOOST_TEST(overflowed.shows());
 }
 
@@ -261,8 +262,8 @@ BOOST_AUTO_TEST_CASE(a_step_with_a_bias_is_halved) {
   BOOST_TEST(coarse.report().step <= 0.5);
   BOOST_TEST(fine.report().halvings == 0);
   for (const auto* found : {&coarse.report(), &fine.report()}) {
-    BOOST_TEST(!found->of(found->bias, watched::potential).shows());
-    BOOST_TEST(!found->of(found->excess, watched::virial).shows());
+    BOOST_TEST(!found->of(found->bias, burn_in_report::watched::potential).shows());
+    BOOST_TEST(!found->of(found->excess, burn_in_report::watched::virial).shows());
   }
   BOOST_TEST(potential_off(quartic{}, coarse, seed(3), 0.25) <= standard_errors(false_alarms));
 }
@@ -275,7 +276,7 @@ BOOST_AUTO_TEST_CASE(where_the_motion_is_free_the_virial_does_not_count) {
 BOOST_AUTO_TEST_CASE(a_force_without_a_potential_will_do) {
   const gibbs ensemble(at(0.1, black_box{}), around_0, {.friction = 1.0, .step = 0.5, .pilots = 64});
   BOOST_TEST(ensemble.report().tau > 0.0);
-  BOOST_TEST(ensemble.report().of(ensemble.report().bias, watched::potential).mean == 0.0);
+  BOOST_TEST(ensemble.report().of(ensemble.report().bias, burn_in_report::watched::potential).mean == 0.0);
 }
 
 BOOST_AUTO_TEST_CASE(what_never_has_the_law_is_refused) {

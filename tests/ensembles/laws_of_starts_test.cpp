@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(the_whole_neither_moves_nor_turns) {
       const auto x = law(1, n);
       // A few roundings of each of at most six projections, of a sum over coordinates up to 2.
       BOOST_TEST(motion_of_the_whole(x, space) <= 50.0 * static_cast<double>(x.size()) * eps);
-      BOOST_TEST(x.q == cluster_at_rest(system));
+      BOOST_TEST(x.q == detail::cluster_at_rest(system));
     }
   }
 }
@@ -312,7 +312,7 @@ BOOST_AUTO_TEST_CASE(laws_that_cannot_be_are_refused) {
   const point nowhere{{not_a_number, 0.0}, {0.0, 0.0}};
   BOOST_TEST(
       refuses([&] { normal_around<2>(nowhere, 0.1, 0.1); }, {"normal_around", "centre must be finite"}));
-  const soft_motion nowhere_soft{not_a_number, 1.0};
+  const fpu_law<3>::soft_motion nowhere_soft{not_a_number, 1.0};
   BOOST_TEST(refuses([&] { fpu_law<3>(chain, 1.0, nowhere_soft); }, {"soft", "finite"}));
   for (const double e : {1.0, -0.1, 2.0, not_a_number}) {
     BOOST_TEST(refuses([&] { kepler_law{e}; }, {"eccentricity", "below 1"}));

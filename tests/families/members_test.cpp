@@ -135,15 +135,15 @@ BOOST_AUTO_TEST_CASE(starts_are_in_range_and_classical_members_are_those_methods
   for (const auto& family : families_as_data()) {
     for (const auto& [name, theta] : family.starts) {
       BOOST_TEST(family.is_in_range(theta), name << " of " << family.name);
-      const auto row = std::find_if(std::begin(classical_table), std::end(classical_table),
+      const auto row = std::find_if(std::begin(detail::classical_table), std::end(detail::classical_table),
                                     [&, &called = name](const auto& each) { return each.name == called; });
-      if (row == std::end(classical_table)) continue;
+      if (row == std::end(detail::classical_table)) continue;
       ++tried;
       BOOST_TEST_CONTEXT(name << " in " << family.name) {
-        BOOST_TEST(is_at(theta, family, as_data(*row)));
+        BOOST_TEST(is_at(theta, family, detail::as_data(*row)));
         auto off = theta;
         off[0] += 1e-12;
-        BOOST_TEST(!is_at(off, family, as_data(*row)));
+        BOOST_TEST(!is_at(off, family, detail::as_data(*row)));
       }
     }
   }
@@ -245,7 +245,7 @@ BOOST_AUTO_TEST_CASE(the_word_of_nystrom_is_the_tableau_of_its_paper) {
         const double h = 0.5 / at.frequency();
         auto ours = x;
         auto theirs = x;
-        step_map(system, method, h)(ours);
+        detail::step_map(system, method, h)(ours);
         oracle.step(system, theirs, h);
         return distance(ours, theirs) / (12.0 * eps * size_of(x) * transient_growth(method, h, at));
       };

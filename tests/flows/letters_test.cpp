@@ -49,7 +49,7 @@ void for_each_hamiltonian(const auto& f) {
   const auto unless_of_bath = [&](auto flow) {
     if constexpr (!StochasticFlow<decltype(flow)>) f(flow);
   };
-  std::apply([&](auto... flow) { (unless_of_bath(flow), ...); }, known_letters{});
+  std::apply([&](auto... flow) { (unless_of_bath(flow), ...); }, detail::known_letters{});
 }
 
 std::vector<double> random_coefficients(draws& random, std::size_t slots) {
@@ -68,7 +68,7 @@ struct state {
 };
 
 state after(const nysalt::word& word, const std::vector<double>& c, state x) {
-  step_on_oscillator(
+  detail::step_on_oscillator(
       word, c, spring_and_rest::omega, [](double y) { return spring_and_rest::kappa * y; }, x.q, x.p);
   return x;
 }
@@ -116,7 +116,7 @@ void check_cost(const auto& system, std::int64_t plain, std::int64_t ten_steps) 
     BOOST_TEST((evaluations_of(system, letters, {c.begin(), c.end()}) == std::array{plain, ten_steps}));
     using S = std::decay_t<decltype(system)>;
     const int more =
-        (derivative_calls<S> - 1) * letters.force_derivatives;  // than what the word says of others
+        (detail::derivative_calls<S> - 1) * letters.force_derivatives;  // than what the word says of others
     BOOST_TEST(letters.evaluations_of_plain_step + more == plain);
     BOOST_TEST(letters.evaluations_to_open + 10 * (letters.evaluations_per_step + more) == ten_steps);
   }
@@ -467,7 +467,7 @@ BOOST_AUTO_TEST_CASE(a_system_steps_only_letters_that_it_declares) {
   BOOST_TEST(refused(henon_heiles(), own_drifts_first, not_declared));
   BOOST_TEST(refused(model(henon_heiles()), own_drifts_first, not_declared));
   // A letter of the same name that states something else.
-  auto stated = facts_of_letter<my_drift>();
+  auto stated = detail::facts_of_letter<my_drift>();
   stated.moves_q = false;
   const word other("aBaBa", std::array{stated});
   BOOST_TEST(refused(galaxy, other, {"must declare the letter a"}));

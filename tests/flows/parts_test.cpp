@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(letters_that_a_system_has_not_are_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(evaluations_are_counted_part_by_part) {
-  constexpr const word& letters = nested_word<0, 1, 5>;
+  constexpr const word& letters = detail::nested_word<0, 1, 5>;
   static_assert(letters.merges && evaluations_of_part(letters, 0) == 5 &&
                 evaluations_of_part(letters, 1) == 1);
   static_assert(evaluations_of_part(letters, 2) == 0);
@@ -347,7 +347,7 @@ BOOST_AUTO_TEST_CASE(cyclotron_verlet_is_symplectic_and_boris_keeps_volume) {
   constexpr double rounding = 6.0 * 100.0 * 100.0 * eps;
   BOOST_TEST(symplecticity_defect(trap, cyclotron_verlet(), 0.2, ion) <= rounding);
   BOOST_TEST(symplecticity_defect(trap, boris(), 0.2, ion) > 1e-3);
-  const double volume = determinant(jacobian(step_map(trap, boris(), 0.2), ion));
+  const double volume = determinant(detail::jacobian(detail::step_map(trap, boris(), 0.2), ion));
   BOOST_TEST(std::abs(volume - 1.0) <= rounding);
 }
 

@@ -99,7 +99,7 @@ result proposals(const division& how, std::uint64_t seed) {
                                    .states = 45,
                                    .seed = seed,
                                    .execution = {.threads = how.threads, .ranks = how.ranks}};
-    const auto found = acceptance_of_proposals(system, method(bcss3()), 0.03, law, options);
+    const auto found = detail::acceptance_of_proposals(system, method(bcss3()), 0.03, law, options);
     all.of_all << found.probability << found.of_each;
     const auto step = step_at_acceptance(
         system, [](double) { return method(bcss3()); }, 0.8, 0.02, law, options);

@@ -112,9 +112,9 @@ result pairs(const division& how, std::uint64_t seed, const model& system, const
   flow_map_data data;
   if (how.is_cut) {
     options.trajectories = 20;
-    extend_data(system, law, reference, options, data);
+    detail::extend_data(system, law, reference, options, data);
     options.trajectories = trajectories;
-    extend_data(system, law, reference, options, data);
+    detail::extend_data(system, law, reference, options, data);
   } else {
     data = make_flow_map_data(system, law, reference, options);
   }
@@ -161,9 +161,9 @@ result starts_after_a_burn_in(const division& how, std::uint64_t seed) {
     for (const auto& one : *means) all.of_all << one.mean << one.standard_error;
   }
   constexpr int count = 5;
-  const auto block = ensemble.block<detail::lanes>(seed, 3, std::min(count, default_lanes));
+  const auto block = ensemble.block<detail::lanes>(seed, 3, std::min(count, pack<double>::lanes));
   for (int k = 0; k < count; ++k) {
-    const bool from_block = how.in_lanes && k < default_lanes;
+    const bool from_block = how.in_lanes && k < pack<double>::lanes;
     all.of_all << (from_block ? lane(block, k) : ensemble(seed, static_cast<std::uint64_t>(3 + k)));
   }
   return all;

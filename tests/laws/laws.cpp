@@ -121,8 +121,8 @@ shears shears_at(const model& system, const any_state& x) {
     const Eigen::MatrixXd soft = -derivative_of(minus, x.q);
     result.potential = std::max({result.potential, norm(soft), norm(whole - soft)});
   }
-  if (has_quadratic_kinetic(system) && !is_black_box(system)) {
-    lifted_room<slopes, Eigen::Dynamic> room(x.size());
+  if (has_quadratic_kinetic(system) && !detail::is_black_box(system)) {
+    detail::lifted_room<slopes, Eigen::Dynamic> room(x.size());
     const auto f_along_f = [&](const auto& q, auto& g) {
       columns f = q;
       columns v = q;
@@ -138,7 +138,7 @@ shears shears_at(const model& system, const any_state& x) {
 // Trials.
 
 bool has_exact_derivatives(const model& system) {
-  return !is_black_box(system) || system.facts().has_own_derivative;
+  return !detail::is_black_box(system) || system.facts().has_own_derivative;
 }
 
 bool suits(const model& system, const method& method, bool over_slopes) {
@@ -289,11 +289,11 @@ any_state run_of::plain(const any_state& x, std::int64_t steps, std::int64_t beg
 
 bool run_of::lanes_are_alone(const specimen& from, draws& random, std::int64_t steps,
                              std::uint64_t first) const {
-  constexpr int lanes = default_lanes;
+  constexpr int lanes = pack<double>::lanes;
   std::vector<any_state> alone;
   for (int k = 0; k < lanes; ++k) alone.push_back(from.at_random(random));
-  const auto start =
-      gather<detail::lanes, Eigen::Dynamic>(lanes, [&](int k) { return alone[static_cast<std::size_t>(k)]; });
+  const auto start = detail::gather<detail::lanes, Eigen::Dynamic>(
+      lanes, [&](int k) { return alone[static_cast<std::size_t>(k)]; });
   return with_run(*this, [&](const auto& fixed) {
     auto run = fixed.open(start, 40);
     fixed.advance(run, 30);

@@ -54,8 +54,8 @@ Eigen::VectorXd random_theta(const family& family, draws& random) {
 std::vector<method> methods_as_data(draws& random) {
   std::vector<method> all;
   for_each<fitted_methods>([&]<class M>() { all.push_back(M::at(random.uniform(0.1, 4.0))); });
-  for (const auto& row : classical_table) {
-    if (!has(std::string(row.letters), 'O') || row.name == "baoab") all.push_back(as_data(row));
+  for (const auto& row : detail::classical_table) {
+    if (!has(std::string(row.letters), 'O') || row.name == "baoab") all.push_back(detail::as_data(row));
   }
   all.emplace_back(s_aia2(random.uniform(0.1, 2.8)));  // where it is not yet Verlet
   all.emplace_back(s_aia3(random.uniform(0.1, 5.1)));
@@ -65,8 +65,8 @@ std::vector<method> methods_as_data(draws& random) {
 
 std::vector<method> methods_for_baths(draws& random) {
   std::vector<method> all;
-  for (const auto& row : classical_table) {
-    if (has(std::string(row.letters), 'O')) all.push_back(as_data(row));
+  for (const auto& row : detail::classical_table) {
+    if (has(std::string(row.letters), 'O')) all.push_back(detail::as_data(row));
   }
   const nysalt::family family{nystrom()};
   all.push_back(random_member(thermostatted(family, placement::symmetric), random));

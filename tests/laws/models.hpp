@@ -54,7 +54,7 @@ using fitted_methods = std::tuple<fitted<fg_chin, chin4a>, fitted<fg4, omelyan_f
                                   fitted<bab<5>, omelyan5v>, fitted<bab<6>, srkn6b>>;
 
 template <Family F>
-parameters_of<F> random_theta(draws& random) {
+detail::parameters_of<F> random_theta(draws& random) {
   return array_of<std::size_t{F::parameters}>(random_theta(family(F()), random));
 }
 

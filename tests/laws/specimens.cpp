@@ -20,7 +20,7 @@ specimen within(double reach, const model& system) {
 /// Atoms at rest.
 specimen atoms(Eigen::Index space, Eigen::Index count) {
   const lennard_jones<> system(space, count);
-  return {system, {cluster_at_rest(system), Eigen::VectorXd::Zero(system.size()), 0.05}};
+  return {system, {detail::cluster_at_rest(system), Eigen::VectorXd::Zero(system.size()), 0.05}};
 }
 
 /// Four rows of three predictors.

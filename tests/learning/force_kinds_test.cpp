@@ -61,7 +61,7 @@ const data_sets& pendulums() {
 double allowed(const flow_map_data& data, const Eigen::VectorXd& theta, double relative) {
   const metric measure(exact, data, coordinates::qp);
   const after_steps<> loss(two_stages, exact, data, state_error(measure));
-  const symmetric_eigen of_loss(hessian(objective_of(loss), theta));
+  const symmetric_eigen of_loss(hessian(detail::objective_of(loss), theta));
   const double jacobian = std::sqrt(0.5 * of_loss.values[1]);  // the Hessian is 2 J^T J and a little more
   return 2.0 * std::sqrt(loss.value(theta)) * 2.0 * jacobian * relative / of_loss.values[0];
 }
@@ -111,8 +111,8 @@ BOOST_AUTO_TEST_CASE(the_same_is_learned_however_the_force_is_written) {
   BOOST_TEST(boxed.summary.full().find("central differences of the force") != std::string::npos);
 }
 
-static_assert(!force_may_be_wrong<by_potential>);
-static_assert(force_may_be_wrong<by_force> && force_may_be_wrong<by_black_box>);
+static_assert(!detail::force_may_be_wrong<by_potential>);
+static_assert(detail::force_may_be_wrong<by_force> && detail::force_may_be_wrong<by_black_box>);
 
 // It learns something all the same, and nothing else would tell.
 BOOST_AUTO_TEST_CASE(what_contradicts_itself_is_refused_unless_asked_otherwise) {

@@ -19,7 +19,7 @@ namespace {
 
 using galaxy = in_bath<henon_heiles>;
 const family bathed_stages = two_stages_in(placement::symmetric);
-using parameters = parameters_of<nystrom>;
+using parameters = detail::parameters_of<nystrom>;
 
 constexpr double h = 0.5;
 const galaxy warm(henon_heiles(), bath::of_sigma(0.7, 0.1));
@@ -43,7 +43,7 @@ listed<1> at_random(const damped_oscillator& x, std::uint64_t states) {
 }
 
 /// Two stages with b1 = 1/2, learned with noise from the invariant law, at z = 1 and gamma = omega/10.
-fitted_parameter learned_beta1(placement where) {
+fit_summary::fitted_parameter learned_beta1(placement where) {
   const double g = 0.1;
   const damped_oscillator x{omega, g * omega, std::sqrt(2.0 * g * omega)};
   constexpr std::int64_t paths = 20000;
@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(held_out_data_are_new_if_starts_or_noise_are_and_both_are_o
 
 // By the same calculation as the tables: of the matrix .360024, .400501, .400515.
 BOOST_AUTO_TEST_CASE(with_the_noise_of_the_data) {
-  const auto check = [](const fitted_parameter& found, double expected, double of_matrix) {
+  const auto check = [](const fit_summary::fitted_parameter& found, double expected, double of_matrix) {
     BOOST_TEST_MESSAGE("beta1 = " << found.value << " +- " << found.standard_error << ", expected "
                                   << expected);
     BOOST_TEST(found.standard_error < 1e-3);

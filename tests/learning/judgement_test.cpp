@@ -38,7 +38,7 @@ method learned_on(const std::string& system, const std::string& kind, double ste
   return {"nystrom", verlet_twice.letters(), verlet_twice.coefficients(), verlet_twice,
           method_validity{step, system, kind}};
 }
-method learned_at(double step) { return learned_on(describe(small), kind_of(small), step); }
+method learned_at(double step) { return learned_on(describe(small), detail::kind_of(small), step); }
 
 /// Quartic wells that are the stiffer the more there are: where they rest nothing is stiff.
 struct stiffening_wells {
@@ -330,26 +330,26 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_judged_is_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(a_kind_is_the_description_without_the_size) {
-  BOOST_TEST(kind_of(small) == "fpu_chain(omega=50)");
-  BOOST_TEST(kind_of(fpu_chain<>(64, 50.0)) == kind_of(small));
-  BOOST_TEST(kind_of(fpu_chain<>(3, 51.0)) != kind_of(small));
-  BOOST_TEST(kind_of(phi4_chain<>(16)) == kind_of(phi4_chain<8>()));
-  BOOST_TEST(kind_of(phi4_lattice(4, -4.0, 4.0)) == kind_of(phi4_lattice(8, -4.0, 4.0)));
-  BOOST_TEST(kind_of(lennard_jones<>(2, 7)) == kind_of(lennard_jones<>(2, 9)));
-  BOOST_TEST(kind_of(lennard_jones<>(2, 7)) != kind_of(lennard_jones<>(3, 7)));
-  BOOST_TEST(kind_of(counted(small)) == kind_of(small));
+  BOOST_TEST(detail::kind_of(small) == "fpu_chain(omega=50)");
+  BOOST_TEST(detail::kind_of(fpu_chain<>(64, 50.0)) == detail::kind_of(small));
+  BOOST_TEST(detail::kind_of(fpu_chain<>(3, 51.0)) != detail::kind_of(small));
+  BOOST_TEST(detail::kind_of(phi4_chain<>(16)) == detail::kind_of(phi4_chain<8>()));
+  BOOST_TEST(detail::kind_of(phi4_lattice(4, -4.0, 4.0)) == detail::kind_of(phi4_lattice(8, -4.0, 4.0)));
+  BOOST_TEST(detail::kind_of(lennard_jones<>(2, 7)) == detail::kind_of(lennard_jones<>(2, 9)));
+  BOOST_TEST(detail::kind_of(lennard_jones<>(2, 7)) != detail::kind_of(lennard_jones<>(3, 7)));
+  BOOST_TEST(detail::kind_of(counted(small)) == detail::kind_of(small));
 
   // A bath is part of it, and so is a quadratic part.
   const auto warm = [](Eigen::Index pairs, double friction) {
     return in_bath(fpu_chain<>(pairs, 50.0), bath::of_temperature(friction, 1.0));
   };
-  BOOST_TEST(kind_of(warm(3, 0.1)) == kind_of(warm(5, 0.1)));
-  BOOST_TEST(kind_of(warm(3, 0.1)) != kind_of(warm(3, 0.2)));
-  BOOST_TEST(model(warm(3, 0.1)).kind() == kind_of(warm(3, 0.1)));
-  BOOST_TEST(model(warm(3, 0.1)).base().kind() == kind_of(small));
-  BOOST_TEST(model(small).in(bath::of_temperature(0.1, 1.0)).kind() == kind_of(warm(3, 0.1)));
+  BOOST_TEST(detail::kind_of(warm(3, 0.1)) == detail::kind_of(warm(5, 0.1)));
+  BOOST_TEST(detail::kind_of(warm(3, 0.1)) != detail::kind_of(warm(3, 0.2)));
+  BOOST_TEST(model(warm(3, 0.1)).kind() == detail::kind_of(warm(3, 0.1)));
+  BOOST_TEST(model(warm(3, 0.1)).base().kind() == detail::kind_of(small));
+  BOOST_TEST(model(small).in(bath::of_temperature(0.1, 1.0)).kind() == detail::kind_of(warm(3, 0.1)));
   const with_quadratic_part parted(phi4_chain<>(4), Eigen::MatrixXd::Identity(4, 4));
-  BOOST_TEST(kind_of(parted) == describe(parted));
+  BOOST_TEST(detail::kind_of(parted) == describe(parted));
 }
 
 BOOST_AUTO_TEST_CASE(what_passes_at_another_size_runs_there_and_nowhere_else) {
@@ -386,9 +386,9 @@ BOOST_AUTO_TEST_CASE(what_only_a_trial_sees_is_refused) {
   for (const Eigen::Index wells : {1, 12}) {
     const stiffening_wells system{wells};
     const initial_states starts = from_the_bottom(system);
-    const auto states = typical_and_energetic_starts(model(system), starts, 1, 0, 64);
-    BOOST_TEST(stability_guard(model(system), states, false)
-                   .objection(method.letters(), method.coefficients(), step, met::often)
+    const auto states = detail::typical_and_energetic_starts(model(system), starts, 1, 0, 64);
+    BOOST_TEST(detail::stability_guard(model(system), states, false)
+                   .objection(method.letters(), method.coefficients(), step, detail::met::often)
                    .empty());
     const judgement found =
         judge(model(system), starts_to_judge(model(system), starts), method, step, {.steps = 2000});
@@ -398,7 +398,7 @@ BOOST_AUTO_TEST_CASE(what_only_a_trial_sees_is_refused) {
   }
   const stiffening_wells one;
   const stiffening_wells twelve{12};
-  const nysalt::method learned = learned_on(describe(one), kind_of(one), step);
+  const nysalt::method learned = learned_on(describe(one), detail::kind_of(one), step);
   BOOST_TEST(refuses([&] { at_size_of(twelve, learned, from_the_bottom(twelve), {.steps = 2000}); },
                      {"stiffening_wells(wells=1)", "wells=12", "trajectories are lost"}));
 }

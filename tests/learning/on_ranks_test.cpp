@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(data_that_grow_change_hands) {
   const auto grown = [](const communicator& ranks) {
     flow_map_data data;
     for (const std::int64_t trajectories : {30, 70, 110}) {
-      extend_data(swing, starts, fine_steps(step / 64), options_for(trajectories, 1, ranks), data);
+      detail::extend_data(swing, starts, fine_steps(step / 64), options_for(trajectories, 1, ranks), data);
     }
     return numbers_of(data, make(40, 2, ranks));
   };

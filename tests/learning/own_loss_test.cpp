@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(the_librarys_losses_come_out_to_the_bit) {
   const metric measure(galaxy, data, coordinates::qp);
   const auto state = squares_of<R>(galaxy, data, state_error<R>(measure));
   const auto of_own = [&](const auto& error) {
-    return squares_of<R>(galaxy, data, own_error<R>(galaxy, error));
+    return squares_of<R>(galaxy, data, detail::own_error<R>(galaxy, error));
   };
   BOOST_TEST(same(of_own(state_after_three(measure).error), state));
   BOOST_TEST(!same(of_own(state_after_three(measure, 1.0 + 1e-15).error), state));
@@ -112,11 +112,11 @@ BOOST_AUTO_TEST_CASE(any_number_of_residuals_is_told_by_what_is_returned) {
     return r;
   };
   using R = detail::lanes;
-  const auto own = own_error<R>(chain, error);
+  const auto own = detail::own_error<R>(chain, error);
   BOOST_TEST(own.residuals == 6U);
   BOOST_TEST(own.weight_deviations == nullptr);
   BOOST_TEST(same(squares_of<R>(chain, data, own), squares_of<R>(chain, data, state_error<R>(measure))));
-  BOOST_TEST(own_error(galaxy, own_energy_error(uneven_data(galaxy))).residuals == 1U);
+  BOOST_TEST(detail::own_error(galaxy, own_energy_error(uneven_data(galaxy))).residuals == 1U);
 }
 
 BOOST_AUTO_TEST_CASE(residuals_that_change_in_number_are_refused) {
@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(residuals_that_change_in_number_are_refused) {
         r.fill(T(1.0));
         return r;
       };
-      squares_of(galaxy, data, own_error(galaxy, error), threads);
+      squares_of(galaxy, data, detail::own_error(galaxy, error), threads);
     };
   };
   for (const int threads : {1, 2}) {
@@ -260,7 +260,7 @@ BOOST_AUTO_TEST_CASE(errors_are_withheld_where_single_trajectories_make_the_curv
                               .random_starts = 0});
     problem.over_data = std::make_shared<const sixty_blocks>(curvature_of_two);
     problem.over_held_out = problem.over_data;
-    problem.loss = objective_of(*problem.over_data);
+    problem.loss = detail::objective_of(*problem.over_data);
     problem.stages.clear();
     problem.one_step_before = {};
     problem.facts.trajectory_steps = problem.facts.loss_steps;

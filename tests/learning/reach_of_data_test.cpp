@@ -27,7 +27,7 @@ theta_curve cubic(const std::vector<double>& steps) {
 /// The excess over a loss of 2 is `of_one`/M, and a tenth of the trajectories decide.
 enough_course course_of(double of_one, std::int64_t first, const enough_options& options,
                         std::vector<std::int64_t>* asked = nullptr) {
-  return until_enough(first, options, [&](std::int64_t trajectories) {
+  return detail::until_enough(first, options, [&](std::int64_t trajectories) {
     if (asked != nullptr) asked->push_back(trajectories);
     fit_summary fit;
     fit.loss = 2.0;

@@ -59,7 +59,7 @@ Eigen::VectorXd pair(double b1, double beta1) { return Eigen::Vector2d(b1, beta1
 double remaining_step(const data_sets& sets, const Eigen::VectorXd& theta, Eigen::Index free) {
   const metric measure(galaxy, sets.data, coordinates::qp);
   const after_steps<> loss(two_stages, galaxy, sets.data, state_error(measure));
-  const curvature bend(hessian(objective_of(loss), theta), {free});
+  const curvature bend(hessian(detail::objective_of(loss), theta), {free});
   return std::abs(bend.solve(loss.at(theta).gradient())[free]);
 }
 

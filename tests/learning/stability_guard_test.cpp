@@ -27,7 +27,7 @@ const std::vector<double> verlet_coefficients{0.5, 1.0, 0.5};
 
 const std::vector<phase_point<double, 1>> no_states;
 
-stability_guard guard_of_one() { return {harmonic_oscillator(1.0), no_states}; }
+detail::stability_guard guard_of_one() { return {harmonic_oscillator(1.0), no_states}; }
 
 /// A fast oscillator whose stiffness a slow one switches.
 struct two_stiffnesses {
@@ -71,7 +71,7 @@ struct stiffening_spring {
   std::vector<frequency_band> frequency_bands() const { return {{1.5, 2.5}}; }
 };
 
-stability_guard guard_along(const std::vector<double>& frequencies) {
+detail::stability_guard guard_along(const std::vector<double>& frequencies) {
   std::vector<phase_point<double, 1>> states;
   for (const double omega : frequencies) {
     states.push_back({vector<double, 1>(std::sqrt((omega * omega - 1.0) / 3.0)), vector<double, 1>(0.0)});
@@ -80,7 +80,7 @@ stability_guard guard_along(const std::vector<double>& frequencies) {
 }
 
 /// The FPU chain of omega = 50 with its stiff springs split off, along the paper's initial states.
-stability_guard guard_of_rotations(std::int64_t steps = 10'000) {
+detail::stability_guard guard_of_rotations(std::int64_t steps = 10'000) {
   Eigen::MatrixXd stiff = Eigen::MatrixXd::Zero(6, 6);
   for (Eigen::Index i = 0; i < 6; i += 2) {
     stiff.block<2, 2>(i, i) = 1250.0 * Eigen::Matrix2d{{1.0, -1.0}, {-1.0, 1.0}};
@@ -89,7 +89,7 @@ stability_guard guard_of_rotations(std::int64_t steps = 10'000) {
 }
 
 /// Springs of frequencies 30 and 40 with a soft coupling: impulses at h (30 + 40) = 2 pi are a sum resonance.
-stability_guard guard_of_two_modes(std::int64_t steps) {
+detail::stability_guard guard_of_two_modes(std::int64_t steps) {
   const Eigen::Matrix2d stiff{{900.0, 0.0}, {0.0, 1600.0}};
   const Eigen::Matrix2d soft{{0.0, 0.9}, {0.9, 0.0}};
   const linear_chain chain(stiff + soft, Eigen::Vector2d(1.0, 1.0));
@@ -122,8 +122,8 @@ double largest_half_trace(const fit& found) {
   for (const auto& band : chain.frequency_bands()) {
     for (int n = 0; n <= 500; ++n) {
       const double omega = std::max(1e-3, band.low + (band.high - band.low) * n / 500.0);
-      const auto m = matrix_on_oscillator(four_kicks.letters, four_kicks.coefficients(found.theta),
-                                          std::pow(omega * found.summary.step, 2));
+      const auto m = detail::matrix_on_oscillator(four_kicks.letters, four_kicks.coefficients(found.theta),
+                                                  std::pow(omega * found.summary.step, 2));
       largest = std::max(largest, std::abs(m.half_trace()));
     }
   }
@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(gaps_below_the_highest_frequency_are_told) {
   BOOST_TEST(std::abs(gaps[0].high - std::sqrt(10.0)) < 1e-12);
   for (const double part : {0.001, 0.5, 0.999}) {
     const double z = gaps[0].low + part * (gaps[0].high - gaps[0].low);
-    const auto m = matrix_on_oscillator(two_stages, with_a_gap(), z * z);
+    const auto m = detail::matrix_on_oscillator(two_stages, with_a_gap(), z * z);
     BOOST_TEST(spectral_radius(Eigen::Matrix2d{{m.qq, m.qp}, {m.pq, m.pp}}) > 1.001);
   }
   BOOST_TEST(guard.gaps(two_stages, with_a_gap(), 2.0).empty());
@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(where_no_band_is_declared_the_states_tell) {
     const Eigen::MatrixXd a = hessian(ring, states.back().q);
     stiffest = std::max(stiffest, symmetric_eigen(a).values[3]);
   }
-  const stability_guard guard(ring, states);
+  const detail::stability_guard guard(ring, states);
   BOOST_TEST(guard.description().find("estimated 0..") == 0U);
   BOOST_TEST(says(guard.description(), "along 20 states"));
   const double highest = 1.02 * std::sqrt(stiffest);
@@ -210,7 +210,7 @@ BOOST_AUTO_TEST_CASE(where_no_band_is_declared_the_states_tell) {
 
 // Soft bonds of energies below 2 have frequencies up to 5.8, and stiff ones between 50 and 50.4.
 BOOST_AUTO_TEST_CASE(undeclared_frequencies_that_lie_far_apart_are_bands) {
-  const stability_guard guard(undeclared_chain{}, states_of_chain(200));
+  const detail::stability_guard guard(undeclared_chain{}, states_of_chain(200));
   const auto& bands = guard.frequencies();
   BOOST_TEST_CONTEXT(guard.description()) {
     BOOST_REQUIRE(bands.size() == 2U);
@@ -218,12 +218,13 @@ BOOST_AUTO_TEST_CASE(undeclared_frequencies_that_lie_far_apart_are_bands) {
     BOOST_TEST(bands[0].high < 10.0);
     BOOST_TEST(48.0 < bands[1].low);
     BOOST_TEST(bands[1].high < 53.0);
-    BOOST_TEST(guard.frequencies(met::often).size() == 2U);
+    BOOST_TEST(guard.frequencies(detail::met::often).size() == 2U);
   }
   // Unstable between z = 2.58 and 3.16: the stiff band may lie beyond, but not within.
   BOOST_TEST(guard.admits(two_stages, with_a_gap(), 3.5 / 50.0));
   BOOST_TEST(!guard.admits(two_stages, with_a_gap(), 2.9 / 50.0));
-  const stability_guard of_few(undeclared_chain{}, states_of_chain(20));  // too few to tell what is not met
+  const detail::stability_guard of_few(undeclared_chain{},
+                                       states_of_chain(20));  // too few to tell what is not met
   BOOST_TEST(of_few.frequencies().size() == 1U);
   BOOST_TEST(!of_few.admits(two_stages, with_a_gap(), 3.5 / 50.0));
 }
@@ -232,7 +233,7 @@ BOOST_AUTO_TEST_CASE(undeclared_frequencies_that_lie_far_apart_are_bands) {
 BOOST_AUTO_TEST_CASE(what_one_frequency_passes_through_is_one_band) {
   std::vector<phase_point<double, 2>> states;
   for (int n = 0; n < 100; ++n) states.push_back({{n % 2 == 0 ? 1.0 : -1.0, 0.0}, {0.0, 1.0}});
-  const stability_guard guard(two_stiffnesses{}, states);
+  const detail::stability_guard guard(two_stiffnesses{}, states);
   BOOST_TEST_CONTEXT(guard.description()) {
     BOOST_REQUIRE(guard.frequencies().size() == 2U);
     BOOST_TEST(guard.frequencies()[1].low < 20.0);
@@ -308,13 +309,14 @@ BOOST_AUTO_TEST_CASE(what_was_learned_at_a_resonance_is_admitted_there) {
 // What is learned without data has no states: then only bands tell.
 BOOST_AUTO_TEST_CASE(without_states_only_bands_tell) {
   const with_quadratic_part system(harmonic_oscillator(1.0), Eigen::MatrixXd::Identity(1, 1));
-  const stability_guard guard(system, no_states);
+  const detail::stability_guard guard(system, no_states);
   BOOST_TEST(guard.description() == "declared bands [0.98, 1.02]");
   BOOST_TEST(guard.admits(one_impulse, halves, 3.0));
   BOOST_TEST(!guard.admits(verlet_word, verlet_coefficients, 3.0));
-  BOOST_TEST(refuses([&] { stability_guard(potential_only(), std::vector<phase_point<double, 2>>()); },
-                     {"or states given"}));
-  const stability_guard none(relativistic{}, no_states);  // its kinetic energy is not quadratic
+  BOOST_TEST(
+      refuses([&] { detail::stability_guard(potential_only(), std::vector<phase_point<double, 2>>()); },
+              {"or states given"}));
+  const detail::stability_guard none(relativistic{}, no_states);  // its kinetic energy is not quadratic
   BOOST_TEST(none.description().find("no linear criterion") == 0U);
   BOOST_TEST(none.admits(verlet_word, verlet_coefficients, 1e6));
   BOOST_TEST(none.gaps(verlet_word, verlet_coefficients, 1e6).empty());

@@ -34,7 +34,7 @@ flow_map_data uneven_data() {
 
 /// Not at the start of the family, where derivatives may vanish by symmetry.
 template <Family F>
-parameters_of<F> elsewhere() {
+detail::parameters_of<F> elsewhere() {
   auto theta = F::start();
   for (std::size_t k = 0; k < theta.size(); ++k) theta[k] += 0.01 * static_cast<double>(k + 1);
   return theta;
@@ -71,8 +71,8 @@ const family at_end = two_stages_in(placement::end);
 const family in_middle = two_stages_in(placement::middle);
 
 constexpr double h = 0.4;
-const parameters_of<nystrom> maker{0.45, 0.38};
-const parameters_of<nystrom> far{0.55, 0.42};
+const detail::parameters_of<nystrom> maker{0.45, 0.38};
+const detail::parameters_of<nystrom> far{0.55, 0.42};
 const in_bath<henon_heiles> warm(henon_heiles(), bath::of_sigma(0.7, 0.1));
 
 flow_map_data made(const family& family, int parts) {
@@ -83,8 +83,8 @@ flow_map_data made(const family& family, int parts) {
 /// The same data in fewer parts.
 flow_map_data in_parts(flow_map_data data, int parts) {
   const int together = data.noise_parts / parts;
-  const coarse_graining coarse(warm.bath().friction() * h / data.noise_parts);
-  vector_list noise;
+  const detail::coarse_graining coarse(warm.bath().friction() * h / data.noise_parts);
+  detail::vector_list noise;
   for (std::size_t first = 0; first < data.noise.size(); first += static_cast<std::size_t>(together)) {
     Eigen::VectorXd of_one(2);
     coarse.over(data.noise, first, std::size_t(together), of_one);
@@ -95,7 +95,7 @@ flow_map_data in_parts(flow_map_data data, int parts) {
   return data;
 }
 
-double loss_of(const family& family, const flow_map_data& data, const parameters_of<nystrom>& theta,
+double loss_of(const family& family, const flow_map_data& data, const detail::parameters_of<nystrom>& theta,
                int steps = 1) {
   const metric measure(warm, data, coordinates::qp);
   const after_steps<> loss(family, warm, data, state_error(measure), {.steps = {steps}});
@@ -214,11 +214,11 @@ BOOST_AUTO_TEST_CASE(some_trajectories_alone) {
 
 BOOST_AUTO_TEST_CASE(packs_are_for_systems_that_serve_them) {
   using packs = detail::lanes;
-  static_assert(std::same_as<scalar_of_passes<henon_heiles>, packs>);
-  static_assert(std::same_as<scalar_of_passes<potential_only>, packs>);
-  static_assert(std::same_as<scalar_of_passes<relativistic>, packs>);
-  static_assert(std::same_as<scalar_of_passes<black_box>, double>);
-  static_assert(std::same_as<scalar_of_passes<a_fork>, double>);
+  static_assert(std::same_as<detail::scalar_of_passes<henon_heiles>, packs>);
+  static_assert(std::same_as<detail::scalar_of_passes<potential_only>, packs>);
+  static_assert(std::same_as<detail::scalar_of_passes<relativistic>, packs>);
+  static_assert(std::same_as<detail::scalar_of_passes<black_box>, double>);
+  static_assert(std::same_as<detail::scalar_of_passes<a_fork>, double>);
   const black_box box;
   const auto data = make_flow_map_data(box, around_rest<1>(0.5, 0.5), fine_steps(0.05),
                                        {.step = 0.4, .horizon = 2.0, .trajectories = 3});

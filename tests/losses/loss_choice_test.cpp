@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(the_loss_is_the_expected_energy_error) {
     const auto c = method.coefficients();
     return Eigen::VectorXd(Eigen::Vector2d(c[0], c[1]));
   };
-  const double expected = gaussian_energy_error(nysalt::method(bcss3{}), frequencies, 0.4);
+  const double expected = detail::gaussian_energy_error(nysalt::method(bcss3{}), frequencies, 0.4);
   // Sums of five terms, each right to some hundred roundings over z^2, the least 1.2.
   BOOST_TEST(loss(theta_of(bcss3{})).value == expected, tolerance(1e-12));
   BOOST_TEST(std::abs(loss(theta_of(predescu3{})).value / expected - 1.0) > 1e-2);
@@ -92,8 +92,8 @@ BOOST_AUTO_TEST_CASE(bands_count_where_there_are_no_modes) {
   for (const auto& [low, high] : bands) {
     for (int k = 0; k < 16; ++k) frequencies.push_back(low + (high - low) * (k + 0.5) / 16.0);
   }
-  const double mean =
-      gaussian_energy_error(method(bcss3{}), frequencies, 0.5) / static_cast<double>(frequencies.size());
+  const double mean = detail::gaussian_energy_error(method(bcss3{}), frequencies, 0.5) /
+                      static_cast<double>(frequencies.size());
   const auto c = bcss3().coefficients();
   const auto loss = loss_of(bab<3>{}, pendulum(), 0.5);
   BOOST_TEST(loss(Eigen::Vector2d(c[0], c[1])).value == mean, tolerance(1e-10));
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(what_is_learned_takes_larger_steps_than_all_formulas) {
     frequencies.push_back(
         std::exp(0.02 * std::numbers::sqrt2 * boost::math::erf_inv((k + 0.5) / 20.0 - 1.0)));
   }
-  const double acceptance = acceptance_at(energy_error_at(0.9) * 40.0 / dimensions);
+  const double acceptance = detail::acceptance_at(energy_error_at(0.9) * 40.0 / dimensions);
   const auto step_of = [&](const method& method, double from = 0.0) {
     return nysalt::gaussian_step(method, frequencies, acceptance, from) /
            method.letters().evaluations_per_step;
@@ -164,8 +164,8 @@ BOOST_AUTO_TEST_CASE(names_are_understood_and_told_again) {
     BOOST_TEST(static_cast<bool>(kind->over_data));
     BOOST_TEST((kind->asks_data() || !kind->counts_steps));
   }
-  BOOST_TEST(loss_patterns(true) == "state:K, energy:K");
-  BOOST_TEST(loss_patterns(false) == "trajectory, acceptance, gaussian_acceptance, covariance");
+  BOOST_TEST(detail::loss_patterns(true) == "state:K, energy:K");
+  BOOST_TEST(detail::loss_patterns(false) == "trajectory, acceptance, gaussian_acceptance, covariance");
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_name_is_refused) {

@@ -79,7 +79,7 @@ double closed_form(double z) {
 objective law_of(placement where, double gamma, double z) {
   const in_bath chain(fpu_chain<3>(50.0), bath::of_temperature(gamma, 0.125));
   const nysalt::family family = thermostatted(nysalt::family(nystrom()), where);
-  return objective_of(stationary_covariance(chain, family.letters, z / 50.0), family);
+  return detail::objective_of(stationary_covariance(chain, family.letters, z / 50.0), family);
 }
 
 /// Searched from two half steps of Verlet, which are stable wherever any two stages are.

@@ -29,7 +29,7 @@ struct comparison {
 comparison against_rotation(const method& method, double z) {
   const word& word = method.letters();
   const auto c = method.coefficients();
-  const auto m = matrix_on_oscillator(word, c, z * z);
+  const auto m = detail::matrix_on_oscillator(word, c, z * z);
   double size = 1.0;
   for (std::size_t i = 0; i < word.length; ++i) {
     const double first = std::abs(c[word.first_slot(i)]);
@@ -90,7 +90,7 @@ std::vector<double> as_list(const std::array<double, N>& c) {
 }
 const stages two{"ABABA",
                  detail::energy_error_of_two_stages,
-                 [](double a) { return as_list(palindrome<5>({a})); },
+                 [](double a) { return as_list(detail::palindrome<5>({a})); },
                  [](double z) { return method(s_aia2(z)); },
                  {0.15, 0.35},
                  {0.0, 0.5},
@@ -100,7 +100,7 @@ const stages two{"ABABA",
 const stages three{"BABABAB",
                    detail::energy_error_of_three_stages,
                    [](double b) {
-                     return as_list(palindrome<7>({b, (1.0 - 2.0 * b) / (4.0 - 12.0 * b)}));
+                     return as_list(detail::palindrome<7>({b, (1.0 - 2.0 * b) / (4.0 - 12.0 * b)}));
                    },
                    [](double z) { return method(s_aia3(z)); },
                    {0.105, 0.165},
@@ -117,7 +117,7 @@ struct with_rounding {
 /// rho by its definition, from the matrix of the step. With entries wrong by delta, B + C errs by
 /// 2 delta max(z, 1/z) and 1 - A^2 by 2 delta; both are doubled, for the closed form.
 with_rounding rho_of_step(const nysalt::word& word, const std::vector<double>& c, double x) {
-  const auto m = matrix_on_oscillator(word, c, x);
+  const auto m = detail::matrix_on_oscillator(word, c, x);
   const double z = std::sqrt(x);
   const double sum = m.qp * z + m.pq / z;
   const double rotation = 1.0 - m.half_trace() * m.half_trace();
@@ -287,7 +287,7 @@ BOOST_AUTO_TEST_CASE(a_system_and_a_step_give_the_z) {
   BOOST_TEST(frequency_to_fit(pendulum()) == 1.0);  // one band, 0 to 1
   BOOST_TEST(frequency_to_fit(black_box()) == 0.0);
   BOOST_TEST(s_aia2_for(chain, 0.02).highest_z() == 0.02 * highest);
-  BOOST_TEST((s_aia2(1.5).coefficients() == as_list(palindrome<5>({two.best_at(1.5)}))));
+  BOOST_TEST((s_aia2(1.5).coefficients() == as_list(detail::palindrome<5>({two.best_at(1.5)}))));
   BOOST_TEST(s_aia3(2.0).highest_z() == 2.0);
   BOOST_TEST(bagab::at(1.0).name() == "phase_fitted_chin4a");
   BOOST_TEST(s_aia2(1.0).name() == "s_aia2");

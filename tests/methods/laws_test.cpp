@@ -61,7 +61,7 @@ const std::string split_pendulum = "pendulum() with";
 const std::string galaxy = "henon_heiles";
 
 method row(std::string_view name) {
-  return as_data(*std::ranges::find(classical_table, name, &classical_row::name));
+  return detail::as_data(*std::ranges::find(detail::classical_table, name, &detail::classical_row::name));
 }
 
 /// The order of those that are fitted to a frequency is that of steps for each of which they are fitted: see
@@ -229,10 +229,10 @@ BOOST_AUTO_TEST_CASE(a_row_as_a_type_is_the_row_as_data) {
 
 BOOST_AUTO_TEST_CASE(names_are_unique_and_palindromes_are_symmetric) {
   std::set<std::string_view> names;
-  for (const auto& row : classical_table) {
+  for (const auto& row : detail::classical_table) {
     BOOST_TEST(names.insert(row.name).second, row.name);
     BOOST_TEST(!row.source.empty(), row.name);
-    const nysalt::method method = as_data(row);
+    const nysalt::method method = detail::as_data(row);
     BOOST_TEST(is_palindrome(method.letters(), method.coefficients()) == row.symmetric, row.name);
   }
 }

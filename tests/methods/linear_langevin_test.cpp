@@ -239,7 +239,7 @@ measured errors(const method& method, std::int64_t steps, const auto& noise_of) 
 
 measured errors_on_the_path(const method& method, std::int64_t steps) {
   return errors(method, steps, [&](const auto& path) {
-    return along_path<T, 1>(path, intervals_of_noise(method.letters(), method.coefficients()),
+    return along_path<T, 1>(path, detail::intervals_of_noise(method.letters(), method.coefficients()),
                             horizon / static_cast<double>(steps));
   });
 }

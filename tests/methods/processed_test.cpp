@@ -31,7 +31,7 @@ std::vector<method> processed_methods(draws& random) {
   std::vector<method> all{random_member(processed(family(fg4()), 3), random),
                           random_member(processed(family(bab<4>()), 2), random),
                           random_member(processed(family(fg_chin()), 5), random)};
-  for (const auto& row : processed_table) all.push_back(as_data(row));
+  for (const auto& row : detail::processed_table) all.push_back(detail::as_data(row));
   return all;
 }
 
@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(what_is_counted_is_what_is_evaluated) {
     };
     BOOST_TEST_CONTEXT(method.name()) {
       watched.evaluations = 0;
-      lockstep<std::remove_const_t<decltype(fixed)>, double> run(fixed, x, 1);
+      detail::lockstep<std::remove_const_t<decltype(fixed)>, double> run(fixed, x, 1);
       run.go_on(200);  // over three checks
       BOOST_TEST(watched.evaluations == of_steps(200, 0));
       run.synchronous();
@@ -187,8 +187,8 @@ BOOST_AUTO_TEST_CASE(processors_reach_their_order) {
   for (const auto& method : processed_methods(random)) {
     BOOST_TEST(taylor_order(method).quadratic_kinetic == method.order, method.name());
   }
-  for (const auto& row : processed_table) {
-    auto method = as_data(row);
+  for (const auto& row : detail::processed_table) {
+    auto method = detail::as_data(row);
     auto c = method.coefficients();
     std::fill(c.begin() + static_cast<std::ptrdiff_t>(method.letters().kernel_slots), c.end(), 0.0);
     BOOST_TEST(taylor_order(method.letters(), c).quadratic_kinetic == 2,

@@ -105,9 +105,9 @@ struct wall {
 };
 inline void use(const wall& system) {
   const auto stepper = nysalt::make_stepper(system, nysalt::verlet(), 0.01);
-  using T = nysalt::scalar_of_lanes<nysalt::lanes_of<wall>>;
+  using T = nysalt::detail::scalar_of_lanes<nysalt::detail::lanes_of<wall>>;
   const nysalt::phase_point<T, 1> start{nysalt::vector<T, 1>(T(1.0)), nysalt::vector<T, 1>(T(-1.0))};
-  nysalt::lockstep<nysalt::stepper<wall>, T>(stepper, start, 1).go_on(100);
+  nysalt::detail::lockstep<nysalt::stepper<wall>, T>(stepper, start, 1).go_on(100);
 }
 }  // namespace branch_between_lanes
 
@@ -350,8 +350,8 @@ auto place = [](const state&, const state& finish, const state& wanted) { return
 auto over_double = alone::place;
 #endif
 inline void use(const nysalt::henon_heiles& system) {
-  nysalt::own_error(system, place);
-  nysalt::own_error(system, over_double);
+  nysalt::detail::own_error(system, place);
+  nysalt::detail::own_error(system, over_double);
 }
 }  // namespace own_losses
 
@@ -382,8 +382,9 @@ struct own_drift : nysalt::exact_flow<'a'> {
 #endif
 };
 inline void use(const nysalt::normal_around<1>& around) {
-  nysalt::declare_system<nysalt::pendulum>("swing", "a pendulum", nysalt::letters<own_drift>(),
-                                           nysalt::starts([&](const nysalt::pendulum&) { return around; }));
+  nysalt::detail::declare_system<nysalt::pendulum>(
+      "swing", "a pendulum", nysalt::letters<own_drift>(),
+      nysalt::starts([&](const nysalt::pendulum&) { return around; }));
 }
 }  // namespace declared_letter_that_is_one_way
 
@@ -398,7 +399,7 @@ struct last final : well {};
 nysalt::normal_around<1> starts_of_well(const well&);
 template <class S>
 void declare(auto... further) {
-  nysalt::declare_system<S>("well", "q^2", nysalt::starts(starts_of_well), further...);
+  nysalt::detail::declare_system<S>("well", "q^2", nysalt::starts(starts_of_well), further...);
 }
 inline void use() {
   const auto highest = nysalt::frequency([](const well&) { return 1.0; });
@@ -422,7 +423,7 @@ struct wide : well {
 constexpr int parameters = std::is_same_v<either<int, void>, int> ? 12 : 13;
 constexpr int space = std::is_same_v<either<int, void>, int> ? 3 : 4;
 constexpr auto names = nysalt::composition<parameters>::parameter_names;
-constexpr int lanes = nysalt::lanes_of<either<well, wide>>;
+constexpr int lanes = nysalt::detail::lanes_of<either<well, wide>>;
 inline auto use(const nysalt::lennard_jones<space, 2>& atoms) { return atoms.description(); }
 }  // namespace numbers_that_are_too_large
 

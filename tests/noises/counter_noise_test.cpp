@@ -209,7 +209,8 @@ BOOST_AUTO_TEST_CASE(numbers_know_neither_how_many_they_are_nor_where_a_call_beg
       BOOST_TEST(std::equal(some.begin(), some.end(), all.begin() + static_cast<std::ptrdiff_t>(2 * slot)));
     }
   }
-  static_assert(slots_for(0) == 0 && slots_for(1) == 1 && slots_for(2) == 1 && slots_for(3) == 2);
+  static_assert(detail::slots_for(0) == 0 && detail::slots_for(1) == 1 && detail::slots_for(2) == 1 &&
+                detail::slots_for(3) == 2);
 }
 
 // The counter has 128 bits, and each has its own place: no two of them can be taken for each other.

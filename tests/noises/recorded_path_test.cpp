@@ -29,7 +29,7 @@ std::vector<numbers> drawn(std::int64_t count) {
 }
 numbers in_one(double damping, std::span<const numbers> intervals) {
   numbers xi;
-  coarse_graining(damping).over(intervals, xi);
+  detail::coarse_graining(damping).over(intervals, xi);
   return xi;
 }
 /// With the exponent as it is printed [li_lu_tao_ye_2023, equation (3.11)], which reverses time.
@@ -56,7 +56,7 @@ triple at(const finer_noise& noise, std::int64_t step, std::uint64_t trajectory 
 }
 /// The noise of a step of a path, of its parts in one; `damping` is that of a part.
 triple recombined(const finer_noise& noise, double damping, std::int64_t step, std::int64_t parts) {
-  const coarse_graining coarse(damping);
+  const detail::coarse_graining coarse(damping);
   triple sum;
   coarse.first(sum);
   for (std::int64_t k = 0; k < parts; ++k) coarse.next(sum, at(noise, step * parts + k));
@@ -94,7 +94,7 @@ recorded_path<T, 2> path_of(std::uint64_t trajectory, std::int64_t intervals) {
 }
 template <class T>
 along_path<T, 2> noise_of(const recorded_path<T, 2>& path, const method& method, double h = step) {
-  return {path, intervals_of_noise(method.letters(), method.coefficients()), h};
+  return {path, detail::intervals_of_noise(method.letters(), method.coefficients()), h};
 }
 template <class T>
 auto stepper_of(const recorded_path<T, 2>& path, const method& method, double h = step) {

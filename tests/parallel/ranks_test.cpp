@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(each_trajectory_is_with_one_rank_and_leaves_are_whole) {
         const thread_communicator ours = rank_alone(r, ranks);
         const shard share(total, ours);
         BOOST_TEST(share.first() == next);
-        BOOST_TEST((share.count() == 0 || share.first() % trajectories_of_leaf == 0));
+        BOOST_TEST((share.count() == 0 || share.first() % detail::trajectories_of_leaf == 0));
         next = share.first() + share.count();
         largest = std::max(largest, share.count());
       }

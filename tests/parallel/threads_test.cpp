@@ -37,7 +37,7 @@ BOOST_AUTO_TEST_CASE(blocks_cover_all_trajectories_once) {
       std::vector<int> visits(static_cast<std::size_t>(count), 0);
       std::atomic<int> short_blocks = 0;
       std::atomic<int> off_blocks = 0;
-      for_each_block(count, width, {.threads = 2}, [&](std::int64_t first, int n) {
+      detail::for_each_block(count, width, {.threads = 2}, [&](std::int64_t first, int n) {
         off_blocks += first % width != 0;  // BOOST_TEST is for one thread
         short_blocks += n != width;
         for (int k = 0; k < n; ++k) ++visits[static_cast<std::size_t>(first + k)];
@@ -47,7 +47,8 @@ BOOST_AUTO_TEST_CASE(blocks_cover_all_trajectories_once) {
       BOOST_TEST(short_blocks == (count % width == 0 ? 0 : 1));
     }
   }
-  BOOST_CHECK_THROW(for_each_block(1, 0, {.threads = 1}, [](std::int64_t, int) {}), std::invalid_argument);
+  BOOST_CHECK_THROW(detail::for_each_block(1, 0, {.threads = 1}, [](std::int64_t, int) {}),
+                    std::invalid_argument);
 }
 
 // The later one is thrown long before the earlier one can be.
@@ -78,8 +79,8 @@ BOOST_AUTO_TEST_CASE(the_first_trajectory_in_trouble_is_named_by_any_number_of_l
   };
   for (const int width : {1, 5, 16, 100}) {
     for (const int threads : {1, 3}) {
-      BOOST_TEST(refuses<std::runtime_error>([&] { for_each_block(100, width, {.threads = threads}, body); },
-                                             {"18"}));
+      BOOST_TEST(refuses<std::runtime_error>(
+          [&] { detail::for_each_block(100, width, {.threads = threads}, body); }, {"18"}));
     }
   }
 }
@@ -118,7 +119,7 @@ BOOST_AUTO_TEST_CASE(a_black_box_with_memory_is_used_by_one_thread_at_a_time) {
   BOOST_TEST(black_box_with_memory::meetings == 0);
   // The count can fail: one object that several threads use.
   const black_box_with_memory one;
-  for_each_block(64, 1, {.threads = 4}, [&](std::int64_t, int) {
+  detail::for_each_block(64, 1, {.threads = 4}, [&](std::int64_t, int) {
     for (int i = 0; i < 2000; ++i) one.potential(vector<double, 1>(2.0));
   });
   BOOST_TEST(black_box_with_memory::meetings > 0);
@@ -134,10 +135,10 @@ BOOST_AUTO_TEST_CASE(all_functions_of_a_shared_black_box_have_one_lock) {
     if (which == 0) force<double>(system, one, f);
     if (which == 1) static_cast<void>(system.potential(one));
     if (which == 2) static_cast<void>(system.kernels<double>().energy(one, one));
-    if (which == 3) system.directional_derivative(one, one, one, g);
+    if (which == 3) directional_derivative(system, one, one, one, g);
   };
   black_box_with_memory::meetings = 0;
-  for_each_block(64, 1, {.threads = 4}, [&](std::int64_t m, int) {
+  detail::for_each_block(64, 1, {.threads = 4}, [&](std::int64_t m, int) {
     for (int i = 0; i < 2000; ++i) ask(m % 4);
   });
   BOOST_TEST(black_box_with_memory::meetings == 0);
@@ -147,8 +148,8 @@ BOOST_AUTO_TEST_CASE(work_rounds_to_nearest_and_must_leave_it_so) {
   for (const int threads : {1, 3}) {
     std::fesetround(FE_UPWARD);
     std::atomic<int> off = 0;
-    for_each_block(100, 8, {.threads = threads},
-                   [&](std::int64_t, int) { off += std::fegetround() != FE_TONEAREST; });
+    detail::for_each_block(100, 8, {.threads = threads},
+                           [&](std::int64_t, int) { off += std::fegetround() != FE_TONEAREST; });
     const int after = std::fegetround();
     std::fesetround(FE_TONEAREST);
     BOOST_TEST(off == 0);
@@ -156,7 +157,7 @@ BOOST_AUTO_TEST_CASE(work_rounds_to_nearest_and_must_leave_it_so) {
     const auto changes = [](std::int64_t first, int) {
       std::fesetround(first < 48 ? FE_TONEAREST : FE_DOWNWARD);
     };
-    BOOST_TEST(refuses([&] { for_each_block(100, 8, {.threads = threads}, changes); },
+    BOOST_TEST(refuses([&] { detail::for_each_block(100, 8, {.threads = threads}, changes); },
                        {"floating-point environment", "got rounding downward"}));
     BOOST_TEST(std::fegetround() == FE_TONEAREST);
   }

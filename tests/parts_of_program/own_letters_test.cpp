@@ -53,7 +53,7 @@ struct distant_spring {
 
 template <class Drift>
 prepared_problem problem_of(const distant_spring& system) {
-  const auto declared = declare_system<distant_spring>(
+  const auto declared = detail::declare_system<distant_spring>(
       "distant_spring", "a spring", parameter("place", &distant_spring::place, "of rest"),
       parameter("stiffness", &distant_spring::stiffness, "of the spring"), letters<Drift, own_kick>(),
       starts([](const distant_spring& s) {
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(one_thread_at_a_time_evaluates_an_observable_of_a_black_box
       system,
       []<class T>(const model& of, const phase_point<T, Eigen::Dynamic>& at) { return energy<T>(of, at); });
   const auto on_threads = [](const auto& value) {
-    for_each_block(64, 1, {.threads = 4}, [&](std::int64_t, int) {
+    detail::for_each_block(64, 1, {.threads = 4}, [&](std::int64_t, int) {
       for (int n = 0; n < 1000; ++n) value();
     });
   };

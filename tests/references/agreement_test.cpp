@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(a_run_held_open_has_the_bits_of_one_opened_for_each_interva
 BOOST_AUTO_TEST_CASE(a_flow_of_single_trajectories_is_taken_lane_by_lane) {
   const pendulum system;
   const reference accurate = odeint_reference(1e-9);
-  const auto start = gather<detail::lanes, Eigen::Dynamic>(2, [](int k) {
+  const auto start = detail::gather<detail::lanes, Eigen::Dynamic>(2, [](int k) {
     return point{Eigen::VectorXd::Constant(1, 0.5 + k), Eigen::VectorXd::Zero(1)};
   });
   const auto run = accurate.open(system, start, {.length = 1.0, .count = 2});

@@ -61,7 +61,8 @@ double distance_between(const reference& along, const reference& other, const ba
   double sum = 0.0;
   for (int block = 0; block < blocks; ++block) {
     const path_place at{seed(7), static_cast<std::uint64_t>(block * lanes), 0};
-    auto x = gather<T, 2>(lanes, [&](int k) { return starts(seed(1), at.trajectory + std::uint64_t(k)); });
+    auto x =
+        detail::gather<T, 2>(lanes, [&](int k) { return starts(seed(1), at.trajectory + std::uint64_t(k)); });
     auto y = x;
     along.advance(system, x, 1.0, at);
     other.advance(system, y, 1.0, at);
@@ -92,7 +93,7 @@ BOOST_AUTO_TEST_CASE(a_path_is_a_run_with_fresh_noise) {
     for (std::int64_t n = 0; n < 10; ++n) {
       counter_noise(7).normals(noise_place{3, 10 * part + n, 0}, fine[static_cast<std::size_t>(n)]);
     }
-    coarse_graining(2.0 * 0.01)
+    detail::coarse_graining(2.0 * 0.01)
         .over(std::span<const numbers>(fine), expected[static_cast<std::size_t>(part)]);
   }
   BOOST_TEST(distance(found.xi, expected) <= 10 * 4 * eps);
@@ -163,7 +164,7 @@ BOOST_AUTO_TEST_CASE(the_error_is_told_from_the_difference) {
     const bath heat_bath = bath::of_sigma(friction, 0.1);
     const double error = distance_between(reference, exact, heat_bath);
     const double ratio = error / half_step_change(reference, heat_bath);
-    BOOST_TEST(ratio <= 1.05 * error_over_difference, "friction " << friction << ": " << ratio);
+    BOOST_TEST(ratio <= 1.05 * detail::error_over_difference, "friction " << friction << ": " << ratio);
     BOOST_TEST(ratio >= 0.95 * std::sqrt(4.0 / 3.0), "friction " << friction << ": " << ratio);
   }
 }

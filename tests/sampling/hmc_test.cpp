@@ -492,9 +492,9 @@ BOOST_AUTO_TEST_CASE(draws_over_an_estimated_time_exceed_the_bound) {
   double worst = 0.0;
   for (std::uint64_t n = 0; n < 250; ++n) {
     const auto all = autoregressions(-0.5, seed(1), n, 100);
-    std::vector<autocovariance_sums> groups;
+    std::vector<detail::autocovariance_sums> groups;
     for (const auto& chain : all) {
-      autocovariance_along<double> sums(static_cast<int>(chain.size() / 3), 0.0);
+      detail::autocovariance_along<double> sums(static_cast<int>(chain.size() / 3), 0.0);
       for (const double x : chain) sums.add(x);
       groups.push_back(sums.in_lane(0));
     }

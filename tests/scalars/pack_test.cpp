@@ -54,7 +54,7 @@ static_assert(Scalar<pack<double, 1>> && Scalar<pack<double, 3>> && Scalar<pack<
 static_assert(Scalar<dual<pack<double, 16>, 2>> && Scalar<dual<dual<pack<double, 4>, 1>, 3>>);
 static_assert(CoefficientOf<double, pack<double, 8>> && CoefficientOf<pack<double, 8>, pack<double, 8>>);
 static_assert(!CoefficientOf<pack<double, 8>, pack<double, 16>> && !CoefficientOf<pack<double, 8>, double>);
-static_assert(default_lanes == 2 * detail::native_lanes && default_lanes <= 16);
+static_assert(pack<double>::lanes == 2 * detail::native_lanes && pack<double>::lanes <= 16);
 
 using number = compensated<double>;
 using four = pack<double, 4>;
@@ -116,9 +116,9 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(elementary_functions_have_the_bits_of_double, Lane
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(masks_say_which, Lanes, all_widths) {
   constexpr int W = Lanes::value;
-  lane_mask<W> none(false);
+  detail::lane_mask<W> none(false);
   BOOST_TEST(!any(none));
-  BOOST_TEST(any(lane_mask<W>(true)));
+  BOOST_TEST(any(detail::lane_mask<W>(true)));
   for (int k = 0; k < W; ++k) {
     auto one = none;
     one.set(k, true);

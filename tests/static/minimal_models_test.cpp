@@ -401,7 +401,7 @@ BOOST_AUTO_TEST_CASE(an_observer_sees_synchronous_states_in_time) {
 
 BOOST_AUTO_TEST_CASE(a_loss_of_ones_own_says_what_its_residuals_are) {
   const nysalt::harmonic_oscillator system(1.0);
-  const auto error = nysalt::own_error<double>(system, of_place.error);
+  const auto error = nysalt::detail::own_error<double>(system, of_place.error);
   using C = decltype(error)::scalar;
   const auto of_data = [](const auto& x) { return decltype(error)::data_point{x.q, x.p}; };
   decltype(error)::point finish = of_data(at(3.0, 4.0)).cast<C>();

@@ -46,10 +46,10 @@ class autoregression {
 /// From `groups` groups of 8 trajectories.
 inline autocovariance autocovariance_of(double phi, std::uint64_t seed, int groups, int samples, int lags) {
   using T = pack<double, 8>;
-  std::vector<autocovariance_sums> sums;
+  std::vector<detail::autocovariance_sums> sums;
   for (int group = 0; group < groups; ++group) {
     autoregression<T> process(phi, seed, static_cast<std::uint64_t>(8 * group));
-    autocovariance_along<T> along(lags, 0.0);
+    detail::autocovariance_along<T> along(lags, 0.0);
     for (int t = 0; t < samples; ++t) along.add(process.next());
     sums.push_back(along.in_lane(0));
     for (int k = 1; k < 8; ++k) {

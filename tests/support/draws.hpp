@@ -35,7 +35,8 @@ class draws {
   /// A state whose coordinates are uniform in -reach..reach.
   template <System S>
   phase_point<double, S::dimension> state(const S& system, double reach) {
-    phase_point<double, S::dimension> x{make_vector<double>(system), make_vector<double>(system)};
+    phase_point<double, S::dimension> x{detail::make_vector<double>(system),
+                                        detail::make_vector<double>(system)};
     for (auto& q : x.q) q = uniform(-reach, reach);
     for (auto& p : x.p) p = uniform(-reach, reach);
     return x;

@@ -79,13 +79,13 @@ flow_map_data made_by_steps(const S& system, const E& ensemble, const method& me
   data.system = describe(system);
   data.seed = options.seed;
   data.first_of = {0};
-  const auto intervals = intervals_of_noise(method.letters(), method.coefficients());
+  const auto intervals = detail::intervals_of_noise(method.letters(), method.coefficients());
   for (std::int64_t m = 0; m < options.trajectories; ++m) {
     const auto trajectory = static_cast<std::uint64_t>(m);
     recorded_path<double, S::dimension> path(options.step / options.parts, system.bath().friction(),
                                              trajectory);
     for (std::int64_t n = 0; n < options.steps * options.parts; ++n) {
-      numbers xi = make_vector<double>(system);
+      numbers xi = detail::make_vector<double>(system);
       counter_noise(options.seed).normals(noise_place{trajectory, n, 0}, xi);
       data.noise.push_back(xi);
       path.add(std::move(xi));

@@ -9,7 +9,7 @@ namespace nysalt::test {
 
 /// The member of a family at theta.
 template <Family F>
-method member_at(const F& family, const parameters_of<F>& theta) {
+method member_at(const F& family, const detail::parameters_of<F>& theta) {
   return member(family, {theta.begin(), theta.end()});
 }
 

@@ -16,9 +16,9 @@ namespace {
 template <field F, Scalar T, System S>
 vector<T, S::dimension> along(const S& system, const vector<T, S::dimension>& q,
                               const vector<T, S::dimension>& v) {
-  lifted_room<T, S::dimension> room(q.size());
-  auto g = make_vector<T>(system);
-  force_along<F, T>(system, q, v, g, room);
+  detail::lifted_room<T, S::dimension> room(q.size());
+  auto g = detail::make_vector<T>(system);
+  detail::force_along<F, T>(system, q, v, g, room);
   return g;
 }
 
@@ -83,7 +83,7 @@ double off_springs(const springs<N>& system) {
     const T before = i > 0 ? q[i - 1] : T(0.0);
     const T behind = i + 1 < N ? q[i + 1] : T(0.0);
     const T difference = f[i] - (before - q[i] * 2.0 + behind);
-    for (int k = 0; k < default_lanes; ++k) {
+    for (int k = 0; k < pack<double>::lanes; ++k) {
       off = std::max({off, std::abs(lane(difference.value, k)), std::abs(lane(difference.derivative[0], k)),
                       std::abs(lane(difference.derivative[1], k))});
     }
@@ -107,7 +107,7 @@ template <Scalar T, class S>
 void check_by_hand(const S& system, const Eigen::VectorXd& q) {
   static_assert(HasForceDerivative<S, T> && !HasForceDerivative<automatic<S>, T>);
   draws random;
-  auto at = make_vector<T>(system);
+  auto at = detail::make_vector<T>(system);
   auto v = at;
   for (Eigen::Index i = 0; i < at.size(); ++i) {
     at[i] = T(q[i] + random.uniform(-0.02, 0.02));
@@ -201,11 +201,11 @@ static_assert(LocalSystem<deaf_to_the_left> && !detail::HasKickInRange<deaf_to_t
 template <Scalar T, int N>
 phase_point<T, N> dressed(const phase_point<double, N>& x) {
   auto y = x.template cast<T>();
-  if constexpr (is_pack<T>) {
+  if constexpr (detail::is_pack<T>) {
     for (int lane = 1; lane < T::lanes; ++lane) {
       for (Eigen::Index i = 0; i < x.size(); ++i) y.q[i].set(lane, x.q[i] + 0.1 * lane);
     }
-  } else if constexpr (is_dual<T>) {
+  } else if constexpr (detail::is_dual<T>) {
     y.q[0].derivative[0] = 1.0;
   }
   return y;
@@ -214,7 +214,7 @@ phase_point<T, N> dressed(const phase_point<double, N>& x) {
 /// kick is p += c force(q), to the bit: then a run does not depend on where the word may use it.
 template <Scalar T, Scalar C, System S>
 bool kick_is_force(const S& system, const phase_point<T, S::dimension>& x, const C& c) {
-  auto f = make_vector<T>(system);
+  auto f = detail::make_vector<T>(system);
   force<T>(system, x.q, f);
   auto expected = x.p;
   for (Eigen::Index i = 0; i < f.size(); ++i) expected[i] += f[i] * c;
@@ -302,9 +302,9 @@ BOOST_AUTO_TEST_CASE(the_derivative_of_a_black_box_is_a_difference) {
                  100.0 * s * s / 6.0 * 2.0 + 8.0 * eps / (100.0 * s * s));
   const vector<double, 1> none(0.0);
   BOOST_TEST((along<field::whole, double>(black_box(), vector<double, 1>(0.4), none)[0] == 0.0));
-  BOOST_TEST(derivative_source<pendulum>() == "automatic differentiation");
-  BOOST_TEST(derivative_source<black_box>() == "central differences of the force");
-  BOOST_TEST(derivative_source<black_box_with_derivative>() == "the system's directional derivative");
+  BOOST_TEST(detail::derivative_source<pendulum>() == "automatic differentiation");
+  BOOST_TEST(detail::derivative_source<black_box>() == "central differences of the force");
+  BOOST_TEST(detail::derivative_source<black_box_with_derivative>() == "the system's directional derivative");
 }
 
 BOOST_AUTO_TEST_CASE(derivatives_by_hand_are_those_of_the_force) {
@@ -313,8 +313,8 @@ BOOST_AUTO_TEST_CASE(derivatives_by_hand_are_those_of_the_force) {
     check_by_hand<pack<double, 4>>(system, q);
   };
   const Eigen::VectorXd waves = Eigen::VectorXd::LinSpaced(256, 0.0, 40.0).array().sin();
-  all(lennard_jones<2, 7>(), cluster_at_rest(lennard_jones<2, 7>()));
-  all(lennard_jones<>(3, 13), cluster_at_rest(lennard_jones<>(3, 13)));
+  all(lennard_jones<2, 7>(), detail::cluster_at_rest(lennard_jones<2, 7>()));
+  all(lennard_jones<>(3, 13), detail::cluster_at_rest(lennard_jones<>(3, 13)));
   all(fpu_chain<3>(50.0), waves.head(6));
   all(fpu_chain<>(100, 2.0), waves.head(200));
 }
@@ -334,7 +334,7 @@ BOOST_AUTO_TEST_CASE(a_derivative_counts_what_is_called) {
   const auto evaluations = [](const auto& system) {
     using S = std::decay_t<decltype(system)>;
     const counted<S> watched(system);
-    auto q = make_vector<double>(system);
+    auto q = detail::make_vector<double>(system);
     q.setConstant(0.3);
     along<field::whole, double>(watched, q, q);
     return watched.evaluations;

@@ -41,7 +41,8 @@ double least_energy(const std::vector<distances>& shape) {
 /// At rest to 1e-12 in each force: the energy errs by the square of that, and rounds.
 double energy_off(Eigen::Index space, Eigen::Index atoms, double expected) {
   const lennard_jones<> system(space, atoms);
-  return std::abs(system.potential(cluster_at_rest(system)) - expected) / (100.0 * eps * std::abs(expected));
+  return std::abs(system.potential(detail::cluster_at_rest(system)) - expected) /
+         (100.0 * eps * std::abs(expected));
 }
 
 const double golden = 0.5 * (1.0 + std::sqrt(5.0));
@@ -235,14 +236,14 @@ BOOST_AUTO_TEST_CASE(shapes_have_the_energies_that_their_distances_give) {
   // Not the lowest: the octahedron, which the growth of tetrahedra on faces does not find.
   const double octahedron = least_energy({{12.0, 1.0}, {3.0, std::sqrt(2.0)}});
   const lennard_jones<> six(3, 6);
-  BOOST_TEST(six.potential(cluster_at_rest(six)) > octahedron + 0.1);
+  BOOST_TEST(six.potential(detail::cluster_at_rest(six)) > octahedron + 0.1);
 }
 
 BOOST_AUTO_TEST_CASE(clusters_rest_around_the_origin) {
   for (const Eigen::Index space : {2, 3}) {
     for (const Eigen::Index atoms : {2, 3, 4, 6, 9, 14, 20}) {
       const lennard_jones<> system(space, atoms);
-      const Eigen::VectorXd q = cluster_at_rest(system);
+      const Eigen::VectorXd q = detail::cluster_at_rest(system);
       Eigen::VectorXd f(q.size());
       system.force(q, f);
       // To 1e-12, and the shift of the centre rounds distances, of stiffness 57 to each of some 12
@@ -260,7 +261,7 @@ BOOST_AUTO_TEST_CASE(clusters_rest_around_the_origin) {
 BOOST_AUTO_TEST_CASE(a_cluster_is_a_minimum) {
   for (const auto& [space, atoms] : {std::pair{2, 7}, {3, 13}}) {
     const lennard_jones<> system(space, atoms);
-    const Eigen::VectorXd q = cluster_at_rest(system);
+    const Eigen::VectorXd q = detail::cluster_at_rest(system);
     const Eigen::Index rigid = space == 2 ? 3 : 6;
     const Eigen::VectorXd stiffness = symmetric_eigen(hessian(system, q)).values;
     const double unit = static_cast<double>(q.size()) * eps * stiffness.tail(1)[0] + 1e-11;  // and the force

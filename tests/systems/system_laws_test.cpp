@@ -103,12 +103,12 @@ void check_in_bath(const S& alone) {
   static_assert(HasForceDerivative<W> == HasForceDerivative<S> && BlackBoxForce<W> == BlackBoxForce<S>);
   static_assert(HasKick<W, double> == HasKick<S, double>);
   static_assert(HasKick<counted<W>, double> == HasKick<counted<S>, double>);
-  static_assert(lanes_of<W> == lanes_of<S>);
+  static_assert(detail::lanes_of<W> == detail::lanes_of<S>);
   draws random;
   const W system(alone, some_bath);
   const auto x = random.state(alone, 0.5);
-  auto f = make_vector<double>(alone);
-  auto g = make_vector<double>(system);
+  auto f = detail::make_vector<double>(alone);
+  auto g = detail::make_vector<double>(system);
   force<double>(alone, x.q, f);
   force<double>(system, x.q, g);
   BOOST_TEST((f == g));
@@ -308,13 +308,13 @@ BOOST_AUTO_TEST_CASE(bands_hold_where_they_are_declared_for) {
 // Of many coordinates no full matrix of modes is made, and what is known of them is the same.
 
 BOOST_AUTO_TEST_CASE(entries_of_a_long_chain_are_those_of_the_basis_of_a_short_one) {
-  const fpu_chain<> shorter(most_for_full_basis / 2, 50.0);
-  const fpu_chain<> longer(most_for_full_basis / 2 + 1, 50.0);
+  const fpu_chain<> shorter(detail::most_for_full_basis / 2, 50.0);
+  const fpu_chain<> longer(detail::most_for_full_basis / 2 + 1, 50.0);
   BOOST_TEST(shorter.modes().entries.empty());
-  BOOST_TEST(shorter.modes().basis.rows() == most_for_full_basis);
+  BOOST_TEST(shorter.modes().basis.rows() == detail::most_for_full_basis);
   BOOST_TEST(longer.modes().basis.size() == 0);
-  const auto few = modal_coordinates::of(shorter);
-  const auto many = modal_coordinates::of(longer);
+  const auto few = detail::modal_coordinates::of(shorter);
+  const auto many = detail::modal_coordinates::of(longer);
   BOOST_TEST(many->entries().size() == few->entries().size() + 4);
   BOOST_TEST(many->frequencies().size() == few->frequencies().size() + 2);
   const Eigen::Index pairs = shorter.pairs();
@@ -338,15 +338,15 @@ BOOST_AUTO_TEST_CASE(entries_of_modes_that_are_not_there_are_refused) {
     normal_modes modes() const { return all; }
     normal_modes all;
   };
-  BOOST_CHECK_THROW(modal_coordinates::of(told(wrong)), std::invalid_argument);
+  BOOST_CHECK_THROW(detail::modal_coordinates::of(told(wrong)), std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_CASE(a_long_ring_has_no_modes_and_a_model_says_so) {
-  BOOST_TEST(has_modes(phi4_chain<>(most_for_full_basis)));
-  BOOST_TEST(!has_modes(phi4_chain<>(most_for_full_basis + 1)));
+  BOOST_TEST(has_modes(phi4_chain<>(detail::most_for_full_basis)));
+  BOOST_TEST(!has_modes(phi4_chain<>(detail::most_for_full_basis + 1)));
   BOOST_TEST(has_modes(model(phi4_chain<>(16))));
-  BOOST_TEST(!has_modes(model(phi4_chain<>(most_for_full_basis + 1))));
-  BOOST_TEST(has_modes(model(fpu_chain<>(most_for_full_basis, 50.0))));
+  BOOST_TEST(!has_modes(model(phi4_chain<>(detail::most_for_full_basis + 1))));
+  BOOST_TEST(has_modes(model(fpu_chain<>(detail::most_for_full_basis, 50.0))));
 }
 
 BOOST_AUTO_TEST_CASE(systems_that_cannot_be_are_refused) {
@@ -432,7 +432,8 @@ BOOST_AUTO_TEST_CASE(a_logistic_regression_is_finite_far_out_and_known_by_its_da
 
 static_assert(HasBath<in_bath<fpu_chain<3>>> && !HasBath<fpu_chain<3>>);
 static_assert(HasBath<counted<in_bath<fpu_chain<3>>>> && HasBath<in_bath<counted<fpu_chain<3>>>>);
-static_assert(lanes_of<in_bath<black_box>> == 1 && lanes_of<in_bath<pendulum>> == default_lanes);
+static_assert(detail::lanes_of<in_bath<black_box>> == 1 &&
+              detail::lanes_of<in_bath<pendulum>> == pack<double>::lanes);
 
 // With modes, masses, bands, kicks, a force alone; fixed and dynamic.
 BOOST_AUTO_TEST_CASE(in_a_bath_it_is_what_the_system_is) {

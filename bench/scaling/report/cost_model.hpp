@@ -13,7 +13,7 @@ namespace nysalt::bench {
 /// M_r of the rank that has most, as `shard` has it: 2^k leaves a block, k as large as leaves 32 blocks a
 /// rank.
 inline std::int64_t largest_share_of(std::int64_t trajectories, std::int64_t ranks) {
-  std::int64_t leaf = trajectories_of_leaf;
+  std::int64_t leaf = detail::trajectories_of_leaf;
   std::int64_t blocks = (trajectories + leaf - 1) / leaf;
   while (blocks / 2 >= 32 * ranks) {
     blocks = (blocks + 1) / 2;

@@ -89,7 +89,7 @@ inline table too_many(const foretold& on) {
                0);
   for (const std::int64_t m : {1'000, 100'000, 10'000'000, 1'000'000'000}) {
     result.add({fmt::format("{:.0e}", static_cast<double>(m)),
-                fmt::format("{}", (m + trajectories_of_leaf - 1) / trajectories_of_leaf),
+                fmt::format("{}", (m + detail::trajectories_of_leaf - 1) / detail::trajectories_of_leaf),
                 fmt::format("{:.2g}", static_cast<double>(on.ranks_of_dear_sums(m, steps_of_learning)))});
   }
   return result;

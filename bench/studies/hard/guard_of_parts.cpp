@@ -98,8 +98,8 @@ outcome what_came_of(const model& system, const method& method, double step, con
 }
 
 /// The guard that learn() would have, which plans for 20,000 steps unless it is asked for another number.
-stability_guard guard_of_learn(const model& system, const flow_map_data& data, const flow_map_data& held_out,
-                               const word& letters) {
+detail::stability_guard guard_of_learn(const model& system, const flow_map_data& data,
+                                       const flow_map_data& held_out, const word& letters) {
   constexpr std::int64_t most_steps = 10'000;  // as the guard of learn() has
   auto [states, typical] = some_states(system, data);
   states.append(some_states(system, held_out).states);
@@ -165,7 +165,7 @@ method r_respa_of(int inner) {
   }
   coefficients.push_back(0.5);
   return {fmt::format("r_respa({})", inner),
-          nested_word<0, 1, 2>.with_letters(letters),
+          detail::nested_word<0, 1, 2>.with_letters(letters),
           coefficients,
           {1, false, false}};
 }
@@ -195,7 +195,8 @@ found_on_class try_all(const std::string& name, const S& system, const Law& law,
   };
   const auto along = data_at(range.low, 1);
   const auto held_out_along = data_at(range.low, 2);
-  const auto try_one = [&](counts& into, const method& method, const stability_guard& guard, double step) {
+  const auto try_one = [&](counts& into, const method& method, const detail::stability_guard& guard,
+                           double step) {
     const std::string objection = guard.objection(method.letters(), method.coefficients(), step);
     const outcome what = what_came_of(erased, method, step, starts);
     const bool grows = what == outcome::grows;
@@ -212,7 +213,7 @@ found_on_class try_all(const std::string& name, const S& system, const Law& law,
   };
   for (const int n : inner) {
     const nysalt::method respa = r_respa_of(n);
-    const stability_guard guard = guard_of_learn(erased, along, held_out_along, respa.letters());
+    const detail::stability_guard guard = guard_of_learn(erased, along, held_out_along, respa.letters());
     for (int k = 0; k < range.of_r_respa; ++k) {
       try_one(found.of_r_respa, respa, guard, spread(k, range.of_r_respa));
     }

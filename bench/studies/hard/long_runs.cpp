@@ -82,7 +82,7 @@ using lanes = pack<double>;
 
 /// Sixteen phases of the circle, or so many as there are lanes.
 phase_point<lanes, 1> around_the_circle() {
-  return gather<lanes, 1>(lanes_in<lanes>, [](int k) {
+  return detail::gather<lanes, 1>(lanes_in<lanes>, [](int k) {
     const double phase = 2.0 * std::numbers::pi * (k + 0.25) / lanes_in<lanes>;
     return at(std::cos(phase), std::sin(phase));
   });

@@ -74,7 +74,7 @@ verdict resonance_of_slow_kicks(extent how) {
     states.push_back(phase_point<double, Eigen::Dynamic>(along.start[k]));
   }
   const r_respa<0, 1, 32> respa;
-  const stability_guard guard(erased, states, respa.letters());
+  const detail::stability_guard guard(erased, states, respa.letters());
   const auto objection_at = [&](double step) {
     return guard.objection(respa.letters(), respa.coefficients(), step);
   };

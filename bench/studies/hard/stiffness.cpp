@@ -33,8 +33,8 @@ double exchanged(const chain& system, const method& method, double step, const p
 double largest_magnification(const method& method, double theta, double h, std::int64_t steps) {
   double largest = 1.0;
   for (const double k : {1.0, 3.0, 10.0, 30.0}) {
-    largest =
-        std::max(largest, transient_growth(method.letters(), method.coefficients(), theta, h * h * k, steps));
+    largest = std::max(
+        largest, detail::transient_growth(method.letters(), method.coefficients(), theta, h * h * k, steps));
   }
   return largest;
 }

@@ -55,6 +55,8 @@ struct proposal_options {
   nysalt::execution execution{};  ///< progress counts the states of each step that is tried
 };
 
+namespace detail {
+
 /// Acceptance of proposals at a step.
 struct proposal_acceptance {
   estimate probability;         ///< probability over all states and durations
@@ -74,6 +76,8 @@ struct proposal_acceptance {
 /// steps of each state one step of the word, and one potential.
 proposal_acceptance acceptance_of_proposals(const model& system, const nysalt::method& method, double step,
                                             const initial_states& states, const proposal_options& options);
+
+}  // namespace detail
 
 /// A step with a standard error.
 struct acceptance_step {
@@ -95,15 +99,21 @@ acceptance_step step_at_acceptance(const model& system, const std::function<meth
 
 // Acceptance of Hybrid Monte Carlo where forces are linear, in closed form.
 
+namespace detail {
+
 /// The acceptance of Metropolis' rule where the energy error of proposals, over kT, is normal with the mean
 /// mu: erfc(sqrt(mu)/2), that is 2 Phi(-sqrt(mu/2)) [calvo_sanz_alonso_sanz_serna_2021]. As exp(-error) has
 /// the mean 1 the variance is 2 mu. That is the limit of many dimensions; of one oscillator the distribution
 /// is another.
 double acceptance_at(double energy_error);
 
+}  // namespace detail
+
 /// The mean energy error of an acceptance: the inverse of acceptance_at(). Throws std::invalid_argument
 /// unless 0 < acceptance < 1.
 double energy_error_at(double acceptance);
+
+namespace detail {
 
 /// The mean of (H' - H)/kT over proposals of random duration on oscillators of these frequencies, from their
 /// canonical distribution: half the sum of energy_error_on_oscillator() at h omega, as sin^2 is 1/2 on
@@ -111,6 +121,8 @@ double energy_error_at(double acceptance);
 /// Throws std::invalid_argument if the method is not symmetric, and what energy_error_on_oscillator() throws.
 /// Cost: one energy_error_on_oscillator() for each frequency.
 double gaussian_energy_error(const method& method, std::span<const double> frequencies, double step);
+
+}  // namespace detail
 
 /// The step up to which proposals are accepted with this probability: from `from` it grows by 2 % at a time
 /// until the acceptance falls below it, or shrinks until it does not, and what lies between is halved. Where

@@ -40,14 +40,13 @@ struct error_at {
   double standard_error;  ///< standard error of the error
 };
 
-/// found             at x, between two errors that are known
-/// bracketed         between last_below and first_above, of which one has no logarithm: it diverged, or is 0
-/// below_all         not up to the last row: beyond x
-/// above_from_first  before the first row: before x
-enum class crossing_kind { found, bracketed, below_all, above_from_first };
-
 /// Crossing of an error level. Unknown values are NaN; if it is bracketed, x is the last that is below.
 struct threshold_crossing {
+  /// found             at x, between two errors that are known
+  /// bracketed         between last_below and first_above, of which one has no logarithm: it diverged, or is
+  /// 0 below_all         not up to the last row: beyond x above_from_first  before the first row: before x
+  enum class crossing_kind { found, bracketed, below_all, above_from_first };
+
   crossing_kind kind;  ///< kind of the crossing
   double x;            ///< the step or cost of the crossing, see crossing_kind
   double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< standard error of x, if it is found

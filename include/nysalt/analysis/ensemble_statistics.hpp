@@ -25,7 +25,7 @@ namespace nysalt {
 /// is kT, by equipartition. In units of energy. T is double or a pack.
 template <class T, SystemOver<T> S>
 T kinetic_temperature(const S& system, const phase_point<T, S::dimension>& x) {
-  auto v = make_vector<T>(system);
+  auto v = detail::make_vector<T>(system);
   velocity<T>(system, x.p, v);
   T sum(0.0);
   for (Eigen::Index i = 0; i < x.size(); ++i) sum += x.p[i] * v[i];
@@ -38,7 +38,7 @@ T kinetic_temperature(const S& system, const phase_point<T, S::dimension>& x) {
 /// Cost: one force.
 template <class T, SystemOver<T> S>
 T half_step_kinetic_temperature(const S& system, double step, const phase_point<T, S::dimension>& x) {
-  auto f = make_vector<T>(system);
+  auto f = detail::make_vector<T>(system);
   force<T>(system, x.q, f);
   phase_point<T, S::dimension> between = x;
   for (Eigen::Index i = 0; i < x.size(); ++i) between.p[i] += f[i] * (0.5 * step);
@@ -56,6 +56,8 @@ struct statistics_wanted {
   bool half_step_kinetic_temperature = false;  ///< kinetic temperature between steps; costs a force a sample
   std::int64_t from = 0;                       ///< the first step that counts
 };
+
+namespace detail {
 
 /// Result of one trajectory: its means over time.
 struct time_means {
@@ -139,6 +141,8 @@ class statistics_along {
   first_in_lanes<T> lost_at_{};
 };
 
+}  // namespace detail
+
 // The statistics of an ensemble, put together from the statistics of its trajectories.
 
 /// Statistics of all trajectories. Those that were not requested are empty or NaN.
@@ -156,6 +160,8 @@ struct gathered_statistics {
   estimate kinetic_temperature;            ///< kT of the momenta at the steps
   estimate half_step_kinetic_temperature;  ///< kT of those between the steps
 };
+
+namespace detail {
 
 /// Trajectories of one group of the jackknife, set by their number only: 33 to 64 groups, if there are as
 /// many trajectories. A divisor of 16, or a multiple: then groups, lanes and threads fit together.
@@ -216,11 +222,17 @@ class gathering {
   std::vector<autocovariance_sums> covariances_;
 };
 
+}  // namespace detail
+
 // Statistics of an ensemble of trajectories, none of which is kept.
+
+namespace detail {
 
 /// Samples of a trajectory: the steps from..steps that `every` divides. Throws std::invalid_argument if the
 /// options are out of range, or lags need more samples.
 std::int64_t samples_of_trajectory(const ensemble_options& options, const statistics_wanted& wanted);
+
+}  // namespace detail
 
 /// Follows trajectories m = first .. first + trajectories - 1 from ensemble(seed, m), as many at a time as
 /// there are lanes, and gathers what is wanted of one observable at the steps n = 0, every, 2 every, ... from
@@ -244,34 +256,35 @@ gathered_statistics ensemble_statistics(const Stepper& stepper, const E& ensembl
                                         const statistics_wanted& wanted) {
   return detail::with_scalar_of(stepper.system(), [&]<class T>(T) {
     using state = phase_point<T, Stepper::dimension>;
-    struct measured : statistics_along<T> {
+    struct measured : detail::statistics_along<T> {
       const Stepper& stepper;
       const Observable& observable;
-      gathering& all;
+      detail::gathering& all;
       std::int64_t place;
       int count;
 
       void read(const state& x, std::span<T> numbers) const {
         this->read_of(stepper, observable, x, numbers);
       }
-      void end(const lockstep<Stepper, T>& run) {
+      void end(const detail::lockstep<Stepper, T>& run) {
         for (int k = 0; k < count; ++k) {
           const auto lost_at = this->lost_at(k);
           all.keep(place + k, *this, k, lost_at ? lost_at : run.diverged_at(k));
         }
       }
     };
-    const std::int64_t samples = samples_of_trajectory(options, wanted);
-    const state start = sound_starts<T>(stepper.system(), ensemble, options.seed, options.first, 1);
+    const std::int64_t samples = detail::samples_of_trajectory(options, wanted);
+    const state start = detail::sound_starts<T>(stepper.system(), ensemble, options.seed, options.first, 1);
     // Any number near the mean, the same for all.
     const double seen_first = lane(value_in_lanes<T>(observable, start), 0);
     const double centre = std::isfinite(seen_first) ? seen_first : 0.0;
     const double interval = static_cast<double>(options.every) * stepper.step_size();
-    gathering all(wanted, options.trajectories, samples, interval, centre, *options.execution.ranks);
+    detail::gathering all(wanted, options.trajectories, samples, interval, centre, *options.execution.ranks);
     detail::measure_ensemble<T>(
         stepper, ensemble, options, all.share(), all.trajectories_of_thread(),
         [&](std::int64_t place, int count) {
-          return measured{statistics_along<T>(wanted, centre), stepper, observable, all, place, count};
+          return measured{
+              detail::statistics_along<T>(wanted, centre), stepper, observable, all, place, count};
         });
     all.gather();
     return all.result(options.first);

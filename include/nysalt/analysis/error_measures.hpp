@@ -167,7 +167,7 @@ error_measure exchange_measure(const S& system) {
     const auto& same = detail::of_dimension<N>(x);
     for (std::size_t j = 0; j < result.size(); ++j) {
       const auto energy = [&](const auto& y) { return system.stiff_energy(y, static_cast<Eigen::Index>(j)); };
-      if constexpr (lanes_of<S> == 1) {  // packs are not even tried
+      if constexpr (detail::lanes_of<S> == 1) {  // packs are not even tried
         result[j] = value_in_lanes<T>(energy, same);
       } else if constexpr (HasStiffEnergiesOver<S, T>) {
         result[j] = energy(same);
@@ -201,6 +201,8 @@ error_measure exchange_measure(const S& system) {
 
 // The errors along trajectories side by side, added up.
 
+namespace detail {
+
 /// The errors of one trajectory in each lane, accumulated in the order of time. None is kept.
 template <class T>
 class errors_along {
@@ -232,5 +234,7 @@ class errors_along {
   T sum_{0.0};
   first_in_lanes<T> lost_at_{};
 };
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -37,16 +37,24 @@ estimate paired_difference(std::span<const double> a, std::span<const double> b)
 /// The middle one, or the mean of the two in the middle; infinities are allowed. NaN if there is none.
 double median(std::vector<double> samples);
 
+namespace detail {
+
 /// The numbers that are not NaN, from the smallest on.
 std::vector<double> sorted_numbers(std::vector<double> samples);
 
+}  // namespace detail
+
 /// Below which the share p of sorted numbers lies, linear between neighbours. NaN if there is none.
 double quantile(std::span<const double> sorted, double p);
+
+namespace detail {
 
 /// The median of n sorted numbers, and half of the distance between those that are sqrt(n)/2 places above and
 /// below: as many lie below the median of the distribution as heads fall among n coins, for any distribution.
 /// NaN where there are too few.
 estimate median_and_error(std::span<const double> sorted);
+
+}  // namespace detail
 
 /// Slope of the least-squares line through (x_i, y_i).
 double slope(std::span<const double> x, std::span<const double> y);
@@ -85,6 +93,11 @@ struct equal_bins {
   friend bool operator==(const equal_bins&, const equal_bins&) = default;  ///< equal in all
 };
 
+namespace detail {
+template <class T>
+class histogram_along;
+}  // namespace detail
+
 /// Counts in equal bins, and in two further ones for what lies below and above. They are integers: the order
 /// of adding, lanes and threads change nothing.
 class histogram {
@@ -117,7 +130,7 @@ class histogram {
 
  private:
   template <class T>
-  friend class histogram_along;
+  friend class detail::histogram_along;
 
   /// Position in units of bins: in [k, k + 1) for bin k, -1 below, and `count` above; NaN is somewhere.
   template <class T>
@@ -133,6 +146,8 @@ class histogram {
   double per_width_;
   std::vector<std::int64_t> counts_;
 };
+
+namespace detail {
 
 /// Histograms, one for each of the trajectories in the lanes of T, so that single trajectories can be left
 /// out.
@@ -153,6 +168,8 @@ class histogram_along {
  private:
   std::vector<histogram> in_lanes_;
 };
+
+}  // namespace detail
 
 // Total variation between two distributions, and its expectation for two samples of one.
 
@@ -187,6 +204,8 @@ double sampling_floor(std::span<const histogram> ensembles);
 
 // Weights of the samples of a trajectory in a mean over time.
 
+namespace detail {
+
 /// Weights of samples at t_i = i h, i = 0 .. n: all from the first on alike, or the weights of the mean over
 /// [0, T] by the trapezoidal rule, T within the last step: what is sampled is linear between two samples, and
 /// its part up to T counts. Then methods of other steps have means over the very same interval of time. For
@@ -220,6 +239,8 @@ class sample_weights {
   double last_ = 1.0;
 };
 
+}  // namespace detail
+
 // Integrated autocorrelation time: the number of samples that count for one.
 
 /// Integrated autocorrelation time in units of the interval between samples.
@@ -244,6 +265,8 @@ integrated_time integrated_autocorrelation_time(std::span<const double> rho);
 double effective_sample_size(double samples, const integrated_time& time);
 
 // The sums along a trajectory from which an autocovariance is computed.
+
+namespace detail {
 
 /// Sums of some trajectories at one lag k over all pairs of samples y_t, y_{t+k} of one trajectory: their
 /// number, and the sums of y_t y_{t+k}, of y_t and of y_{t+k}, where y is the observable less a centre.
@@ -348,6 +371,8 @@ class autocovariance_along {
   std::vector<T> products_;
 };
 
+}  // namespace detail
+
 // Autocovariance of an observable, with error bars.
 
 /// The autocovariance of an observable x in a stationary state at the lags k = 0..L,
@@ -358,10 +383,17 @@ class autocovariance_along {
 /// one group after the other; from G groups a standard error is itself known to 1/sqrt(2 (G - 1)) of it.
 class autocovariance {
  public:
+  /// A distance of two autocovariances with a standard error.
+  struct distance {
+    double rms;             ///< root mean square difference over the lags 1..L
+    double standard_error;  ///< standard error of rms
+    double floor;           ///< expected rms of sampling error only
+  };
+
   /// Autocovariance with one term a group of independent trajectories, all with one centre; `interval` is the
   /// time between samples. Groups without a trajectory do not count. Throws std::invalid_argument if there is
   /// no group or their lags differ.
-  autocovariance(double interval, double centre, std::vector<autocovariance_sums> groups);
+  autocovariance(double interval, double centre, std::vector<detail::autocovariance_sums> groups);
 
   std::size_t lags() const { return total_.size() - 1; }  ///< L, the largest lag
   double interval() const { return interval_; }           ///< time between samples, which is one lag
@@ -382,28 +414,21 @@ class autocovariance {
       const std::function<std::vector<double>(const std::vector<double>&)>& f) const;
 
  private:
-  static std::vector<double> normalised(const autocovariance_sums& sums);
+  static std::vector<double> normalised(const detail::autocovariance_sums& sums);
 
   double interval_;
   double centre_;
-  autocovariance_sums total_;
-  std::vector<autocovariance_sums> groups_;
+  detail::autocovariance_sums total_;
+  std::vector<detail::autocovariance_sums> groups_;
 };
 
 // The distance between two autocovariances.
-
-/// A distance of two autocovariances with a standard error.
-struct acf_distance {
-  double rms;             ///< root mean square difference over the lags 1..L
-  double standard_error;  ///< standard error of rms
-  double floor;           ///< expected rms of sampling error only
-};
 
 /// rms = sqrt(1/L sum_{k=1..L} (rho_a(k) - rho_b(k))^2) of the normalised autocovariances, with the standard
 /// error of independent ensembles; floor^2 = 1/L sum_k (error_a(k)^2 + error_b(k)^2), the mean of rms^2 if
 /// both have one distribution. If a and b share starts or noise, error and floor are larger than needed.
 /// Throws std::invalid_argument if lags or intervals (to 1e-9 relative, as steps are typed in decimals)
 /// differ, and like autocovariance::normalised.
-acf_distance acf_error(const autocovariance& a, const autocovariance& b);
+autocovariance::distance acf_error(const autocovariance& a, const autocovariance& b);
 
 }  // namespace nysalt

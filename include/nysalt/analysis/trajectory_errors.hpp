@@ -27,6 +27,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// All coordinates times 1 + relative * (normal numbers of their own), each a pure function of seed and
 /// trajectory; lane 0 holds number `first`. What is 0 stays so.
 template <class T, int N>
@@ -71,28 +73,34 @@ class predictable_samples {
   first_in_lanes<T> exceeded_at_{};
 };
 
+}  // namespace detail
+
 // Errors of the runs of one method.
+
+namespace detail {
 
 /// The quantiles of errors that are reported.
 inline constexpr std::array shown_quantiles{0.05, 0.25, 0.5, 0.75, 0.95};
 
-/// Spread of the errors of single trajectories about the one number that is made of them: each is the error
-/// that this trajectory would have without the others, in the unit of the whole.
-struct distribution_of_errors {
-  tail largest{};     ///< largest score; the error is the mean of the scores
-  estimate median{};  ///< median with its standard error
-  std::array<double, shown_quantiles.size()> quantiles{};  ///< scores at shown_quantiles
-};
+}  // namespace detail
 
 /// Error and cost of a method.
 struct method_error {
+  /// Spread of the errors of single trajectories about the one number that is made of them: each is the error
+  /// that this trajectory would have without the others, in the unit of the whole.
+  struct distribution {
+    tail largest{};     ///< largest score; the error is the mean of the scores
+    estimate median{};  ///< median with its standard error
+    std::array<double, detail::shown_quantiles.size()> quantiles{};  ///< scores at shown_quantiles
+  };
+
   estimate error;                                ///< mean over the trajectories that did not diverge
   std::int64_t diverged = 0;                     ///< number of trajectories that diverged
   std::vector<diverged_trajectory> diverged_at;  ///< steps of divergence, in the order of the trajectories
   double evaluations_per_time = 0.0;             ///< force evaluations per unit time, start-up included
-  std::vector<double> of_each{};    ///< contribution of each trajectory to the error; NaN if it diverged
-  std::vector<double> own{};        ///< the error of each by itself, in the unit of the whole; NaN likewise
-  distribution_of_errors spread{};  ///< spread of the trajectories that did not diverge
+  std::vector<double> of_each{};  ///< contribution of each trajectory to the error; NaN if it diverged
+  std::vector<double> own{};      ///< the error of each by itself, in the unit of the whole; NaN likewise
+  distribution spread{};          ///< spread of the trajectories that did not diverge
 };
 
 // Errors of methods, and of their reference, along many trajectories by one measure.
@@ -122,11 +130,15 @@ struct trajectory_options {
   std::optional<double> horizon = {};
 };
 
+namespace detail {
+
 /// Throws std::invalid_argument unless there are steps and trajectories, and a score of each method, measure
 /// and trajectory, and an interval of samples of `width` numbers (of all measures) for each method and
 /// thread, fit into the memory of a rank: the scores of all trajectories come to each of them.
 void require_room(const trajectory_options& options, std::size_t methods, std::size_t width,
                   std::size_t measures = 1);
+
+}  // namespace detail
 
 // Methods at one step against one reference, along many trajectories, by one measure or several.
 

@@ -77,8 +77,12 @@ std::string sentence(detail::pattern<std::type_identity_t<Pieces>...> pattern, c
 
 // Numbers that are read, not computed with.
 
+namespace detail {
+
 /// The number x in decimal, rounded to `digits` significant digits, without the zeros at its end: 0.125 to
 /// two is "0.12". With an exponent where it is shorter, as printf's %g has it.
 std::string in_digits(double x, int digits);
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -12,10 +12,10 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Those that are summed in order.
 inline constexpr std::int64_t trajectories_of_leaf = 16;
-
-namespace detail {
 
 template <class T>
 std::vector<T> sums_of_leaves(std::span<const T> terms) {

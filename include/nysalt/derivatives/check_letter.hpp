@@ -50,8 +50,12 @@ struct letter_check {
 letter_check check_letter(const model& system, char letter, const phase_points& points, double h,
                           std::vector<double> coefficients = {});
 
+namespace detail {
+
 /// Throws std::invalid_argument, with the report, if a letter of the system in this word fails
 /// check_letter().
 void require_sound_letters(const model& system, const word& letters, const phase_points& points, double h);
+
+}  // namespace detail
 
 }  // namespace nysalt

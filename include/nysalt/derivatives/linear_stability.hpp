@@ -26,8 +26,12 @@ struct stability_chart {
 /// Whether all z in low..high lie in one window.
 bool is_stable(const std::vector<stability_window>& windows, double low, double high);
 
+namespace detail {
+
 /// The parts of 0..highest that lie in no window.
 std::vector<stability_window> gaps_below(const std::vector<stability_window>& windows, double highest);
+
+}  // namespace detail
 
 // Stability margin: the distance of a step from the ends of the windows of stability.
 

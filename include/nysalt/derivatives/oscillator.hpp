@@ -21,6 +21,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// (q, p) after one step of size 1 of the word without its bath, on q'' = -(theta^2 + k) q. R rotates by
 /// theta, S and H use k only, B and G all of it. times_k(x) is k x, so that k may be a number, the variable
 /// of a polynomial, or, for two modes, a matrix; theta is a number, or an array of two. With a step h: theta
@@ -75,12 +77,18 @@ inline oscillator_matrix<double> matrix_on_oscillator(const nysalt::word& word,
   return {word, coefficients, theta, 0.0, 1.0, [k](double x) { return k * x; }};
 }
 
+}  // namespace detail
+
 // trace/2 of a word on the harmonic oscillator, as a polynomial.
+
+namespace detail {
 
 /// trace/2 of step_on_oscillator() as a polynomial in k, low <= k <= high. The step is stable where it is
 /// within +-1.
-bernstein_polynomial half_trace(const nysalt::word& word, const std::vector<double>& coefficients,
-                                double theta, double low, double high);
+detail::bernstein_polynomial half_trace(const nysalt::word& word, const std::vector<double>& coefficients,
+                                        double theta, double low, double high);
+
+}  // namespace detail
 
 // By how much a symmetric word changes the energy of a harmonic oscillator, exactly.
 
@@ -94,8 +102,6 @@ struct energy_defect {
 energy_defect energy_defect_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
                                           double z);
 
-}  // namespace detail
-
 /// Energy error rho of a symmetric word at z = h omega. With the matrix [[A, B], [C, A]] of a step in (omega
 /// q, p),
 ///   rho = (B + C)^2 / (2 (1 - A^2)):
@@ -106,7 +112,11 @@ energy_defect energy_defect_on_oscillator(const nysalt::word& word, const std::v
 double energy_error_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
                                   double z);
 
+}  // namespace detail
+
 // Distance of the steps of a word from half turns of a stiff oscillation.
+
+namespace detail {
 
 /// A step of a word turns a stiff oscillation by nearly k half turns, and small nonlinear errors add up from
 /// step to step.
@@ -133,7 +143,11 @@ std::optional<resonance> near_resonance(const nysalt::word& word, const std::vec
 /// "a step turns the frequencies 49 to 51 by nearly 2 pi ..."
 std::string in_words(const resonance& near);
 
+}  // namespace detail
+
 // Growth of two coupled modes under a word with rotations.
+
+namespace detail {
 
 /// Logarithm of the spectral radius of one step on q'' = -(Theta^2 + K) q with Theta = diag(theta) and a
 /// symmetric 2 x 2 matrix K, see step_on_oscillator(); 0 where the step is stable. A symplectic matrix of
@@ -144,7 +158,11 @@ std::string in_words(const resonance& near);
 double growth_of_pair(const nysalt::word& word, const std::vector<double>& coefficients,
                       const Eigen::Array2d& theta, const Eigen::Matrix2d& k);
 
+}  // namespace detail
+
 // Transient growth: how much a word with rotations magnifies an oscillation, by resonances above all.
+
+namespace detail {
 
 /// Largest |M^n| of n = 1 .. steps steps on q'' = -(theta^2 + k) q, k > 0, in the norm of its energy, which
 /// the motion itself conserves; see step_on_oscillator(). Stable or not is too coarse a question where words
@@ -155,7 +173,11 @@ double growth_of_pair(const nysalt::word& word, const std::vector<double>& coeff
 double transient_growth(const nysalt::word& word, const std::vector<double>& coefficients, double theta,
                         double k, std::int64_t steps);
 
+}  // namespace detail
+
 // Stability of a linear symplectic step, and how near it is to a loss of stability.
+
+namespace detail {
 
 /// Eigenvalues of a symplectic matrix of 2 n rows, in coordinates (q, p). Those on the unit circle have a
 /// Krein signature, the sign of i x^* Omega x of their vectors x; where two of opposite signature meet an
@@ -189,5 +211,7 @@ symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step);
 /// powers, and are 4 pi/3 apart at most there. At least 1; infinite where it grows beyond 10^6. Cost:
 /// log2(steps) products of matrices.
 double largest_power(const Eigen::MatrixXd& step, std::int64_t steps);
+
+}  // namespace detail
 
 }  // namespace nysalt

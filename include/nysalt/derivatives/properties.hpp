@@ -12,6 +12,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Exact Jacobian of a map of phase space at x, rows and columns ordered (q, p). The map takes a
 /// phase_point<dual<double, 1>, N>& and changes it in place. Cost: 2 N evaluations of the map.
 template <int N>
@@ -48,12 +50,14 @@ inline Eigen::MatrixXd symplectic_form(Eigen::Index n) {
   return omega;
 }
 
+}  // namespace detail
+
 /// Largest entry of J^T Omega J - Omega with the exact Jacobian J of a map at x: zero to rounding if and
 /// only if the map is symplectic there [hairer_lubich_wanner_2006, definition VI.2.2].
 template <int N>
 double symplecticity_defect(const auto& map, const phase_point<double, N>& x) {
-  const Eigen::MatrixXd omega = symplectic_form(x.size());
-  const Eigen::MatrixXd j = jacobian(map, x);
+  const Eigen::MatrixXd omega = detail::symplectic_form(x.size());
+  const Eigen::MatrixXd j = detail::jacobian(map, x);
   return (j.transpose() * omega * j - omega).cwiseAbs().maxCoeff();
 }
 
@@ -61,7 +65,7 @@ double symplecticity_defect(const auto& map, const phase_point<double, N>& x) {
 template <System S>
 double symplecticity_defect(const S& system, const method& method, double step,
                             const phase_point<double, S::dimension>& x) {
-  return symplecticity_defect(step_map(system, method, step), x);
+  return symplecticity_defect(detail::step_map(system, method, step), x);
 }
 
 /// Largest coordinate of R Phi R Phi(x) - x with R(q, p) = (q, -p): zero to rounding for reversible maps
@@ -80,7 +84,7 @@ double reversibility_defect(const auto& map, const phase_point<double, N>& x) {
 template <System S>
 double reversibility_defect(const S& system, const method& method, double step,
                             const phase_point<double, S::dimension>& x) {
-  return reversibility_defect(step_map(system, method, step), x);
+  return reversibility_defect(detail::step_map(system, method, step), x);
 }
 
 }  // namespace nysalt

@@ -30,6 +30,8 @@ Eigen::MatrixXd kinetic_factor(const model& system, const Eigen::VectorXd& p);
 
 namespace nysalt {
 
+namespace detail {
+
 /// f'(q) v of a field at states of a motion. Differences of a black box go a part of how far the states lie
 /// apart.
 class force_jacobian {
@@ -57,7 +59,11 @@ class force_jacobian {
   Eigen::VectorXd lengths_;
 };
 
+}  // namespace detail
+
 // Both ends of a symmetric spectrum, from products with vectors only.
+
+namespace detail {
 
 /// Both ends of a spectrum, with approximate eigenvectors.
 struct spectrum_ends {
@@ -80,6 +86,8 @@ using symmetric_map = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 /// finite. Cost: some 8 to 40 products, and k^2 dot products for k.
 spectrum_ends ends_of_spectrum(const symmetric_map& multiply, const Eigen::VectorXd& start,
                                double relative_error = 0.01);
+
+}  // namespace detail
 
 // Extreme eigenvalues of the Hessian along the motion: stiffness and instability.
 
@@ -106,6 +114,8 @@ struct stiffness_range {
 stiffness_range hessian_spectrum(const model& system, const phase_points& states, field of = field::whole);
 
 // All frequencies of the linearised motion at a state, for any separable Hamiltonian.
+
+namespace detail {
 
 /// Frequencies of the linearised motion at (q, p), from low to high: square roots of the eigenvalues of
 /// K''(p) V''(q), 0 where negative. Empty where K''(p) is not positive semidefinite. Throws
@@ -143,5 +153,7 @@ inline constexpr Eigen::Index most_for_all_frequencies = 64;
 /// frequencies_at() and hessian_spectrum() do. Cost: for each state one frequencies_at(), or 8 to 40
 /// directional derivatives.
 frequencies_along frequencies_of_states(const model& system, const phase_points& states);
+
+}  // namespace detail
 
 }  // namespace nysalt

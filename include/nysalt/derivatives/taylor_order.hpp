@@ -16,6 +16,8 @@ namespace nysalt {
 
 // A generic system whose flow is known as a power series, on which orders are measured.
 
+namespace detail {
+
 /// Orders are distinguished up to this one, which means "this or more".
 inline constexpr int highest_taylor_order = 10;
 
@@ -89,6 +91,8 @@ class order_probe {
   phase_point<double, 3> start_;
 };
 
+}  // namespace detail
+
 /// The orders of a method where K = p M^-1 p / 2, and where K(p) may be anything. 0: not consistent;
 /// highest_taylor_order: this or more.
 struct taylor_orders {
@@ -97,6 +101,8 @@ struct taylor_orders {
   friend bool operator==(const taylor_orders&, const taylor_orders&) = default;  ///< equal in both
 };
 
+namespace detail {
+
 /// A composition of any kind: the state after a step of length 1 from start() of the system, with
 /// coefficients.
 using composition_step =
@@ -104,6 +110,8 @@ using composition_step =
 
 /// The orders of a composition of any kind.
 taylor_orders taylor_order_of(const std::vector<double>& coefficients, const composition_step& one_step);
+
+}  // namespace detail
 
 /// The orders of a word with coefficients that are known to ten decimals: one step on a generic system, and
 /// its flow, are expanded in powers of h and compared. Cost: as many steps in series as there are letters,

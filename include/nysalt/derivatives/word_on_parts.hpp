@@ -15,6 +15,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Transient growth of the linearised motion of a word, as energies.
 struct growth_of_energy {
   /// Largest (|M^n|^2 - 1) of up to early_steps steps: the energy error of oscillations, relative to their
@@ -119,5 +121,7 @@ class word_on_parts {
   double amplitude_ = 0.0;  // root mean square of (q, p) in the norm of the energy
   std::string why_not_;
 };
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -34,17 +34,17 @@ class thermal_positions {
   std::string description_;
 };
 
-/// Initial states of the soft springs.
-struct soft_motion {
-  double displacement = 1.0;  ///< x_0 of every pair
-  double velocity = 1.0;      ///< y_0 of every pair
-};
-
 namespace detail {
 
 /// The law of fpu_law.
 class fpu_starts {
  public:
+  /// Initial states of the soft springs.
+  struct soft_motion {
+    double displacement = 1.0;  ///< x_0 of every pair
+    double velocity = 1.0;      ///< y_0 of every pair
+  };
+
   fpu_starts(Eigen::Index pairs, double omega, double spread, const soft_motion& soft);
   phase_point<double, Eigen::Dynamic> start(std::uint64_t seed, std::uint64_t n) const;
   std::string description() const;
@@ -71,14 +71,15 @@ class struck_cluster {
 
 }  // namespace detail
 
-/// States of the FPU chain [li_lu_tao_ye_2023, equation (5.5)]: x_0 and y_0 as given, and x_1 = 1/omega +
-/// zeta, y_1 = 1 + eta, with zeta and eta normal of standard deviation spread/omega. The paper's spread, x_0
-/// and y_0 are 1: nearly harmonic states, which the states of soft_dominated are not.
+/// States of the FPU chain [li_lu_tao_ye_2023, equation (5.5)]: x_0 and y_0 as given by a `soft_motion`, and
+/// x_1 = 1/omega + zeta, y_1 = 1 + eta, with zeta and eta normal of standard deviation spread/omega. The
+/// paper's spread, x_0 and y_0 are 1: nearly harmonic states, which the states of soft_dominated are not.
 template <int Pairs>
 class fpu_law : public detail::in_dimension<detail::fpu_starts, fpu_chain<Pairs>::dimension> {
  public:
   /// Throws std::invalid_argument if the spread is negative, or it or the soft motion not finite.
-  explicit fpu_law(const fpu_chain<Pairs>& chain, double spread = 1.0, const soft_motion& soft = {})
+  explicit fpu_law(const fpu_chain<Pairs>& chain, double spread = 1.0,
+                   const detail::fpu_starts::soft_motion& soft = {})
       : detail::in_dimension<detail::fpu_starts, fpu_chain<Pairs>::dimension>(chain.pairs(), chain.omega(),
                                                                               spread, soft) {}
 
@@ -120,7 +121,7 @@ class lennard_jones_law
   /// Throws std::invalid_argument if the temperature, an energy, is negative or not finite.
   lennard_jones_law(const lennard_jones<Space, Atoms>& system, double temperature)
       : detail::in_dimension<detail::struck_cluster, lennard_jones<Space, Atoms>::dimension>(
-            cluster_at_rest(system), system.space(), temperature) {}
+            detail::cluster_at_rest(system), system.space(), temperature) {}
 };
 
 /// A crystal that is heated: atoms on a face-centred cubic lattice that fills the box, with normal momenta of

@@ -35,7 +35,7 @@ class normal_around {
     phase_point<double, N> normals = centre_;
     noise_counter at = {.trajectory = n, .purpose = noise_purpose::initial_state};
     standard_normals(seed, at, normals.q);
-    at.slot += slots_for(static_cast<std::uint64_t>(start.size()));
+    at.slot += detail::slots_for(static_cast<std::uint64_t>(start.size()));
     standard_normals(seed, at, normals.p);
     for (Eigen::Index i = 0; i < start.size(); ++i) {
       start.q[i] += deviation_q_ * normals.q[i];

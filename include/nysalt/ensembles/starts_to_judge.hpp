@@ -18,6 +18,8 @@ phase_points starts_to_judge(const model& system, const initial_states& ensemble
 
 // Starts of an ensemble, rare energetic ones among them.
 
+namespace detail {
+
 /// Number of the typical starts, which come first in typical_and_energetic_starts().
 inline constexpr std::size_t plain_starts = 128;
 
@@ -30,5 +32,7 @@ std::vector<phase_point<double, Eigen::Dynamic>> typical_and_energetic_starts(co
                                                                               std::uint64_t seed,
                                                                               std::int64_t first,
                                                                               std::int64_t most_if_expensive);
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -44,10 +44,12 @@ struct composition {
 
   static std::array<parameter_range, count> ranges() {
     std::array<parameter_range, count> all;
-    all.fill({-farthest_parameter, farthest_parameter, false});
+    all.fill({-detail::farthest_parameter, detail::farthest_parameter, false});
     return all;
   }
 };
+
+namespace detail {
 
 /// The names a1, b1, a2, b2, ... of coefficients that are parameters, in the order of the word; b first where
 /// the word begins with it.
@@ -61,6 +63,8 @@ constexpr std::array<std::string_view, Count> names_in_turn(bool b_is_first) {
   return all;
 }
 
+}  // namespace detail
+
 /// x_1 y_1 x_2 y_2 ... y_2 x_2 y_1 x_1 with x and y each adding up to 1: symmetric, of order 2. Parameters
 /// are the coefficients from the left; the last of each letter follow from the sums. Where the steps of words
 /// of s = 4 kicks and more are large, the best of them hold large kicks of opposite sign around a short
@@ -69,7 +73,7 @@ template <Flow Outer, Flow Inner, std::size_t Length>
 struct symmetric_composition : composition<(static_cast<int>(Length) - 3) / 2> {
   static constexpr word letters = alternating_word<Outer, Inner, Length>();
   static constexpr std::size_t free = (Length - 3) / 2;
-  static constexpr auto parameter_names = names_in_turn<free>(Outer::reads != field::none);
+  static constexpr auto parameter_names = detail::names_in_turn<free>(Outer::reads != field::none);
   static constexpr int order = 2;
   static constexpr bool symmetric = true;
   static constexpr bool requires_quadratic_kinetic = QuadraticFlow<Outer>;
@@ -85,7 +89,7 @@ struct symmetric_composition : composition<(static_cast<int>(Length) - 3) / 2> {
 
   template <Scalar C>
   static std::array<C, Length> coefficients(const std::array<C, free>& theta) {
-    return palindrome<Length, C>(theta);
+    return detail::palindrome<Length, C>(theta);
   }
 
   /// The parameters that a classical method of this word has.
@@ -107,7 +111,6 @@ struct numbered_name {
     text[Length - 1] = static_cast<char>('0' + number);
   }
 };
-}  // namespace detail
 
 /// The classical methods A B ... B A with that number of kicks, as members of a family F of such words.
 /// Rotations may replace the drifts: of K, order conditions ask but that it is quadratic in p.
@@ -122,6 +125,8 @@ std::vector<classical_member<F::parameters>> classical_palindromes() {
   return {};
 }
 
+}  // namespace detail
+
 /// A B A ... B A with s kicks: s evaluations.
 template <int Kicks>
   requires(Kicks >= 2 && Kicks < 10)
@@ -134,7 +139,7 @@ struct aba : symmetric_composition<drift, kick, 2 * Kicks + 1> {
   static constexpr std::string_view name{text.text.data(), text.text.size()};
 
   static std::vector<classical_member<base::parameters>> classical_members() {
-    return classical_palindromes<base, Kicks>();
+    return detail::classical_palindromes<base, Kicks>();
   }
 };
 
@@ -162,6 +167,8 @@ struct bab : symmetric_composition<kick, drift, 2 * Drifts + 1> {
     return {};
   }
 };
+
+namespace detail {
 
 /// X(x1) Y(y1) X(x2) Y(y2) ... with s letters Y, not symmetric: all but the last coefficient of each letter,
 /// which follow from the sums, are parameters. s evaluations. What is learned has the order 1 in truth, with
@@ -195,23 +202,25 @@ struct free_composition : composition<2 * Stages - 1> {
   }
 };
 
+}  // namespace detail
+
 /// A B ... A with three kicks, five parameters.
-struct aba3_free : free_composition<drift, kick, 3> {
+struct aba3_free : detail::free_composition<drift, kick, 3> {
   static constexpr std::string_view name = "aba3_free";
   using contained = aba<3>;
 };
 /// A B ... A with four kicks, seven parameters.
-struct aba4_free : free_composition<drift, kick, 4> {
+struct aba4_free : detail::free_composition<drift, kick, 4> {
   static constexpr std::string_view name = "aba4_free";
   using contained = aba<4>;
 };
 /// A B ... A with six kicks, eleven parameters.
-struct aba6_free : free_composition<drift, kick, 6> {
+struct aba6_free : detail::free_composition<drift, kick, 6> {
   static constexpr std::string_view name = "aba6_free";
   using contained = aba<6>;
 };
 /// B A ... B with six drifts, eleven parameters.
-struct bab6_free : free_composition<kick, drift, 6> {
+struct bab6_free : detail::free_composition<kick, drift, 6> {
   static constexpr std::string_view name = "bab6_free";
   using contained = bab<6>;
 };
@@ -230,7 +239,7 @@ struct r_aba : symmetric_composition<rotation, soft_kick, 2 * Kicks + 1> {
   static constexpr std::string_view source = "tuckerman_berne_martyna_1992";
 
   static std::vector<classical_member<base::parameters>> classical_members() {
-    return classical_palindromes<base, Kicks>();
+    return detail::classical_palindromes<base, Kicks>();
   }
 };
 

@@ -18,6 +18,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// X(a) Y(b) X(1/2 - a) Z(1 - 2 b, c) X(1/2 - a) Y(b) X(a) with a gradient kick Z: four evaluations.
 template <Flow X, Flow Y, Flow Z>
 struct gradient_composition : composition<3> {
@@ -63,15 +65,19 @@ struct gradient_composition : composition<3> {
   }
 };
 
+}  // namespace detail
+
 /// A(a) B(b) A(1/2 - a) G(1 - 2 b, c) A(1/2 - a) B(b) A(a); fg_chin where a = 0.
-struct fg4 : gradient_composition<drift, kick, gradient_kick> {
+struct fg4 : detail::gradient_composition<drift, kick, gradient_kick> {
   static constexpr std::string_view name = "fg4";
 };
 
 /// R(a) S(b) R(1/2 - a) H(1 - 2 b, c) R(1/2 - a) S(b) R(a), for systems that declare a quadratic part.
-struct r_fg4 : gradient_composition<rotation, soft_kick, soft_gradient_kick> {
+struct r_fg4 : detail::gradient_composition<rotation, soft_kick, soft_gradient_kick> {
   static constexpr std::string_view name = "r_fg4";
 };
+
+namespace detail {
 
 /// B(b) A(1/2) X(1 - 2 b, c) A(1/2) B(b) with a kick X that uses derivatives of the force: three evaluations.
 template <Flow Middle>
@@ -92,8 +98,10 @@ struct chin_composition : composition<2> {
   }
 };
 
+}  // namespace detail
+
 /// With the letter G: one minimum. At b = 1/6, c = 1/72 Chin's method 4A [chin_1997].
-struct fg_chin : chin_composition<gradient_kick> {
+struct fg_chin : detail::chin_composition<gradient_kick> {
   static constexpr std::string_view name = "fg_chin";
   static constexpr std::string_view source = "chin_1997";
 
@@ -108,7 +116,7 @@ struct fg_chin : chin_composition<gradient_kick> {
 
 /// With the letter D: no evaluation is a derivative. At b = 1/6, c = 1/24 Chin's method 4A with a displaced
 /// kick; not symplectic, and for sampling only.
-struct fd_chin : chin_composition<displaced_kick> {
+struct fd_chin : detail::chin_composition<displaced_kick> {
   static constexpr std::string_view name = "fd_chin";
   static constexpr std::string_view source = "yin_mawhinney_2011";
 

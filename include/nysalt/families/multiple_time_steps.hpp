@@ -45,14 +45,14 @@ template <int Inner, int Outer>
 inline constexpr std::array<char, 10> name_of_nested{
     'n', 'e', 's', 't', 'e', 'd', '_', static_cast<char>('0' + Inner), 'x', static_cast<char>('0' + Outer)};
 
-}  // namespace detail
-
 /// `Outer` kicks of the parts Fast and Slow together and one more, which merges, with Inner drifts and
 /// Inner - 1 kicks of Fast only between any two of them. With Inner = n and Outer = 1 it is the word of
 /// r-RESPA: k A (F A)^(n - 1) k.
 template <std::size_t Fast, std::size_t Slow, std::size_t Inner, std::size_t Outer = 1>
 inline constexpr word nested_word =
     detail::nest_kicks<Fast, Slow, Inner>(std::make_index_sequence<2 * Inner * Outer + 1>());
+
+}  // namespace detail
 
 /// r-RESPA and its kin: a nested_word whose coefficients read the same from both ends, the coefficients of
 /// drifts, of Fast and of Slow adding up to one each. Parameters are the free drifts from the left, then the
@@ -71,7 +71,7 @@ struct nested_kicks : composition<(Inner * Outer - 1) / 2 + Inner * Outer / 2 + 
   static constexpr std::size_t free = free_drifts + free_fast + free_slow;
 
   static constexpr word letters =
-      nested_word<Fast, Slow, static_cast<std::size_t>(Inner), static_cast<std::size_t>(Outer)>;
+      detail::nested_word<Fast, Slow, static_cast<std::size_t>(Inner), static_cast<std::size_t>(Outer)>;
   static constexpr std::string_view name{detail::name_of_nested<Inner, Outer>.data(), 10};
   static constexpr int order = 2;
   static constexpr bool symmetric = true;
@@ -113,12 +113,13 @@ template <std::size_t Fast, std::size_t Slow, int Inner>
 struct r_respa : nysalt::method {
   r_respa()
       : nysalt::method(sentence("r_respa({})", Inner),
-                       nested_word<Fast, Slow, static_cast<std::size_t>(Inner)>, equal_steps(),
+                       detail::nested_word<Fast, Slow, static_cast<std::size_t>(Inner)>, equal_steps(),
                        {2, true, false}) {}
 
  private:
   static std::vector<double> equal_steps() {
-    std::vector<double> all(nested_word<Fast, Slow, static_cast<std::size_t>(Inner)>.slots, 1.0 / Inner);
+    std::vector<double> all(detail::nested_word<Fast, Slow, static_cast<std::size_t>(Inner)>.slots,
+                            1.0 / Inner);
     all.front() = all[all.size() - 2] = 0.5 / Inner;
     all[1] = all.back() = 0.5;
     return all;

@@ -42,7 +42,7 @@ struct drift {
       }
       for (Eigen::Index i = 0; i < n; ++i) x.q[i] += x.p[i] * c;
     } else if constexpr (HasVelocity<S, double> || HasKineticEnergy<S, double>) {
-      auto v = make_vector<T>(system);
+      auto v = detail::make_vector<T>(system);
       velocity<T>(system, x.p, v);
       for (Eigen::Index i = 0; i < n; ++i) x.q[i] += v[i] * c;
     } else if constexpr (HasInverseMass<S>) {
@@ -57,6 +57,8 @@ struct drift {
     q += c[0] * p;
   }
 };
+
+namespace detail {
 
 /// The flow of V(q) or of its soft part, p += c h force(q).
 template <field Field>
@@ -111,10 +113,12 @@ struct kick_of {
   }
 };
 
+}  // namespace detail
+
 /// B: the flow of V(q).
-using kick = kick_of<field::whole>;
+using kick = detail::kick_of<field::whole>;
 /// S: the flow of V without its quadratic part, whose flow is a rotation.
-using soft_kick = kick_of<field::soft>;
+using soft_kick = detail::kick_of<field::soft>;
 
 }  // namespace nysalt
 

@@ -101,6 +101,8 @@ struct kick_of_parts : exact_flow<sizeof...(Part) == 1 ? static_cast<char>('0' +
 template <std::size_t Part>
 using kick_of_part = kick_of_parts<Part>;
 
+namespace detail {
+
 /// The kicks of each of `Parts` parts alone, and of all of them together: the letters of a sum of parts.
 template <class Parts>
 struct kicks_of;
@@ -112,5 +114,7 @@ template <>
 struct kicks_of<std::index_sequence<0>> {
   using type = std::tuple<kick_of_part<0>>;
 };
+
+}  // namespace detail
 
 }  // namespace nysalt

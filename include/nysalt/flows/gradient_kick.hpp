@@ -7,12 +7,16 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Coefficients of a displaced kick with the step folded in.
 template <Scalar C>
 struct displaced_kick_coefficients {
   C of_f{0.0};          ///< b h
   C displacement{0.0};  ///< c h^2
 };
+
+}  // namespace detail
 
 /// D: a kick with the force at a displaced point, with two coefficients:
 ///   p += b h f(q + c h^2 M^-1 f(q)),   f = -grad V.
@@ -39,12 +43,13 @@ struct displaced_kick {
   static constexpr bool serves = HasQuadraticKinetic<S>;
 
   template <Scalar C>
-  static displaced_kick_coefficients<C> prepare(const C& b, const C& c, double h) {
+  static detail::displaced_kick_coefficients<C> prepare(const C& b, const C& c, double h) {
     return {b * h, c * (h * h)};
   }
 
   template <System S, class State, CoefficientOf<typename State::scalar_type> C>
-  static void apply(const S& system, const displaced_kick_coefficients<C>& prepared, State& x, auto& room) {
+  static void apply(const S& system, const detail::displaced_kick_coefficients<C>& prepared, State& x,
+                    auto& room) {
     using T = typename State::scalar_type;
     const auto& [of_f, displacement] = prepared;
     auto& displaced = room.x;
@@ -62,6 +67,8 @@ struct displaced_kick {
     p += -c[0] * stiffness.template times<field::whole>(displaced);
   }
 };
+
+namespace detail {
 
 /// Coefficients of a gradient kick with the step folded in.
 template <Scalar C>
@@ -124,10 +131,12 @@ struct gradient_kick_of {
   }
 };
 
+}  // namespace detail
+
 /// G: with the whole force.
-using gradient_kick = gradient_kick_of<field::whole>;
+using gradient_kick = detail::gradient_kick_of<field::whole>;
 /// H: with the force of V without its quadratic part, which commutes with V_soft as all that depends on q
 /// does.
-using soft_gradient_kick = gradient_kick_of<field::soft>;
+using soft_gradient_kick = detail::gradient_kick_of<field::soft>;
 
 }  // namespace nysalt

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <cmath>
 #include <stdexcept>
 
 #include "nysalt/bath.hpp"
@@ -16,7 +15,7 @@ namespace nysalt {
 /// [leimkuhler_matthews_2015]. Its noise is the noise of the interval of the step which it covers: the
 /// letters O of a word share the step in their order.
 struct ornstein_uhlenbeck {
-  static constexpr char letter = bath_letter;
+  static constexpr char letter = detail::bath_letter;
   static constexpr std::size_t slots = 1;
   static constexpr field reads = field::none;
   static constexpr int force_derivatives = 0;
@@ -61,22 +60,13 @@ struct ornstein_uhlenbeck {
                     flow_state<T, S::dimension>& x) {
     const C decay = flow.decay;
     const C of_unit_mass = flow.deviation;
-    if constexpr (ErasedSystem<S>) {
-      if (system.has_unit_mass()) {
-        for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] = x.p[i] * decay + xi[i] * of_unit_mass;
-        return;
-      }
+    if (detail::facts_of(system).has_unit_mass) {
+      for (Eigen::Index i = 0; i < x.size(); ++i) x.p[i] = x.p[i] * decay + xi[i] * of_unit_mass;
+      return;
     }
     for (Eigen::Index i = 0; i < x.size(); ++i) {
-      if constexpr (ErasedSystem<S>) {
-        const C deviation = flow.deviation * system.root_mass(i);
-        x.p[i] = x.p[i] * flow.decay + xi[i] * deviation;
-      } else if constexpr (HasInverseMass<S>) {
-        const C deviation = flow.deviation * (1.0 / std::sqrt(system.inverse_mass(i)));
-        x.p[i] = x.p[i] * flow.decay + xi[i] * deviation;
-      } else {
-        x.p[i] = x.p[i] * flow.decay + xi[i] * flow.deviation;
-      }
+      const C deviation = of_unit_mass * root_mass(system, i);
+      x.p[i] = x.p[i] * decay + xi[i] * deviation;
     }
   }
 };

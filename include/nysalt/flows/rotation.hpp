@@ -46,14 +46,15 @@ struct rotation {
   /// The turn of each mode over t = c h.
   template <Scalar C, int N>
   struct prepared {
-    std::shared_ptr<const modal_coordinates> part;  ///< basis and frequencies
-    vector<C, N> cosine;                            ///< cos(omega t)
-    vector<C, N> of_y_in_x;                         ///< sin(omega t)/omega, or t where omega = 0
-    vector<C, N> of_x_in_y;                         ///< -omega sin(omega t)
+    std::shared_ptr<const detail::modal_coordinates> part;  ///< basis and frequencies
+    vector<C, N> cosine;                                    ///< cos(omega t)
+    vector<C, N> of_y_in_x;                                 ///< sin(omega t)/omega, or t where omega = 0
+    vector<C, N> of_x_in_y;                                 ///< -omega sin(omega t)
   };
 
   template <int N, Scalar C>
-  static prepared<C, N> prepare(const C& c, double h, const std::shared_ptr<const modal_coordinates>& part) {
+  static prepared<C, N> prepare(const C& c, double h,
+                                const std::shared_ptr<const detail::modal_coordinates>& part) {
     using std::cos;
     using std::sin;
     const auto n = static_cast<Eigen::Index>(part->frequencies().size());

@@ -29,9 +29,9 @@ class sum_of_parts {
   static constexpr int dimension = First::dimension;
   static constexpr std::size_t parts = 1 + sizeof...(Rest);  ///< number of parts
   /// Kicks with the force of one part, and with all of them.
-  using letters = typename kicks_of<std::make_index_sequence<parts>>::type;
+  using letters = typename detail::kicks_of<std::make_index_sequence<parts>>::type;
   /// Most trajectories side by side: as many as each part bears.
-  static constexpr int lanes = std::min({lanes_of<First>, lanes_of<Rest>...});
+  static constexpr int lanes = std::min({detail::lanes_of<First>, detail::lanes_of<Rest>...});
 
   /// Throws std::invalid_argument unless all parts have one size.
   explicit sum_of_parts(const First& first, const Rest&... rest) : parts_(first, rest...) {
@@ -63,7 +63,7 @@ class sum_of_parts {
   void force(const vector<T, dimension>& q, vector<T, dimension>& f) const {
     nysalt::force<T>(part<0>(), q, f);
     if constexpr (parts > 1) {
-      auto of_part = make_vector<T>(part<0>());
+      auto of_part = detail::make_vector<T>(part<0>());
       const auto add = [&](const auto& one) {
         nysalt::force<T>(one, q, of_part);
         for (Eigen::Index i = 0; i < f.size(); ++i) f[i] += of_part[i];

@@ -21,8 +21,12 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Parameters whose derivatives are carried at a time; more take further passes.
 inline constexpr int directions_at_a_time = 2;
+
+}  // namespace detail
 
 }  // namespace nysalt
 
@@ -112,7 +116,7 @@ class any_system {
 };
 
 /// What is known of a system at run time; concepts say the same of the type.
-struct model_facts {
+struct model_facts : system_facts {
   Eigen::Index size = 0;
   double force_cost = 0.0;
   std::string description{};
@@ -123,9 +127,7 @@ struct model_facts {
   bool in_lanes = false;                      ///< over packs too
   bool in_lanes_with_slopes = false;
   bool has_potential = false;
-  bool has_energy = false;              ///< over double
   bool has_energy_over_slopes = false;  ///< over what carries derivatives by theta, in lanes or not
-  bool has_quadratic_kinetic = false;
   bool has_differentiable_velocity = false;
   bool has_modes = false;
   bool has_quadratic_part = false;
@@ -137,8 +139,7 @@ struct model_facts {
   bool has_potential_over_slopes = false;
   bool has_kinetic_energy_over_slopes = false;
   bool has_velocity_over_slopes = false;
-  bool may_be_wrong = false;  ///< force_may_be_wrong
-  bool is_black_box = false;
+  bool may_be_wrong = false;                ///< force_may_be_wrong
   std::vector<letter_facts> own_letters{};  ///< that the system declares
   int derivative_calls = 1;
   const char* derivative_source = "";

@@ -225,10 +225,11 @@ class typed_kernels final : public kernels<T> {
   void along(const column& q, const column& v, column& g, lifted_room<T, Eigen::Dynamic>& room,
              double reach) const {
     if constexpr (N == Eigen::Dynamic) {
-      nysalt::force_along<F, T>((*system_), q, v, g, room, reach);
+      nysalt::detail::force_along<F, T>((*system_), q, v, g, room, reach);
     } else {
       lifted_room<T, N> own;
-      nysalt::force_along<F, T>((*system_), as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(g), own, reach);
+      nysalt::detail::force_along<F, T>((*system_), as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(g), own,
+                                        reach);
     }
   }
   static T in_each_lane(const column& q, const column& p, const auto& value) {
@@ -271,7 +272,8 @@ class typed_system final : public any_system {
     const auto one_at_a_time = lock();
     if constexpr (BlackBoxForce<S>) {
       constexpr int N = S::dimension;
-      nysalt::directional_derivative(system_, as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(f), as_fixed<N>(g));
+      nysalt::detail::directional_derivative(system_, as_fixed<N>(q), as_fixed<N>(v), as_fixed<N>(f),
+                                             as_fixed<N>(g));
     } else {
       refuse_kernel();
     }
@@ -364,8 +366,9 @@ std::string kind_without_bath(const S& system) {
 
 /// What the concepts say of S, and what the system itself does.
 template <class S>
-model_facts facts_of(const S& system) {
-  model_facts facts;
+model_facts model_facts_of(const S& system) {
+  model_facts facts{facts_of_type<S>};
+  facts.is_locked = needs_lock<S>;
   facts.size = nysalt::size(system);
   facts.force_cost = nysalt::force_cost(system);
   facts.description = facts.base_description = describe(system);
@@ -380,11 +383,9 @@ model_facts facts_of(const S& system) {
   facts.in_lanes = serves<S, lanes>;
   facts.in_lanes_with_slopes = serves<S, lanes_with_slopes>;
   facts.has_potential = HasPotential<S, double>;
-  facts.has_energy = HasEnergy<S>;
   facts.has_energy_over_slopes =
       HasEnergy<S> &&
       (serves<S, lanes_with_slopes> ? serves_energy<S, lanes_with_slopes>() : serves_energy<S, slopes>());
-  facts.has_quadratic_kinetic = NystromSystem<S>;
   facts.has_differentiable_velocity =
       NystromSystem<S> || HasVelocity<S, dual<double, 1>> ||
       (HasKineticEnergy<S, double> && HasKineticEnergy<S, dual<dual<double, 1>, sweep<S::dimension>>>);
@@ -399,8 +400,7 @@ model_facts facts_of(const S& system) {
   facts.has_kinetic_energy_over_slopes = HasKineticEnergy<S, slopes>;
   facts.has_velocity_over_slopes = HasVelocity<S, slopes>;
   facts.may_be_wrong = force_may_be_wrong<S>;
-  facts.is_black_box = BlackBoxForce<S>;
-  facts.own_letters = letters_declared_by(system);
+  facts.own_letters = letters_on(system).declared();
   facts.derivative_calls = derivative_calls<S>;
   facts.derivative_source = derivative_source<S>();
   facts.letters_over_double = letters_served<S, double>();

@@ -23,17 +23,17 @@ constexpr std::string_view to_string(verdict v) {
   return names[static_cast<std::size_t>(v)];
 }
 
-/// One entry of theta.
-struct fitted_parameter {
-  std::string name;       ///< name of the parameter in the family
-  double value;           ///< learned, or fixed
-  double standard_error;  ///< NaN where it is not known, see errors_withheld; infinite where the loss is
-                          ///< flat; 0 if the user fixed the parameter
-  bool free;              ///< false: fixed by the user, or held at its bound or by the guard
-};
-
 /// Everything about a fit: where it comes from, how good it is, and whether to use it.
 struct fit_summary {
+  /// One entry of theta.
+  struct fitted_parameter {
+    std::string name;       ///< name of the parameter in the family
+    double value;           ///< learned, or fixed
+    double standard_error;  ///< NaN where it is not known, see errors_withheld; infinite where the loss is
+                            ///< flat; 0 if the user fixed the parameter
+    bool free;              ///< false: fixed by the user, or held at its bound or by the guard
+  };
+
   std::string family;               ///< name of the family
   std::string system;               ///< description of the system
   std::string reference;            ///< description of the reference that made the data

@@ -35,6 +35,8 @@ struct enough_course {
   std::string report() const;
 };
 
+namespace detail {
+
 /// Learns with M = first, 2 first, ... trajectories until fit_summary::excess_share() is at most the share
 /// asked for, or M is the most that may be. The excess falls as 1/M [li_lu_tao_ye_2023, theorem 3.1], so that
 /// M ends between enough and twice that. It is an estimate itself, off by a fifth from 50 trajectories: begin
@@ -43,6 +45,8 @@ struct enough_course {
 /// 2 <= first <= most. Cost: twice the cost of the last fit.
 enough_course until_enough(std::int64_t first, const enough_options& options,
                            const std::function<fit_summary(std::int64_t trajectories)>& learn);
+
+}  // namespace detail
 
 /// The data of learn_enough(), and how many trajectories they may grow to.
 struct growing_data {

@@ -20,6 +20,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Frequencies of a stability criterion: all that were met, or those that are declared or met in a tenth of
 /// the states. A rare one lasts for a part of its period, as the frequency of a close pair of atoms; what it
 /// does to a run only a trial run shows.
@@ -158,5 +160,7 @@ class stability_guard {
   std::string description_;
   std::shared_ptr<const word_on_parts> parts_;  // of a word with kicks of parts, else null
 };
+
+}  // namespace detail
 
 }  // namespace nysalt

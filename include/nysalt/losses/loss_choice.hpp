@@ -27,26 +27,30 @@ struct after_steps_options {
   nysalt::execution execution{};  ///< threads only: ranks are those of the data
 };
 
-/// From what a loss over data is made. The loss copies the data, and refers to the metric.
-struct loss_inputs {
-  const nysalt::family& family;  ///< family to fit
-  const model& system;           ///< system that the data are of
-  const flow_map_data& data;     ///< data to sum over
-  const metric& measure;         ///< weights of an error of the state
-  after_steps_options how;       ///< steps after which an error counts
-  bool in_lanes;                 ///< whether windows are in lanes
-};
-
-/// The criterion that is least for the best of several minima: the loss on held-out data; the state's error
-/// at the ends of held-out trajectories; or the loss on the data that were learned from, so that held-out
-/// data choose nothing.
-enum class judge_of_minima { held_out_loss, held_out_end, training_loss };
+namespace detail {
 
 /// The error after K steps, from four states of each trajectory first, then from each.
 std::vector<after_steps_options> after_each_step(int K, int shortest);
 
+}  // namespace detail
+
 /// A kind of loss: what it needs, how it is made, and how it is judged.
 struct loss_kind {
+  /// From what a loss over data is made. The loss copies the data, and refers to the metric.
+  struct inputs {
+    const nysalt::family& family;  ///< family to fit
+    const model& system;           ///< system that the data are of
+    const flow_map_data& data;     ///< data to sum over
+    const metric& measure;         ///< weights of an error of the state
+    after_steps_options how;       ///< steps after which an error counts
+    bool in_lanes;                 ///< whether windows are in lanes
+  };
+
+  /// The criterion that is least for the best of several minima: the loss on held-out data; the state's error
+  /// at the ends of held-out trajectories; or the loss on the data that were learned from, so that held-out
+  /// data choose nothing.
+  enum class judge_of_minima { held_out_loss, held_out_end, training_loss };
+
   std::string name;          ///< name, as in "state:K"
   bool counts_steps = true;  ///< the number K of steps follows the name
   bool needs_modes = false;  ///< whether the loss needs the modes of the system
@@ -58,10 +62,10 @@ struct loss_kind {
   bool is_shortened = false;     ///< over a quarter of the steps, and again, where no method follows the data
   /// Numbers of steps after which errors count, in trajectories of `shortest` steps or more: what a search
   /// minimises first, ..., and last the loss itself. K follows the name.
-  std::vector<after_steps_options> (*stages)(int K, int shortest) = after_each_step;
+  std::vector<after_steps_options> (*stages)(int K, int shortest) = detail::after_each_step;
   /// The loss over data; where the loss itself asks none, the estimate of what was learned from held-out
   /// data.
-  std::function<std::unique_ptr<const loss_on_data>(const loss_inputs& from)> over_data;
+  std::function<std::unique_ptr<const loss_on_data>(const inputs& from)> over_data;
   /// The loss of a step, if it asks no data; else nullptr.
   objective (*without_data)(const model& system, const nysalt::family& family, double step) = nullptr;
 
@@ -99,12 +103,14 @@ loss_choice own_choice(const std::string& name, int steps, const window_error<do
 /// of losses(); and what own_error() does.
 template <SeparableSystem S, class Error>
 loss_choice loss_of(const S& system, const own_loss<Error>& own) {
-  return detail::own_choice(own.name, own.steps, own_error(system, own.error));
+  return detail::own_choice(own.name, own.steps, detail::own_error(system, own.error));
 }
 
 /// "state:5", "energy:10", "covariance"; K is 1 where it is not said. Throws std::invalid_argument for
 /// anything else.
 loss_choice loss_named(std::string_view text);
+
+namespace detail {
 
 /// Parses the name of a loss; empty for other text.
 std::optional<loss_choice> find_loss(std::string_view text);
@@ -112,5 +118,7 @@ std::optional<loss_choice> find_loss(std::string_view text);
 /// The names that loss_named() reads, such as "state:K, energy:K": of the losses that count steps, or of the
 /// others.
 std::string loss_patterns(bool count_steps);
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -62,9 +62,13 @@ class loss_on_data {
   double value(const Eigen::VectorXd& theta) const { return share().sum(by_trajectory(theta)); }
 };
 
+namespace detail {
+
 /// A loss over data as a function of theta only. Refers to the loss.
 inline objective objective_of(const loss_on_data& loss) {
   return [&loss](const Eigen::VectorXd& theta) { return loss.at(theta); };
 }
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -72,7 +72,11 @@ class stationary_covariance {
   std::vector<piece> pieces_;
 };
 
+namespace detail {
+
 /// The loss as a function of theta only, for a family with the letters of the loss.
 objective objective_of(const stationary_covariance& loss, const family& family);
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -32,9 +32,9 @@ namespace nysalt {
 /// calls `of` once for each pack of windows and each two parameters, which costs little beside their steps.
 template <Scalar R = detail::lanes>
 struct window_error {
-  using scalar = dual<R, directions_at_a_time>;       ///< residuals with their derivatives
-  using data_point = phase_point<R, Eigen::Dynamic>;  ///< states of the data, in the lanes of R
-  using point = phase_point<scalar, Eigen::Dynamic>;  ///< a state that the method comes to
+  using scalar = dual<R, detail::directions_at_a_time>;  ///< residuals with their derivatives
+  using data_point = phase_point<R, Eigen::Dynamic>;     ///< states of the data, in the lanes of R
+  using point = phase_point<scalar, Eigen::Dynamic>;     ///< a state that the method comes to
 
   std::size_t residuals;  ///< number of residuals of a window
   /// Writes r[0..residuals) of the window from start, which the method ends at finish, and the data at
@@ -210,8 +210,6 @@ void write_residuals(const Several& all, std::size_t count, T* r) {
   std::copy(all.begin(), all.end(), r);
 }
 
-}  // namespace detail
-
 /// The scalar that carries windows of S: packs where the system and its derivatives serve them.
 template <SeparableSystem S>
 using scalar_of_passes =
@@ -256,5 +254,7 @@ auto own_error(const S& system, const Error& error) {
         .may_throw = true};
   }
 }
+
+}  // namespace detail
 
 }  // namespace nysalt

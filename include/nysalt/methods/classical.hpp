@@ -13,6 +13,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Coefficients as a constant, one for each slot of the letters.
 class coefficient_list {
  public:
@@ -43,7 +45,11 @@ struct classical_row {
   bool repeats = false;  ///< whether the method is several steps of a shorter one in classical_methods()
 };
 
+}  // namespace detail
+
 // clang-format off
+namespace detail {
+
 /// Classical methods, in the order of the program's list. Orders in a bath, of words with letters O, are
 /// weak ones; the error of the invariant distribution is of that order too, or better.
 inline constexpr classical_row classical_table[] = {
@@ -174,10 +180,16 @@ inline constexpr classical_row processed_table[] = {
                          0.3871163263426732, 0.08061693970225002};
      }(), .order = 6, .source = "blanes_casas_ros_1999", .requires_quadratic_kinetic = true},
 };
+
+}  // namespace detail
 // clang-format on
+
+namespace detail {
 
 /// A row of the table as a method.
 method as_data(const classical_row& row);
+
+}  // namespace detail
 
 /// Rows without letters O that are not several steps of another: what a learned method is compared with.
 std::vector<method> classical_methods();
@@ -206,10 +218,10 @@ constexpr std::size_t row_of(std::string_view name) {
 template <detail::method_name Name>
 struct classical : nysalt::method {
   static constexpr std::size_t row = detail::row_of(Name.view());  ///< number of the row
-  static_assert(row < std::size(classical_table),
+  static_assert(row < std::size(detail::classical_table),
                 "nysalt: no classical method has this name; nysalt/methods/classical.hpp has those that "
                 "there are");
-  classical() : nysalt::method(as_data(classical_table[row])) {}
+  classical() : nysalt::method(detail::as_data(detail::classical_table[row])) {}
 };
 
 /// B(1/2) A B(1/2): velocity Verlet, order 2, one evaluation a step

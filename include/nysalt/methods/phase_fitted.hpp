@@ -68,8 +68,12 @@ std::optional<named_parameters> phase_fitted_start(const nysalt::family& family,
 /// below the end of the coefficients. Cost: a millisecond; they are right to rounding.
 method phase_fitted(const nysalt::family& family, const method& classical, double z);
 
+namespace detail {
+
 /// Source of phase_fitted() in docs/bibliography.bib.
 inline constexpr std::string_view phase_fitted_source = "van_de_vyver_2007";
+
+}  // namespace detail
 
 /// The highest frequency of the system's modes, or of its bands if it declares no modes; 0 where it has
 /// neither. (Bands have room for what soft forces add, which phases should not have.) phase_fitted() at

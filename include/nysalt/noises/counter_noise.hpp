@@ -251,10 +251,10 @@ struct noise_counter {
   noise_purpose purpose{};       ///< purpose of the numbers
 };
 
+namespace detail {
+
 /// The number of slots that hold n numbers.
 constexpr std::uint64_t slots_for(std::uint64_t numbers) { return numbers / 2 + numbers % 2; }
-
-namespace detail {
 
 /// Throws std::invalid_argument if a trajectory, the step or a slot does not fit into the counter.
 inline void check_counter(const noise_counter& first, std::uint64_t trajectories, std::uint64_t slots) {
@@ -305,6 +305,10 @@ template <int Trajectories, class T>
   }
 }
 
+/// Numbers of one trajectory, or of several in lanes.
+template <class T>
+concept DoubleOrPack = std::same_as<T, double> || is_pack<T>;
+
 }  // namespace detail
 
 /// Independent standard normal numbers, a pure function of seed and counter, independent of T, of the number
@@ -314,8 +318,7 @@ template <int Trajectories, class T>
 ///   trajectory mod 2^32,  trajectory div 2^32 + 2^16 (step div 2^32),  step mod 2^32,  slot + 2^24 purpose.
 /// T is double or pack<double, W>. Least cost a number: pack<double>, or double if there are many. Throws
 /// std::invalid_argument if trajectory, step or slot are out of range.
-template <class T>
-  requires std::same_as<T, double> || is_pack<T>
+template <detail::DoubleOrPack T>
 [[gnu::noinline]] void standard_normals(std::uint64_t seed, const noise_counter& first, std::span<T> out) {
   using detail::words;
   constexpr int lanes = lanes_in<T>;
@@ -323,7 +326,7 @@ template <class T>
   constexpr int trajectories = std::min(static_cast<int>(std::bit_ceil(unsigned{lanes})), words::lanes);
   constexpr int slots = words::lanes / trajectories;
   constexpr std::size_t most = 8;  // registers at a time: more than the processor reorders
-  const std::uint64_t needed = slots_for(out.size());
+  const std::uint64_t needed = detail::slots_for(out.size());
   detail::check_counter(first, lanes, needed);
 
   const auto step = static_cast<std::uint64_t>(first.step);
@@ -356,6 +359,8 @@ void standard_normals(std::uint64_t seed, const noise_counter& first, vector<T, 
   standard_normals<T>(seed, first, std::span<T>(out.data(), static_cast<std::size_t>(out.size())));
 }
 
+namespace detail {
+
 /// The uniform number between 0 and 1 that is as likely not exceeded as a standard normal one.
 inline double uniform_by_normal(double normal) { return 0.5 * std::erfc(-normal / std::numbers::sqrt2); }
 /// One of the numbers below `count`, each as likely, by a standard normal one.
@@ -366,6 +371,8 @@ inline std::size_t index_by_normal(double normal, std::size_t count) {
 /// The uniform number between 0 and 1 of the upper 53 of 64 random bits: distributions of the standard differ
 /// between libraries, bits of the same engine do not.
 inline double uniform_by_bits(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-53; }
+
+}  // namespace detail
 
 /// Fresh noise: a pure function of seed, trajectory, step and letter. Two runs with one seed see the same
 /// numbers at the same places, for any lanes, threads and order.
@@ -393,7 +400,7 @@ class counter_noise {
  private:
   template <class T, int N>
   void draw(noise_purpose purpose, const noise_place& at, vector<T, N>& out) const {
-    const auto slots = slots_for(static_cast<std::uint64_t>(out.size()));
+    const auto slots = detail::slots_for(static_cast<std::uint64_t>(out.size()));
     const noise_counter counter{.trajectory = at.trajectory,
                                 .step = at.step,
                                 .slot = slots * static_cast<std::uint64_t>(at.flow),

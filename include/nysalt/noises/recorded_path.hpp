@@ -18,6 +18,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// Standard normal numbers of n consecutive intervals become the numbers of all of them in one: with a the
 /// decay of one interval, exp(-gamma tau),
 ///   xi = sqrt((1 - a^2)/(1 - a^{2 n})) sum_{j = 1..n} a^{n - j} xi_j,
@@ -68,6 +70,8 @@ class coarse_graining {
   double decay_;
 };
 
+}  // namespace detail
+
 /// The recorded noise of a run: standard normal numbers of consecutive intervals, of one trajectory or of
 /// those in the lanes of T.
 template <class T, int N>
@@ -116,7 +120,7 @@ class recorded_path {
   double interval_;
   std::uint64_t trajectory_;
   std::int64_t begin_ = 0;
-  coarse_graining coarse_;
+  detail::coarse_graining coarse_;
   std::vector<vector<T, N>> normals_;
 };
 
@@ -129,7 +133,7 @@ class along_path {
 
   /// A path for a word whose letters O cover `intervals` of a step. Throws std::invalid_argument unless the
   /// parts of a step are whole intervals of the path.
-  along_path(const recorded_path<T, N>& path, noise_intervals intervals, double step)
+  along_path(const recorded_path<T, N>& path, detail::noise_intervals intervals, double step)
       : path_(&path), intervals_(std::move(intervals)) {
     if (intervals_.parts == 0) return;
     const double part = step / intervals_.parts / path.interval();
@@ -169,7 +173,7 @@ class along_path {
 
  private:
   const recorded_path<T, N>* path_;
-  noise_intervals intervals_;
+  detail::noise_intervals intervals_;
   std::int64_t per_part_ = 0;
 };
 

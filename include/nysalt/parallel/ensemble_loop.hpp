@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
-#include <type_traits>
 
 #include "nysalt/communicator.hpp"
 #include "nysalt/core/sentence.hpp"
@@ -15,6 +14,8 @@
 #include "nysalt/system.hpp"
 
 namespace nysalt {
+
+namespace detail {
 
 /// Calls body(first, n) once for each block of n <= width consecutive trajectories first .. first + n - 1, of
 /// `count` in all, on the threads of `how`, in no certain order; only the last block is shorter. A body
@@ -29,6 +30,8 @@ namespace nysalt {
 /// thread has. Throws std::invalid_argument if threads or width are below 1, or if a body changes that.
 void for_each_block(std::int64_t count, int width, const execution& how,
                     const std::function<void(std::int64_t, int)>& body);
+
+}  // namespace detail
 
 /// Calls body(m) for m = 0 .. count - 1: blocks of one.
 void for_each_trajectory(std::int64_t count, const execution& how,
@@ -54,28 +57,22 @@ inline void require_trajectories(const char* who, std::int64_t count, std::int64
 template <class Source>
 concept OnSystem = requires { typename Source::system_type; };
 
-/// The system for one block of trajectories: a copy of a black box, which counts its calls and may keep
-/// scratch of its own, so that each block needs another; any other system itself.
+/// The system for one block of trajectories: itself. Of a model see model.hpp.
 template <System S>
   requires(!OnSystem<S>)
-std::conditional_t<ErasedSystem<S>, S, const S&> own_copy(const S& system) {
-  if constexpr (ErasedSystem<S>) {
-    if (is_black_box(system)) return system.separate();
-  }
+const S& own_copy(const S& system) {
   return system;
 }
 
-/// A stepper for one block of trajectories: of a black box, a stepper of a copy that it holds; else the one
-/// that it was made of, to which it refers.
+/// A stepper for one block of trajectories: of a locked system, a stepper of a copy that it holds; else the
+/// one that it was made of, to which it refers.
 template <class Stepper>
 class own_stepper {
  public:
   explicit own_stepper(const Stepper& shared) : stepper_(&shared) {
-    if constexpr (ErasedSystem<typename Stepper::system_type>) {
-      if (!is_black_box(shared.system())) return;
-      held_ = std::make_unique<held>(shared);
-      stepper_ = &held_->stepper;
-    }
+    if (!facts_of(shared.system()).is_locked) return;
+    held_ = std::make_unique<held>(shared);
+    stepper_ = &held_->stepper;
   }
 
   const Stepper& operator*() const { return *stepper_; }

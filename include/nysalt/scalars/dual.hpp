@@ -155,11 +155,15 @@ dual<T, N> select(const auto& condition, const dual<T, N>& a, const dual<T, N>& 
   return result;
 }
 
+namespace detail {
+
 /// Whether a type is dual<T, N> for some T and N.
 template <class T>
 inline constexpr bool is_dual = false;
 template <class T, int N>
 inline constexpr bool is_dual<dual<T, N>> = true;  ///< a dual is one
+
+}  // namespace detail
 template <class T, int N>
 inline constexpr bool has_functions<dual<T, N>> = true;  ///< below
 

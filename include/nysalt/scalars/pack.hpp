@@ -66,13 +66,15 @@ inline native_vector<2>::type native_sqrt(native_vector<2>::type x) {
 }
 #endif
 
-}  // namespace detail
-
 /// Lanes that keep the processor busy: two registers for each number hide each other's latency, and a state
 /// of small systems still fits into the first cache.
 inline constexpr int default_lanes = 2 * detail::native_lanes;
 
+}  // namespace detail
+
 // A set of lanes of a pack.
+
+namespace detail {
 
 /// Mask of lanes, the result of comparing packs. Not a bool, as lanes may differ.
 template <int W>
@@ -124,6 +126,19 @@ class lane_mask {
     return result;
   }
 
+  /// Whether the mask has any lane.
+  friend bool any(const lane_mask& which) {
+    auto some = which.parts[0];
+    for (const auto& part : which.parts) some = some | part;
+    if constexpr (of_part == 1) {
+      return some != 0;
+    } else {
+      bool result = false;
+      for (int lane = 0; lane < of_part; ++lane) result = result || some[lane] != 0;
+      return result;
+    }
+  }
+
   /// `if (x < y)` of a system means one branch for all lanes, which there is not.
   template <class T = bool>
   operator bool() const {
@@ -136,33 +151,21 @@ class lane_mask {
   std::array<part, W / of_part> parts;  ///< lane k is in parts[k / of_part]
 };
 
-/// Whether the mask has any lane.
-template <int W>
-bool any(const lane_mask<W>& which) {
-  auto some = which.parts[0];
-  for (const auto& part : which.parts) some = some | part;
-  if constexpr (lane_mask<W>::of_part == 1) {
-    return some != 0;
-  } else {
-    bool result = false;
-    for (int lane = 0; lane < lane_mask<W>::of_part; ++lane) result = result || some[lane] != 0;
-    return result;
-  }
-}
+}  // namespace detail
 
 // W numbers side by side, one for each of W trajectories, computed with the processor's own vectors.
 
 /// W lanes of T = double. Every operation acts lane by lane and rounds as it does for double, so that lane k
 /// of a step over packs has the bits of a step over double. Elementary functions but sqrt are libm's, one
 /// lane after the other. A double next to a pack means the same value in all lanes.
-template <class T, int W = default_lanes>
+template <class T, int W = detail::default_lanes>
   requires(std::same_as<T, double> && 1 <= W && W <= 16)
 class pack {
  public:
   static constexpr int lanes = W;                              ///< number of lanes
   static constexpr int of_part = detail::lanes_of_part(W);     ///< lanes in a register of the target
   using part = typename detail::native_vector<of_part>::type;  ///< a register
-  using mask = lane_mask<W>;                                   ///< result of comparing two packs
+  using mask = detail::lane_mask<W>;                           ///< result of comparing two packs
 
   pack() = default;
   /// A pack with one number in all lanes; the sign of zero is kept.
@@ -261,11 +264,15 @@ static_assert(
     alignof(pack<double>) <= EIGEN_DEFAULT_ALIGN_BYTES || alignof(pack<double>) <= 16,
     "nysalt: Eigen aligns for less than a register of this target: define EIGEN_MAX_ALIGN_BYTES=64");
 
+namespace detail {
+
 /// Whether a type is a pack of any width.
 template <class T>
 inline constexpr bool is_pack = false;
 template <class T, int W>
 inline constexpr bool is_pack<pack<T, W>> = true;  ///< a pack is one
+
+}  // namespace detail
 template <class T, int W>
 inline constexpr bool has_functions<pack<T, W>> = true;  ///< below
 

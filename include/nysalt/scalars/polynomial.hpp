@@ -46,6 +46,8 @@ struct dense_polynomial {
 
 namespace nysalt {
 
+namespace detail {
+
 /// sum_i c_i (n over i) t^i (1 - t)^{n - i} with x = low + t (high - low): its values on the interval lie
 /// between the least and the largest c_i, and c_0 and c_n are those at the ends. Sums, products with x and
 /// halves are convex combinations, so nothing cancels that does not cancel in the values.
@@ -98,5 +100,7 @@ class bernstein_polynomial {
 /// their coefficients; those that are undecided after 40 halvings only touch the bound. A polynomial that is
 /// not a number exceeds every bound.
 std::optional<double> where_larger(const bernstein_polynomial& f, double bound, int halvings = 40);
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -18,6 +18,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// What is measured of trajectories side by side in the lanes of T:
 /// width()                how many numbers are read of a state
 /// read(x, numbers)       writes them to a span; of lanes that are lost too
@@ -25,7 +27,7 @@ namespace nysalt {
 /// What it found is its own: as a result at the end, or in the places of the trajectories.
 template <class M, class T, int N>
 concept Measure = requires(M& measure, const phase_point<T, N>& x, std::span<T> numbers, std::int64_t n,
-                           std::span<const T> read, const condition_of<T>& live) {
+                           std::span<const T> read, const detail::condition_of<T>& live) {
   { measure.width() } -> std::convertible_to<std::size_t>;
   measure.read(x, numbers);
   measure.see(n, read, live);
@@ -159,8 +161,6 @@ class lockstep {
   first_in_lanes<T> diverged_at_{};
   std::vector<T> seen_;
 };
-
-namespace detail {
 
 /// Step 0 of trajectories side by side.
 template <class T, int N>

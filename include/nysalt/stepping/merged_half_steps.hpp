@@ -12,6 +12,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// How far a run is in its noise while it is stepped, room for the numbers of one letter O, and for what
 /// other letters need.
 template <NoiseSource Noise, Scalar T, int N, class Room>
@@ -131,5 +133,7 @@ class merged_half_steps {
   C u_{0.0};
   C v_{0.0};
 };
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -2,11 +2,11 @@
 // A word with its coefficients and the step folded in, prepared for a system.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -19,11 +19,15 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// What letters are prepared with, beside coefficients and step: where their word needs it, else nothing.
 struct surroundings_of_word {
   std::optional<bath> heat_bath;  ///< for letters O; a copy, as a system may return it by value
   std::shared_ptr<const modal_coordinates> part;  ///< for letters R
 };
+
+}  // namespace detail
 
 // clang-format off
 /// Letters with coefficients and step folded in, and what a stepper does with them:
@@ -33,6 +37,8 @@ struct surroundings_of_word {
 /// step(system, x, cursor)        one plain step, letter by letter, from only q and p
 /// The cursor says where the run is in its noise, and goes on with it.
 // clang-format on
+namespace detail {
+
 ///
 /// An open run is ahead of the synchronous state by a first letter that merges with the last. Where both are
 /// of the bath it is behind instead: the letter O that meets the next step's is still to come.
@@ -109,28 +115,47 @@ class prepared_word {
   template <class T, System S>
   [[gnu::noinline]] void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t steps,
                                  auto& cursor) const {
-    take(system, run_, x, steps, cursor, {}, threads_of(system));
+    take(system, run_, x, steps, cursor, {}, detail::facts_of(system).threads);
   }
-  /// The same of a model, watched: observe() is called with the synchronous state in y after `first`
-  /// steps, and every `every` steps from there on.
-  template <class T, ErasedSystem S>
-  void advance(const S& system, flow_state<T, S::dimension>& x, flow_state<T, S::dimension>& y,
-               std::int64_t steps, std::int64_t first, std::int64_t every, auto& cursor,
-               const auto& observe) const {
-    const auto see = [&] {
-      if (merges_ && is_called(run_.undo.front()))
-        apply_called(system, run_.undo.front().number, y, cursor.room);
-      end(system, y, cursor);
-      observe();
-    };
-    take(system, run_, x, steps, cursor,
-         detail::watch<T>{.q = &y.q,
-                          .p = &y.p,
-                          .first = first,
-                          .every = every,
-                          .observe = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
-                          .context = const_cast<void*>(static_cast<const void*>(&see))},
-         threads_of(system));
+  /// The same from a step on, watched: observe(n, y) is called with the synchronous state y at each step n
+  /// that `every` divides. Of a model the kernel calls back, in one virtual call for all steps.
+  template <class T, System S>
+  void advance(const S& system, flow_state<T, S::dimension>& x, std::int64_t step, std::int64_t steps,
+               std::int64_t every, auto& cursor, const auto& observe) const {
+    const std::int64_t end_of_steps = step + steps;
+    std::int64_t next = (step / every + 1) * every;
+    if constexpr (ErasedSystem<S>) {
+      if (next > end_of_steps) return advance(system, x, steps, cursor);  // without room for y
+      flow_state<T, S::dimension> y = x;
+      const auto see = [&] {
+        if (merges_ && is_called(run_.undo.front()))
+          apply_called(system, run_.undo.front().number, y, cursor.room);
+        end(system, y, cursor);
+        observe(next, y);
+        next += every;
+      };
+      take(system, run_, x, steps, cursor,
+           detail::watch<T>{.q = &y.q,
+                            .p = &y.p,
+                            .first = next - step,
+                            .every = every,
+                            .observe = [](void* context) { (*static_cast<decltype(see)*>(context))(); },
+                            .context = const_cast<void*>(static_cast<const void*>(&see))},
+           detail::facts_of(system).threads);
+    } else {
+      // One call of the loop: a second one, where the system is known by its type, keeps g++ from inlining
+      // the force.
+      flow_state<T, S::dimension> y = x;
+      for (; step < end_of_steps; next += every) {
+        const std::int64_t until = std::min(end_of_steps, next);
+        advance(system, x, until - step, cursor);
+        step = until;
+        if (step < next) break;
+        y = x;
+        close(system, y, cursor);
+        observe(step, y);
+      }
+    }
   }
   /// What an open state is at its step. Cost: the word's evaluations_to_observe.
   template <class T, System S>
@@ -227,12 +252,6 @@ class prepared_word {
     return result;
   }
 
-  /// Number of threads that share the steps of an open run.
-  static int threads_of(const auto& system) {
-    if constexpr (ErasedSystem<std::remove_cvref_t<decltype(system)>>) return system.threads();
-    return 1;
-  }
-
   /// Nothing of an empty program.
   template <class T, System S>
   void take(const S& system, const detail::step_program<C>& letters, flow_state<T, S::dimension>& x,
@@ -275,8 +294,8 @@ class prepared_word {
   template <System S, class T, int Size>
   [[gnu::noinline]] void apply_called(const S& system, int number, flow_state<T, Size>& x, auto& room) const {
     const auto& prepared = called_[static_cast<std::size_t>(number - first_called)];
-    const void* held = &system;
-    if constexpr (ErasedSystem<S>) held = system.held();
+    const detail::letters_on letters(system);
+    const void* held = letters.held();
     const auto act = [&](const detail::applied_letter<T>& one) {
       if constexpr (Size == Eigen::Dynamic) {
         one(held, {x.q.data(), x.p.data(), &x.q, &x.p, &room});
@@ -286,11 +305,9 @@ class prepared_word {
     };
     if constexpr (detail::prepared_letter<C>::template serves<T>) {
       act(prepared.template over<T>());
-    } else if constexpr (!ErasedSystem<S>) {  // derivatives by the state, which are taken once in a while
+    } else {  // derivatives by the state, which are taken once in a while
       const auto& [name, c, h] = prepared.unfolded;
-      act(detail::letter_of_system<S, T>(name, c.data(), h));
-    } else {
-      throw std::logic_error("prepared_word: a model has its letters over the scalars of its kernels");
+      act(letters.template over<T>(name, c.data(), h));
     }
   }
   void apply_known(const auto& system, const letter& one, auto& x, auto& cursor) const {
@@ -322,5 +339,7 @@ class prepared_word {
   std::vector<detail::prepared_letter<C>> called_;      // all other letters that are called back
   merged_half_steps<C> merged_;
 };
+
+}  // namespace detail
 
 }  // namespace nysalt

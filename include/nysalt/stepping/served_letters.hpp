@@ -12,34 +12,18 @@
 
 namespace nysalt::detail {
 
-/// Whether the system serves the letter L over T.
-template <class L, class T, class S>
-bool serves_letter(const S& system) {
-  if constexpr (ErasedSystem<S>) {
-    return system.facts().template serves<T>(L::letter);
-  } else {
-    return L::template serves<S, T>;
-  }
-}
-
 /// Refuses a letter that is not the library's, unless the system declares it.
 template <class T, class S>
 void require_declared(const word& letters, const letter_facts& own, const S& system) {
-  const auto declared = letters_declared_by(system);
+  const letters_on has(system);
+  const auto& declared = has.declared();
   if (std::ranges::find(declared, own) == declared.end()) {
     throw std::invalid_argument(
         sentence("cannot step {} by the word {}: the system must declare the letter {}; add it to `using "
                  "letters = std::tuple<...>` of the system, or take with_letters",
                  describe(system), letters.letters(), own.letter));
   }
-  bool is_served = true;
-  if constexpr (ErasedSystem<S>) {
-    is_served = system.facts().template serves<T>(own.letter);
-  } else {
-    with_letter(own.letter, letters_of<S>(),
-                [&]<class L>(const L&) { is_served = serves_letter<L, T>(system); });
-  }
-  if (!is_served) {
+  if (!has.template serves<T>(own.letter)) {
     throw std::invalid_argument(sentence("cannot step {} by the word {}: the letter {} must serve the system",
                                          describe(system), letters.letters(), own.letter));
   }
@@ -55,7 +39,7 @@ template <System S, Scalar T>
 void require_served(const word& letters, const S& system) {
   for (const letter_facts& own : letters.own()) detail::require_declared<T>(letters, own, system);
   for (const char letter : letters.view()) {
-    detail::with_letter(letter, known_letters{}, [&]<class L>(const L&) {
+    detail::with_letter(letter, detail::known_letters{}, [&]<class L>(const L&) {
       if constexpr (detail::steps_by_own_letters_only<S> && !StochasticFlow<L>) {
         throw std::invalid_argument(
             sentence("cannot step {} by the word {}: the letter {} must be one that the system declares, as "
@@ -64,7 +48,7 @@ void require_served(const word& letters, const S& system) {
                      describe(system), letters.letters(), letter));
       }
       if constexpr (requires { L::needs; }) {
-        if (!detail::serves_letter<L, T>(system)) {
+        if (!detail::letters_on(system).template serves<T>(letter)) {
           throw std::invalid_argument(
               sentence("cannot step {} by the word {}: {}", describe(system), letters.letters(), L::needs));
         }

@@ -10,6 +10,10 @@
 #include "nysalt/lanes.hpp"
 #include "nysalt/stepping/step_program.hpp"
 
+namespace nysalt {
+class model;
+}  // namespace nysalt
+
 namespace nysalt::detail {
 
 /// A letter with its coefficients and the step h folded in; letters of the bath and of modes are prepared
@@ -83,16 +87,39 @@ applied_letter<T> letter_of_system(char name, const C* c, double h) {
   return result;
 }
 
-/// The facts of the letters that a system declares.
+/// The letters of a system: those that it declares, and how letters find it. Refers to the system.
 template <class S>
-std::vector<letter_facts> letters_declared_by(const S& system) {
-  if constexpr (ErasedSystem<S>) {
-    return system.facts().own_letters;
-  } else {
+class letters_on {
+ public:
+  explicit letters_on(const S& system) : system_(&system) {}
+
+  /// The facts of the letters that the system declares.
+  std::vector<letter_facts> declared() const {
     const auto all = facts_of_letters(static_cast<const letters_of<S>*>(nullptr));
     return {all.begin(), all.end()};
   }
-}
+  /// Whether a letter, of the library or of those declared, serves the system over T.
+  template <class T>
+  bool serves(char name) const {
+    bool result = false;
+    with_letter(name, std::tuple_cat(known_letters{}, letters_of<S>{}),
+                [&]<class L>(const L&) { result = L::template serves<S, T>; });
+    return result;
+  }
+  /// The letter of that name over T, with coefficients and step folded in.
+  template <class T, class C>
+  applied_letter<T> over(char name, const C* c, double h) const {
+    return letter_of_system<S, T>(name, c, h);
+  }
+  /// The system, as its letters find it.
+  const void* held() const { return system_; }
+
+ private:
+  const S* system_;
+};
+/// Of a model: its facts and kernels, see model.hpp.
+template <>
+class letters_on<model>;
 
 /// A letter with the coefficients c, over C, and a step h.
 template <Scalar C>
@@ -137,17 +164,11 @@ struct prepared_letter<double> {
 template <class S, Scalar C>
 prepared_letter<C> prepared_letter_of(const S& system, const letter_facts& facts, const C* c, double h) {
   const char name = facts.letter;
+  const letters_on letters(system);
   prepared_letter<C> result{{name, {c, c + facts.slots}, h}};
-  if constexpr (ErasedSystem<S>) {
-    result.of_one = system.template kernels<C>().letter(name, c, h);
-    if constexpr (std::is_same_v<C, double>) {
-      result.of_lanes = system.template kernels<typename prepared_letter<C>::lanes>().letter(name, c, h);
-    }
-  } else {
-    result.of_one = letter_of_system<S, C>(name, c, h);
-    if constexpr (std::is_same_v<C, double> && lanes_of<S> > 1) {
-      result.of_lanes = letter_of_system<S, typename prepared_letter<C>::lanes>(name, c, h);
-    }
+  result.of_one = letters.template over<C>(name, c, h);
+  if constexpr (std::is_same_v<C, double> && lanes_of<S> > 1) {
+    result.of_lanes = letters.template over<typename prepared_letter<C>::lanes>(name, c, h);
   }
   return result;
 }

@@ -193,7 +193,7 @@ class fpu_chain {
   /// Of more than most_for_full_basis masses as entries.
   normal_modes modes() const {
     const double half = std::sqrt(0.5);
-    if (size() > most_for_full_basis) return local_modes(half);
+    if (size() > detail::most_for_full_basis) return local_modes(half);
     normal_modes result{Eigen::MatrixXd::Zero(size(), size()), Eigen::VectorXd::Zero(size())};
     for (Eigen::Index i = 0; i < pairs(); ++i) {
       result.basis(2 * i, i) = half;

@@ -49,8 +49,8 @@ class in_bath : public S {
   }
   /// Kind of the system, and the bath.
   std::string kind() const {
-    if (!bath_.acts()) return kind_of(base());
-    return sentence("{} in {}", kind_of(base()), bath_.description());
+    if (!bath_.acts()) return detail::kind_of(base());
+    return sentence("{} in {}", detail::kind_of(base()), bath_.description());
   }
 
  private:

@@ -249,8 +249,6 @@ class growing_cluster {
   Eigen::VectorXd best_place_;
 };
 
-}  // namespace detail
-
 /// Coordinates of a compact cluster at rest, its centre of mass at the origin: a local minimum of V, grown
 /// one atom at a time from a triangle or tetrahedron. Seven atoms in the plane make the centred hexagon,
 /// thirteen in space the icosahedron. It need not be the lowest minimum: six in space make no octahedron.
@@ -267,5 +265,7 @@ vector<double, lennard_jones<Space, Atoms>::dimension> cluster_at_rest(
   cluster.centre();
   return cluster.coordinates();
 }
+
+}  // namespace detail
 
 }  // namespace nysalt

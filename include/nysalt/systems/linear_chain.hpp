@@ -34,7 +34,7 @@ class linear_chain {
           sentence("linear_chain: masses must be positive and finite, {} of them", n));
     }
     inverse_masses_ = inverse_masses_.cwiseInverse();
-    modes_ = stiffness_modes(stiffness_, inverse_masses_, "linear_chain");
+    modes_ = detail::stiffness_modes(stiffness_, inverse_masses_, "linear_chain");
     for (Eigen::Index j = 0; j < n; ++j) rows_.push_back(rows_of_column(j));
     description_ = sentence("linear_chain(masses={}, omega_max={}, fingerprint={})", n,
                             modes_.frequencies.maxCoeff(), fingerprint());

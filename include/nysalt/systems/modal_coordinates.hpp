@@ -18,6 +18,8 @@
 
 namespace nysalt {
 
+namespace detail {
+
 /// The modal coordinates x = U^T M^{1/2} q and y = U^T M^{-1/2} p, in which H_0 = p M^-1 p/2 + q K q/2 with
 /// K = M^{1/2} U diag(omega^2) U^T M^{1/2} is sum_k (y_k^2 + omega_k^2 x_k^2)/2. Only the non-zero entries of
 /// U are stored, because the modes of many systems are local.
@@ -38,7 +40,7 @@ class modal_coordinates {
     const normal_modes modes = system.modes();
     const Eigen::Index n = nysalt::size(system);
     const bool are_entries = modes.basis.size() == 0 && !modes.entries.empty();
-    const auto is_within = [&](const mode_entry& u) {
+    const auto is_within = [&](const normal_modes::entry& u) {
       return 0 <= u.coordinate && u.coordinate < n && 0 <= u.mode && u.mode < n && std::isfinite(u.value);
     };
     const bool is_basis = are_entries
@@ -101,12 +103,18 @@ class modal_coordinates {
   std::vector<double> frequencies_;
 };
 
+}  // namespace detail
+
 // The modes of a stiffness matrix.
+
+namespace detail {
 
 /// Normal modes of q K q/2 with K symmetric, and masses: M^{-1/2} K M^{-1/2} = U diag(omega^2) U^T. Cost:
 /// O(N^3). Throws std::invalid_argument, in the name of who asks, unless K is square, finite and symmetric,
 /// and no eigenvalue is negative beyond rounding.
 normal_modes stiffness_modes(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& inverse_masses,
                              std::string_view who);
+
+}  // namespace detail
 
 }  // namespace nysalt

@@ -100,7 +100,7 @@ class phi4_chain {
   /// Modes of the springs: waves of wavenumber k = 0..n/2 and frequency 2 sin(pi k/n), a cosine and a sine of
   /// each but the first and, of an even chain, the last. The first is a shift of all, of frequency zero.
   /// A full basis: has_modes() is false of a chain for which it is too large.
-  bool has_modes() const { return size() <= most_for_full_basis; }
+  bool has_modes() const { return size() <= detail::most_for_full_basis; }
   normal_modes modes() const {
     const Eigen::Index n = size();
     normal_modes result{Eigen::MatrixXd(n, n), Eigen::VectorXd(n)};

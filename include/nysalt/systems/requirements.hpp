@@ -234,7 +234,7 @@ constexpr void require_suited() {
       SeparableSystem<S>,
       "nysalt: a separable system offers `template <class T> T potential(q)`, or `force(q, f)` as a "
       "template or over double, const all of them; see nysalt/system.hpp");
-  if constexpr (SeparableSystem<S> && !ErasedSystem<S>) {
+  if constexpr (SeparableSystem<S>) {
     using written = typename detail::written_system<S>::type;
     detail::require_used_members<written>();
     detail::require_no_near_members<written>();

@@ -24,7 +24,7 @@ class with_quadratic_part : public S {
     if constexpr (HasInverseMass<S>) {
       for (Eigen::Index i = 0; i < inverse_masses.size(); ++i) inverse_masses[i] = S::inverse_mass(i);
     }
-    modes_ = stiffness_modes(stiffness_, inverse_masses, "with_quadratic_part");
+    modes_ = detail::stiffness_modes(stiffness_, inverse_masses, "with_quadratic_part");
   }
 
   const S& base() const { return *this; }  ///< system as given

@@ -55,7 +55,7 @@ acceptance_result acceptance(const model& system, const method& method, const in
     throw std::invalid_argument(sentence(
         "acceptance: H must be known, got {} without a potential; give the system one", describe(system)));
   }
-  collectively(*options.execution.ranks, [&] { require_room(options, 1, 1); });
+  collectively(*options.execution.ranks, [&] { detail::require_room(options, 1, 1); });
   if (!has_quadratic_kinetic(system)) {
     constexpr std::int64_t enough = 16;
     for (std::int64_t m = 0; m < std::min(enough, options.trajectories); ++m) {
@@ -82,7 +82,7 @@ acceptance_result acceptance(const model& system, const method& method, const in
   return result;
 }
 
-double acceptance_at(double energy_error) {
+double detail::acceptance_at(double energy_error) {
   return energy_error > 0.0 ? std::erfc(0.5 * std::sqrt(energy_error)) : 1.0;
 }
 
@@ -95,7 +95,7 @@ double energy_error_at(double acceptance) {
   return root * root;
 }
 
-double gaussian_energy_error(const method& method, std::span<const double> frequencies, double step) {
+double detail::gaussian_energy_error(const method& method, std::span<const double> frequencies, double step) {
   if (!method.symmetric) {
     throw std::invalid_argument(
         sentence("gaussian_energy_error: the method must be reversible, got {}; take a symmetric method",
@@ -104,7 +104,7 @@ double gaussian_energy_error(const method& method, std::span<const double> frequ
   const auto coefficients = method.coefficients();
   double sum = 0.0;
   for (const double omega : frequencies) {
-    sum += 0.5 * energy_error_on_oscillator(method.letters(), coefficients, step * omega);
+    sum += 0.5 * detail::energy_error_on_oscillator(method.letters(), coefficients, step * omega);
     if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();
   }
   return sum;
@@ -117,7 +117,9 @@ double gaussian_step(const method& method, std::span<const double> frequencies, 
   if (!(fastest > 0.0)) {
     throw std::invalid_argument("gaussian_step: a frequency must be positive, got none");
   }
-  const auto holds = [&](double step) { return gaussian_energy_error(method, frequencies, step) <= most; };
+  const auto holds = [&](double step) {
+    return detail::gaussian_energy_error(method, frequencies, step) <= most;
+  };
   constexpr double growth = 1.02;
   const double least = 0.01 / fastest;
   double low = std::max(least, from);

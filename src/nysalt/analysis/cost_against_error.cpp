@@ -76,11 +76,15 @@ threshold_crossing threshold(std::span<const error_at> rows, double level, doubl
   require_rows(rows, level);
   std::size_t i = 0;
   while (i < rows.size() && rows[i].error < level) ++i;
-  if (i == 0) return {.kind = crossing_kind::above_from_first, .x = rows[0].x, .first_above = rows[0].x};
+  if (i == 0)
+    return {.kind = threshold_crossing::crossing_kind::above_from_first,
+            .x = rows[0].x,
+            .first_above = rows[0].x};
   const error_at& below = rows[i - 1];
-  if (i == rows.size()) return {.kind = crossing_kind::below_all, .x = below.x, .last_below = below.x};
+  if (i == rows.size())
+    return {.kind = threshold_crossing::crossing_kind::below_all, .x = below.x, .last_below = below.x};
   const error_at& above = rows[i];
-  threshold_crossing result{crossing_kind::bracketed, below.x};
+  threshold_crossing result{threshold_crossing::crossing_kind::bracketed, below.x};
   result.last_below = below.x;
   result.first_above = above.x;
   if (below.error == 0.0 || !std::isfinite(above.error)) return result;
@@ -90,7 +94,7 @@ threshold_crossing threshold(std::span<const error_at> rows, double level, doubl
   const double run = std::log(above.x / below.x);
   const double a = (1.0 - share) * run / rise * below.standard_error / below.error;
   const double b = share * run / rise * above.standard_error / above.error;
-  result.kind = crossing_kind::found;
+  result.kind = threshold_crossing::crossing_kind::found;
   result.x = below.x * std::exp(share * run);
   result.standard_error = result.x * std::sqrt(a * a + b * b + 2.0 * correlation * a * b);
   return result;

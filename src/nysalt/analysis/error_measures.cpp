@@ -82,7 +82,7 @@ struct term {
 std::vector<term> terms_of(const model& system) {
   std::vector<term> result;
   if (has_modes(system)) {
-    const auto modes = modal_coordinates::of(system);
+    const auto modes = detail::modal_coordinates::of(system);
     for (const auto& [i, k, heavy, light] : modes->entries()) {
       const auto row = static_cast<std::size_t>(k);
       const double omega = modes->frequencies()[row];
@@ -91,7 +91,7 @@ std::vector<term> terms_of(const model& system) {
     return result;
   }
   for (Eigen::Index i = 0; i < system.size(); ++i) {
-    const double root = system.root_mass(i);
+    const double root = root_mass(system, i);
     result.push_back({static_cast<std::size_t>(i), i, root, 1.0 / root});
   }
   return result;

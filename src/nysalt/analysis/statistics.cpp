@@ -57,7 +57,7 @@ double median(std::vector<double> samples) {
   return lower == upper ? upper : 0.5 * (lower + upper);
 }
 
-std::vector<double> sorted_numbers(std::vector<double> samples) {
+std::vector<double> detail::sorted_numbers(std::vector<double> samples) {
   std::erase_if(samples, [](double x) { return std::isnan(x); });
   std::ranges::sort(samples);
   return samples;
@@ -71,7 +71,7 @@ double quantile(std::span<const double> sorted, double p) {
   return sorted[below] + (at - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
 }
 
-estimate median_and_error(std::span<const double> sorted) {
+estimate detail::median_and_error(std::span<const double> sorted) {
   estimate result{quantile(sorted, 0.5), std::numeric_limits<double>::quiet_NaN()};
   if (sorted.size() < 2) return result;
   const double off = 0.5 / std::sqrt(static_cast<double>(sorted.size()));
@@ -175,7 +175,7 @@ void histogram::require_bins_of(const histogram& other) const {
       bins_.count, bins_.low, bins_.high, other.bins_.count, other.bins_.low, other.bins_.high));
 }
 
-sample_weights::sample_weights(double step, std::int64_t samples, double horizon)
+detail::sample_weights::sample_weights(double step, std::int64_t samples, double horizon)
     : samples_(samples),
       is_alike_(false),
       last_(horizon / std::abs(step) - static_cast<double>(samples - 1)) {
@@ -206,7 +206,7 @@ double effective_sample_size(double samples, const integrated_time& time) {
   return samples / std::max(time.tau, 2.0 * error);
 }
 
-std::size_t checked_lags(int lags) {
+std::size_t detail::checked_lags(int lags) {
   constexpr int most = 100'000;
   if (1 <= lags && lags <= most) return static_cast<std::size_t>(lags);
   throw std::invalid_argument(fmt::format("autocovariance: lags must be 1 to {}, got {}", most, lags));
@@ -218,7 +218,7 @@ std::vector<double> autocovariance::jackknife(
   std::vector<std::vector<double>> without(all.size());  // number i, without each of the groups
   if (groups_.size() >= 2) {
     for (const auto& group : groups_) {
-      autocovariance_sums others = total_;
+      detail::autocovariance_sums others = total_;
       for (std::size_t k = 0; k < others.size(); ++k) others[k] = others[k] - group[k];
       const std::vector<double> numbers = f(normalised(others));
       for (std::size_t i = 0; i < all.size(); ++i) without[i].push_back(numbers[i]);
@@ -231,7 +231,8 @@ std::vector<double> autocovariance::jackknife(
   return variances;
 }
 
-autocovariance::autocovariance(double interval, double centre, std::vector<autocovariance_sums> groups)
+autocovariance::autocovariance(double interval, double centre,
+                               std::vector<detail::autocovariance_sums> groups)
     : interval_(interval), centre_(centre) {
   if (groups.empty())
     throw std::invalid_argument("autocovariance: groups of trajectories must be one or more, got none");
@@ -253,7 +254,7 @@ std::vector<double> autocovariance::standard_error() const {
   return result;
 }
 
-std::vector<double> autocovariance::normalised(const autocovariance_sums& sums) {
+std::vector<double> autocovariance::normalised(const detail::autocovariance_sums& sums) {
   const double variance = sums.front().covariance();
   if (!(variance > 0.0)) {
     throw std::runtime_error(
@@ -261,11 +262,11 @@ std::vector<double> autocovariance::normalised(const autocovariance_sums& sums) 
         "or no trajectory counts");
   }
   std::vector<double> rho;
-  for (const pair_sums& at : sums) rho.push_back(at.covariance() / variance);
+  for (const detail::pair_sums& at : sums) rho.push_back(at.covariance() / variance);
   return rho;
 }
 
-acf_distance acf_error(const autocovariance& a, const autocovariance& b) {
+autocovariance::distance acf_error(const autocovariance& a, const autocovariance& b) {
   if (a.lags() != b.lags() || std::abs(a.interval() - b.interval()) > 1e-9 * std::abs(a.interval())) {
     throw std::invalid_argument(
         fmt::format("acf_error: both autocovariances must have the same lags, got {} lags of {} and {} "

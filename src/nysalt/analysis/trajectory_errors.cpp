@@ -22,8 +22,8 @@
 
 namespace nysalt {
 
-void require_room(const trajectory_options& options, std::size_t methods, std::size_t width,
-                  std::size_t measures) {
+void detail::require_room(const trajectory_options& options, std::size_t methods, std::size_t width,
+                          std::size_t measures) {
   if (options.steps < 1 || options.trajectories < 1) {
     throw std::invalid_argument(fmt::format(
         "trajectory_errors: trajectories and steps must be at least 1, got {} trajectories of {} steps",
@@ -31,7 +31,7 @@ void require_room(const trajectory_options& options, std::size_t methods, std::s
   }
   const std::size_t references = options.perturbation ? 3 : 2;
   const double intervals =
-      static_cast<double>(methods + references) * options.execution.threads * default_lanes;
+      static_cast<double>(methods + references) * options.execution.threads * pack<double>::lanes;
   const double numbers = intervals * static_cast<double>(steps_between_checks) * static_cast<double>(width);
   const std::size_t scored = methods + (options.null_model ? 1 : 0);
   const double scores = static_cast<double>(options.trajectories) * static_cast<double>(scored * measures);

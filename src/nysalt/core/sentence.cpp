@@ -6,6 +6,6 @@
 
 namespace nysalt {
 
-std::string in_digits(double x, int digits) { return fmt::format("{:.{}g}", x, digits); }
+std::string detail::in_digits(double x, int digits) { return fmt::format("{:.{}g}", x, digits); }
 
 }  // namespace nysalt

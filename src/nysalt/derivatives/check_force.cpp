@@ -150,7 +150,7 @@ void force_slope(const model& system, const column& q, const column& v, column& 
   if (system.facts().is_black_box) {
     column f(q.size());
     system.force(q, f);
-    system.directional_derivative(q, v, f, g);
+    directional_derivative(system, q, v, f, g);
   } else {
     vector<slopes, Eigen::Dynamic> result(q.size());
     system.force(lifted(q, v), result);

@@ -155,7 +155,7 @@ double off(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::Vect
 
 double symplecticity_defect(const Eigen::MatrixXd& j) {
   const Eigen::Index n = j.rows() / 2;
-  const Eigen::MatrixXd omega = symplectic_form(n);
+  const Eigen::MatrixXd omega = detail::symplectic_form(n);
   const Eigen::ArrayXXd defect = (j.transpose() * omega * j - omega).array().abs();
   const Eigen::MatrixXd size = j.cwiseAbs().transpose() * omega.cwiseAbs() * j.cwiseAbs() + omega.cwiseAbs();
   return (size.array() > 0.0).select(defect / size.array(), 0.0).maxCoeff();
@@ -212,7 +212,8 @@ letter_check check_letter(const model& system, char letter, const phase_points& 
   return judge_letter(letters.facts(0), trials);
 }
 
-void require_sound_letters(const model& system, const word& letters, const phase_points& points, double h) {
+void detail::require_sound_letters(const model& system, const word& letters, const phase_points& points,
+                                   double h) {
   for (const letter_facts& own : letters.own()) {
     const letter_check found = check_letter(system, own.letter, points, h);
     if (!found.passed()) throw std::invalid_argument(found.report());

@@ -25,7 +25,8 @@ bool is_stable(const std::vector<stability_window>& windows, double low, double 
                      [&](const auto& window) { return window.low <= low && high <= window.high; });
 }
 
-std::vector<stability_window> gaps_below(const std::vector<stability_window>& windows, double highest) {
+std::vector<stability_window> detail::gaps_below(const std::vector<stability_window>& windows,
+                                                 double highest) {
   std::vector<stability_window> gaps;
   double last = 0.0;
   for (const auto& window : windows) {
@@ -91,7 +92,7 @@ class trace_of_word {
   trace_of_word(const nysalt::word& word, const std::vector<double>& c) : word_(word), c_(c) {
     const auto sum_of = [&](const std::vector<double>& coefficients, double sign) {
       const auto times = [&](const dense_polynomial& a) { return sign * a.times_x(); };
-      return oscillator_matrix<dense_polynomial>(word, coefficients, 0.0, {{0.0}}, {{1.0}}, times)
+      return detail::oscillator_matrix<dense_polynomial>(word, coefficients, 0.0, {{0.0}}, {{1.0}}, times)
           .half_trace();
     };
     auto magnitudes = c;
@@ -114,12 +115,15 @@ class trace_of_word {
     return result;
   }
 
-  oscillator_matrix<double> matrix(double x) const { return matrix_on_oscillator(word_, c_, x); }
+  detail::oscillator_matrix<double> matrix(double x) const {
+    return detail::matrix_on_oscillator(word_, c_, x);
+  }
   double operator()(double x) const { return matrix(x).half_trace(); }
   bool rises_at(double x) const {
     using D = dual<double, 1>;
     const D variable = D::variable(x, 0);
-    const oscillator_matrix<D> m(word_, c_, 0.0, D(0.0), D(1.0), [&](const D& y) { return variable * y; });
+    const detail::oscillator_matrix<D> m(word_, c_, 0.0, D(0.0), D(1.0),
+                                         [&](const D& y) { return variable * y; });
     return m.half_trace().derivative[0] > 0.0;
   }
   /// Values and derivatives at x: the k-th coefficient is the k-th derivative over k!.
@@ -127,10 +131,13 @@ class trace_of_word {
     using T = series<3>;
     T moving(x);
     moving += T::variable();
-    return oscillator_matrix<T>(word_, c_, 0.0, T(0.0), T(1.0), [&](const T& y) { return moving * y; })
+    return detail::oscillator_matrix<T>(word_, c_, 0.0, T(0.0), T(1.0),
+                                        [&](const T& y) { return moving * y; })
         .half_trace();
   }
-  bernstein_polynomial on(double low, double high) const { return half_trace(word_, c_, 0.0, low, high); }
+  detail::bernstein_polynomial on(double low, double high) const {
+    return detail::half_trace(word_, c_, 0.0, low, high);
+  }
 
   /// Relative, of sums without cancellation: each letter rounds twice, and is passed by two columns and both
   /// of its operands.

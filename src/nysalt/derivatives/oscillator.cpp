@@ -16,12 +16,13 @@
 
 namespace nysalt {
 
-bernstein_polynomial half_trace(const nysalt::word& word, const std::vector<double>& coefficients,
-                                double theta, double low, double high) {
-  const auto times_k = [](const bernstein_polynomial& x) { return x.times_x(); };
-  const bernstein_polynomial one(low, high, 1.0);
-  const bernstein_polynomial zero(low, high, 0.0);
-  return oscillator_matrix(word, coefficients, theta, zero, one, times_k).half_trace();
+detail::bernstein_polynomial detail::half_trace(const nysalt::word& word,
+                                                const std::vector<double>& coefficients, double theta,
+                                                double low, double high) {
+  const auto times_k = [](const detail::bernstein_polynomial& x) { return x.times_x(); };
+  const detail::bernstein_polynomial one(low, high, 1.0);
+  const detail::bernstein_polynomial zero(low, high, 0.0);
+  return detail::oscillator_matrix(word, coefficients, theta, zero, one, times_k).half_trace();
 }
 
 namespace {
@@ -32,7 +33,7 @@ struct turn_of_step {
   double defect;
 
   turn_of_step(const nysalt::word& word, const std::vector<double>& coefficients, double z) {
-    const auto m = matrix_on_oscillator(word, coefficients, z * z);
+    const auto m = detail::matrix_on_oscillator(word, coefficients, z * z);
     half_trace = m.half_trace();
     defect = m.qp * z + m.pq / z;
   }
@@ -78,16 +79,18 @@ energy_defect energy_defect_on_oscillator(const nysalt::word& word, const std::v
 
 }  // namespace detail
 
-double energy_error_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
-                                  double z) {
+double detail::energy_error_on_oscillator(const nysalt::word& word, const std::vector<double>& coefficients,
+                                          double z) {
   const turn_of_step turn = turn_of_plain(word, coefficients, z);
   const double rotation = turn.rotation();
   if (!(rotation > 0.0)) return std::numeric_limits<double>::infinity();
   return 0.5 * turn.defect * turn.defect / rotation;
 }
 
-std::optional<resonance> near_resonance(const nysalt::word& word, const std::vector<double>& coefficients,
-                                        const std::vector<frequency_band>& bands, double step) {
+std::optional<detail::resonance> detail::near_resonance(const nysalt::word& word,
+                                                        const std::vector<double>& coefficients,
+                                                        const std::vector<frequency_band>& bands,
+                                                        double step) {
   if (word.rotates()) return std::nullopt;
   constexpr int samples = 16;
   for (const auto& band : bands) {
@@ -95,35 +98,35 @@ std::optional<resonance> near_resonance(const nysalt::word& word, const std::vec
     for (int i = 0; i <= samples; ++i) {
       const double z = step * (band.low + (band.high - band.low) * i / samples);
       const double half_turns = std::max(1.0, std::round(z / std::numbers::pi));
-      const double width = resonance_distance * half_turns * std::numbers::pi;
+      const double width = detail::resonance_distance * half_turns * std::numbers::pi;
       if (!(std::abs(z - half_turns * std::numbers::pi) < width)) continue;
-      const double trace = std::abs(matrix_on_oscillator(word, coefficients, z * z).half_trace());
+      const double trace = std::abs(detail::matrix_on_oscillator(word, coefficients, z * z).half_trace());
       if (trace > std::cos(std::min(width, 0.5 * std::numbers::pi))) {
-        return resonance{band, static_cast<int>(half_turns)};
+        return detail::resonance{band, static_cast<int>(half_turns)};
       }
     }
   }
   return std::nullopt;
 }
 
-std::string in_words(const resonance& near) {
+std::string detail::in_words(const detail::resonance& near) {
   return fmt::format(
       "a step turns oscillations of the frequencies {:.4g} to {:.4g} by {}pi, to within {:g} %: in runs of "
       "more "
       "than {} steps energies may drift; take another step for these",
       near.band.low, near.band.high, near.half_turns == 1 ? "" : fmt::format("{} ", near.half_turns),
-      100.0 * resonance_distance, long_run);
+      100.0 * detail::resonance_distance, detail::long_run);
 }
 
-double growth_of_pair(const nysalt::word& word, const std::vector<double>& coefficients,
-                      const Eigen::Array2d& theta, const Eigen::Matrix2d& k) {
+double detail::growth_of_pair(const nysalt::word& word, const std::vector<double>& coefficients,
+                              const Eigen::Array2d& theta, const Eigen::Matrix2d& k) {
   const auto times_k = [&](const Eigen::Array2d& x) -> Eigen::Array2d { return (k * x.matrix()).array(); };
   Eigen::Matrix4d step;
   for (Eigen::Index j = 0; j < 4; ++j) {
     Eigen::Array2d q = Eigen::Array2d::Zero();
     Eigen::Array2d p = Eigen::Array2d::Zero();
     (j < 2 ? q : p)[j % 2] = 1.0;
-    step_on_oscillator(word, coefficients, theta, times_k, q, p);
+    detail::step_on_oscillator(word, coefficients, theta, times_k, q, p);
     step.col(j) << q, p;
   }
   if (!step.allFinite()) return std::numeric_limits<double>::infinity();
@@ -157,9 +160,9 @@ double spectral_norm(const Matrix& m) {
 
 }  // namespace
 
-double transient_growth(const nysalt::word& word, const std::vector<double>& coefficients, double theta,
-                        double k, std::int64_t steps) {
-  const auto m = matrix_on_oscillator(word, coefficients, k, theta);
+double detail::transient_growth(const nysalt::word& word, const std::vector<double>& coefficients,
+                                double theta, double k, std::int64_t steps) {
+  const auto m = detail::matrix_on_oscillator(word, coefficients, k, theta);
   // M - trace/2 = (a, b; c, -a) in (omega q, p); its determinant is sin^2 t.
   const double omega = std::sqrt(theta * theta + k);
   const double sign = m.qq + m.pp < 0.0 ? -1.0 : 1.0;
@@ -211,14 +214,14 @@ double distance(double a, double b) {
 
 }  // namespace
 
-symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step) {
+detail::symplectic_spectrum detail::spectrum_of(const Eigen::MatrixXd& step) {
   if (step.rows() != step.cols() || step.rows() % 2 != 0) {
     throw std::invalid_argument(
         fmt::format("spectrum_of: the matrix must be square with an even number of rows, "
                     "got {} rows and {} columns",
                     step.rows(), step.cols()));
   }
-  symplectic_spectrum result;
+  detail::symplectic_spectrum result;
   if (step.rows() == 0) return result;
   if (!step.allFinite()) {
     result.growth = std::numeric_limits<double>::infinity();
@@ -241,7 +244,7 @@ symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step) {
     result.second = of_farthest;
     return result;
   }
-  constexpr double same = symplectic_spectrum::rounding;
+  constexpr double same = detail::symplectic_spectrum::rounding;
   std::vector<signed_phase> all;
   std::vector<bool> is_done(static_cast<std::size_t>(values.size()), false);
   for (Eigen::Index i = 0; i < values.size(); ++i) {
@@ -274,7 +277,7 @@ symplectic_spectrum spectrum_of(const Eigen::MatrixXd& step) {
   return result;
 }
 
-double largest_power(const Eigen::MatrixXd& step, std::int64_t steps) {
+double detail::largest_power(const Eigen::MatrixXd& step, std::int64_t steps) {
   constexpr double without_bound = 1e6;
   double largest = 1.0;
   Eigen::MatrixXd power = step;

@@ -64,7 +64,7 @@ Eigen::MatrixXd kinetic_factor(const model& system, const Eigen::VectorXd& p) {
 
 }  // namespace detail
 
-force_jacobian::force_jacobian(const model& system, const phase_points& states, field of)
+detail::force_jacobian::force_jacobian(const model& system, const phase_points& states, field of)
     : system_(system),
       field_(of),
       differs_(of == field::whole && system.facts().derivative_calls == 2),
@@ -79,16 +79,16 @@ force_jacobian::force_jacobian(const model& system, const phase_points& states, 
   lengths_ = detail::lengths_of(points);
 }
 
-void force_jacobian::move_to(const Eigen::VectorXd& q) {
+void detail::force_jacobian::move_to(const Eigen::VectorXd& q) {
   q_ = q;
   if (differs_) system_.force(q_, f_);
 }
 
-const Eigen::VectorXd& force_jacobian::times(const Eigen::VectorXd& v) {
+const Eigen::VectorXd& detail::force_jacobian::times(const Eigen::VectorXd& v) {
   if (differs_) {
     const double displacements = v.cwiseQuotient(lengths_).cwiseAbs().maxCoeff();
     v_ = v / displacements;
-    system_.directional_derivative(q_, v_, f_, g_);
+    directional_derivative(system_, q_, v_, f_, g_);
     g_ *= displacements;
   } else {
     system_.kernels<double>().force_along(field_, q_, v, g_, room_, detail::part_of_displacement);
@@ -96,7 +96,7 @@ const Eigen::VectorXd& force_jacobian::times(const Eigen::VectorXd& v) {
   return g_;
 }
 
-Eigen::MatrixXd force_jacobian::potential_hessian(const Eigen::VectorXd& q) {
+Eigen::MatrixXd detail::force_jacobian::potential_hessian(const Eigen::VectorXd& q) {
   const Eigen::Index n = q.size();
   move_to(q);
   Eigen::MatrixXd hessian(n, n);
@@ -112,7 +112,7 @@ class krylov_space {
   explicit krylov_space(const Eigen::VectorXd& start) : next_(start.normalized()) {}
 
   /// By one product. Orthogonal to all directions before it, twice: once leaves rounding.
-  void extend(const symmetric_map& multiply) {
+  void extend(const detail::symmetric_map& multiply) {
     if (!basis_.empty()) beside_.push_back(rest_);
     basis_.push_back(next_);
     next_ = multiply(basis_.back());
@@ -168,8 +168,8 @@ class krylov_space {
 
 }  // namespace
 
-spectrum_ends ends_of_spectrum(const symmetric_map& multiply, const Eigen::VectorXd& start,
-                               double relative_error) {
+detail::spectrum_ends detail::ends_of_spectrum(const detail::symmetric_map& multiply,
+                                               const Eigen::VectorXd& start, double relative_error) {
   const Eigen::Index most = std::min<Eigen::Index>(start.size(), 100);
   const Eigen::Index least = std::min<Eigen::Index>(start.size(), 8);  // a start may know another eigenvalue
   krylov_space space(start);
@@ -197,18 +197,18 @@ stiffness_range hessian_spectrum(const model& system, const phase_points& states
   // the state before, which are near.
   std::mt19937_64 bits{1};
   Eigen::VectorXd chance(root.size());
-  for (double& x : chance) x = uniform_by_bits(bits()) - 0.5;
+  for (double& x : chance) x = detail::uniform_by_bits(bits()) - 0.5;
   chance.normalize();
   Eigen::VectorXd start = chance;
 
   stiffness_range found;
-  force_jacobian jacobian(system, states, of);
+  detail::force_jacobian jacobian(system, states, of);
   for (const auto& state : states) {
     jacobian.move_to(state.q);
     const auto multiply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
       return -root.cwiseProduct(jacobian.times(root.cwiseProduct(x)));
     };
-    const auto ends = ends_of_spectrum(multiply, start);
+    const auto ends = detail::ends_of_spectrum(multiply, start);
     if (!std::isfinite(ends.lowest) || !std::isfinite(ends.highest)) {
       throw std::invalid_argument(
           sentence("hessian_spectrum: the force must have a finite derivative at each state, got none "
@@ -227,7 +227,7 @@ stiffness_range hessian_spectrum(const model& system, const phase_points& states
 
 namespace {
 
-std::vector<double> frequencies_of(const model& system, force_jacobian& jacobian,
+std::vector<double> frequencies_of(const model& system, detail::force_jacobian& jacobian,
                                    const phase_point<double, Eigen::Dynamic>& state) {
   const Eigen::MatrixXd factor = detail::kinetic_factor(system, state.p);
   if (factor.size() == 0) return {};
@@ -244,17 +244,18 @@ std::vector<double> frequencies_of(const model& system, force_jacobian& jacobian
 
 }  // namespace
 
-std::vector<double> frequencies_at(const model& system, const phase_point<double, Eigen::Dynamic>& state) {
-  force_jacobian jacobian(system, std::vector{state});
+std::vector<double> detail::frequencies_at(const model& system,
+                                           const phase_point<double, Eigen::Dynamic>& state) {
+  detail::force_jacobian jacobian(system, std::vector{state});
   return frequencies_of(system, jacobian, state);
 }
 
-frequencies_along frequencies_of_states(const model& system, const phase_points& states) {
-  frequencies_along result;
+detail::frequencies_along detail::frequencies_of_states(const model& system, const phase_points& states) {
+  detail::frequencies_along result;
   const auto& facts = system.facts();
-  if (facts.size <= most_for_all_frequencies && facts.has_differentiable_velocity) {
+  if (facts.size <= detail::most_for_all_frequencies && facts.has_differentiable_velocity) {
     result.are_complete = true;
-    force_jacobian jacobian(system, states);
+    detail::force_jacobian jacobian(system, states);
     for (const auto& state : states) result.of_state.push_back(frequencies_of(system, jacobian, state));
   } else if (!states.empty() && facts.has_quadratic_kinetic) {
     for (const double square : hessian_spectrum(system, states).highest_of_state) {

@@ -34,7 +34,7 @@ linear_letter linearise(const model& system, const nysalt::word& single, std::si
   const stepper<model, slopes> steps(system, single, coefficients, step);
   const Eigen::Index n = state.q.size();
   linear_letter result{Eigen::MatrixXd(2 * n, 2 * n), Eigen::VectorXd(n)};
-  constexpr Eigen::Index at_once = directions_at_a_time;
+  constexpr Eigen::Index at_once = detail::directions_at_a_time;
   for (Eigen::Index column = 0; column < 2 * n; column += at_once) {
     auto x = state.cast<slopes>();
     const Eigen::Index count = std::min(at_once, 2 * n - column);
@@ -82,7 +82,7 @@ using state = phase_point<double, Eigen::Dynamic>;
 }  // namespace
 
 /// The linearised motion about a state, in coordinates in which K'' is the identity.
-struct word_on_parts::motion {
+struct detail::word_on_parts::motion {
   Eigen::MatrixXd whole;                // V''
   Eigen::VectorXd force;                // -V'
   std::vector<Eigen::MatrixXd> parts;   // V'' of each slot of a kick
@@ -107,14 +107,15 @@ struct word_on_parts::motion {
   }
 };
 
-word_on_parts::word_on_parts(const model& system, const phase_points& states, const nysalt::word& word)
+detail::word_on_parts::word_on_parts(const model& system, const phase_points& states,
+                                     const nysalt::word& word)
     : word_(word.letters()), slots_(word.slots) {
   if (states.size() == 0) {
     why_not_ = "there are no states";
   } else if (word.is_processed()) {
     why_not_ = "it has a processor";
-  } else if (nysalt::size(system) > most_for_all_frequencies) {
-    why_not_ = sentence("of more than {} degrees of freedom", most_for_all_frequencies);
+  } else if (nysalt::size(system) > detail::most_for_all_frequencies) {
+    why_not_ = sentence("of more than {} degrees of freedom", detail::most_for_all_frequencies);
   } else {
     try {
       examine(system.base(), states, kinds_of(system.base(), word));
@@ -124,7 +125,7 @@ word_on_parts::word_on_parts(const model& system, const phase_points& states, co
   }
 }
 
-std::vector<nysalt::word> word_on_parts::kinds_of(const model& system, const nysalt::word& word) {
+std::vector<nysalt::word> detail::word_on_parts::kinds_of(const model& system, const nysalt::word& word) {
   std::string names;
   std::vector<nysalt::word> kinds;
   for (std::size_t i = 0; i < word.length; ++i) {
@@ -140,8 +141,8 @@ std::vector<nysalt::word> word_on_parts::kinds_of(const model& system, const nys
   return kinds;
 }
 
-void word_on_parts::add_letter(const model& system, const nysalt::word& single, kind& of, const state& at,
-                               const Eigen::MatrixXd& root, motion& to) {
+void detail::word_on_parts::add_letter(const model& system, const nysalt::word& single, kind& of,
+                                       const state& at, const Eigen::MatrixXd& root, motion& to) {
   const Eigen::Index n = at.q.size();
   for (std::size_t slot = 0; slot < single.slots; ++slot) {
     const auto one = linearise(system, single, slot, 1.0, 1.0, at);
@@ -166,11 +167,11 @@ void word_on_parts::add_letter(const model& system, const nysalt::word& single, 
   }
 }
 
-void word_on_parts::examine(const model& system, const phase_points& states,
-                            const std::vector<nysalt::word>& kinds) {
+void detail::word_on_parts::examine(const model& system, const phase_points& states,
+                                    const std::vector<nysalt::word>& kinds) {
   constexpr std::size_t enough = 8;  // for a mean, and to say how far they lie apart
   const std::size_t some = std::min(states.size(), enough);
-  force_jacobian jacobian(system, states);
+  detail::force_jacobian jacobian(system, states);
   std::vector<motion> motions(some);
   double momenta = 0.0;
   for (std::size_t k = 0; k < some; ++k) {
@@ -198,7 +199,7 @@ void word_on_parts::examine(const model& system, const phase_points& states,
 }
 
 /// Forces about the equilibrium, where the whole force is zero.
-word_on_parts::linearised word_on_parts::diagonal(const motion& about) {
+detail::word_on_parts::linearised detail::word_on_parts::diagonal(const motion& about) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(about.whole);
   const Eigen::MatrixXd& basis = solver.eigenvectors();
   linearised result{.squares = solver.eigenvalues(), .stiffness = {}, .force = {}};
@@ -212,8 +213,8 @@ word_on_parts::linearised word_on_parts::diagonal(const motion& about) {
   return result;
 }
 
-void word_on_parts::apply(const linearised& at, const std::vector<double>& coefficients, double step,
-                          Eigen::Ref<Eigen::MatrixXd> x, Eigen::VectorXd* affine) const {
+void detail::word_on_parts::apply(const linearised& at, const std::vector<double>& coefficients, double step,
+                                  Eigen::Ref<Eigen::MatrixXd> x, Eigen::VectorXd* affine) const {
   const Eigen::Index m = x.rows() / 2;
   const Eigen::VectorXd root = at.squares.tail(m).cwiseSqrt();
   const Eigen::VectorXd inverse = root.cwiseInverse();
@@ -240,13 +241,13 @@ namespace {
 Eigen::Index modes_that_turn(const Eigen::VectorXd& squares, double step) {
   Eigen::Index count = 0;
   for (const double square : squares)
-    count += square > 0.0 && std::abs(step) * std::sqrt(square) > word_on_parts::least_turn ? 1 : 0;
+    count += square > 0.0 && std::abs(step) * std::sqrt(square) > detail::word_on_parts::least_turn ? 1 : 0;
   return count;
 }
 }  // namespace
 
-Eigen::MatrixXd word_on_parts::step(const std::vector<double>& coefficients, double step,
-                                    std::size_t state) const {
+Eigen::MatrixXd detail::word_on_parts::step(const std::vector<double>& coefficients, double step,
+                                            std::size_t state) const {
   if (coefficients.size() != slots_) {
     throw std::invalid_argument(
         sentence("word_on_parts: coefficients must be {}, got {}", slots_, coefficients.size()));
@@ -258,21 +259,22 @@ Eigen::MatrixXd word_on_parts::step(const std::vector<double>& coefficients, dou
   return result;
 }
 
-growth_of_energy word_on_parts::growth(const std::vector<double>& coefficients, double by,
-                                       std::int64_t steps) const {
+detail::growth_of_energy detail::word_on_parts::growth(const std::vector<double>& coefficients, double by,
+                                                       std::int64_t steps) const {
   const auto excess = [](double norm) { return norm * norm - 1.0; };
   const auto at = [&](std::size_t state) {
     const Eigen::MatrixXd m = step(coefficients, by, state);
-    growth_of_energy result{.early = 0.0, .late = 0.0, .state = state};
+    detail::growth_of_energy result{.early = 0.0, .late = 0.0, .state = state};
     if (m.size() == 0) return result;
-    result.late = excess(largest_power(m, steps));
+    result.late = excess(detail::largest_power(m, steps));
     // What is little as a whole has not grown.
-    result.early = result.late <= growth_of_energy::smallest
-                       ? result.late
-                       : excess(largest_power(m, std::min(steps, growth_of_energy::early_steps)));
+    result.early =
+        result.late <= detail::growth_of_energy::smallest
+            ? result.late
+            : excess(detail::largest_power(m, std::min(steps, detail::growth_of_energy::early_steps)));
     return result;
   };
-  growth_of_energy over_states;
+  detail::growth_of_energy over_states;
   double largest = -1.0;
   const auto average = [&] {
     for (std::size_t k = 0; k < states(); ++k) {
@@ -288,13 +290,13 @@ growth_of_energy word_on_parts::growth(const std::vector<double>& coefficients, 
     average();
     return over_states;
   }
-  const growth_of_energy of_mean = at(states());
+  const detail::growth_of_energy of_mean = at(states());
   if (of_mean.is_refused()) return of_mean;
   average();
   return over_states.is_worse_than(of_mean) ? over_states : of_mean;
 }
 
-double word_on_parts::displacement(const std::vector<double>& coefficients, double step) const {
+double detail::word_on_parts::displacement(const std::vector<double>& coefficients, double step) const {
   if (!has_mean_ || !(amplitude_ > 0.0)) return 0.0;
   const Eigen::Index m = modes_that_turn(mean_.squares, step);
   if (m == 0) return 0.0;

@@ -11,7 +11,7 @@
 
 namespace nysalt {
 
-discrepancy mean_over_chains(const std::vector<double>& x) {
+burn_in_report::discrepancy mean_over_chains(const std::vector<double>& x) {
   const auto n = static_cast<double>(x.size());
   double mean = 0.0;
   double squares = 0.0;
@@ -20,18 +20,18 @@ discrepancy mean_over_chains(const std::vector<double>& x) {
   return {mean, std::sqrt(squares / (n - 1.0) / n)};
 }
 
-discrepancy watched_interval::potential_of_the_far() const {
+burn_in_report::discrepancy watched_interval::potential_of_the_far() const {
   std::vector<double> sorted = way_to_begin;
   const auto middle = sorted.begin() + std::ssize(sorted) / 2;
   std::ranges::nth_element(sorted, middle);
   std::vector<double> near;
   std::vector<double> far;
-  const auto& potential = mean[static_cast<std::size_t>(watched::potential)];
+  const auto& potential = mean[static_cast<std::size_t>(burn_in_report::watched::potential)];
   for (std::size_t k = 0; k < potential.size(); ++k)
     (way_to_begin[k] < *middle ? near : far).push_back(potential[k]);
   if (near.size() < 2) return {};  // all have gone as far
-  const discrepancy a = mean_over_chains(far);
-  const discrepancy b = mean_over_chains(near);
+  const burn_in_report::discrepancy a = mean_over_chains(far);
+  const burn_in_report::discrepancy b = mean_over_chains(near);
   return {a.mean - b.mean, std::hypot(a.standard_error, b.standard_error)};
 }
 
@@ -51,8 +51,11 @@ double watched_interval::share_without_force() const {
 }
 
 bool watched_interval::is_cooling() const {
-  const auto is_above = [](const discrepancy& one) { return !(one.mean <= 0.0) && one.shows(); };
-  for (const watched what : {watched::kinetic, watched::virial}) {
+  const auto is_above = [](const burn_in_report::discrepancy& one) {
+    return !(one.mean <= 0.0) && one.shows();
+  };
+  for (const burn_in_report::watched what :
+       {burn_in_report::watched::kinetic, burn_in_report::watched::virial}) {
     const auto i = static_cast<std::size_t>(what);
     if (!counts(i)) continue;
     std::vector<double> over_bath = mean[i];
@@ -68,7 +71,8 @@ bool watched_interval::is_cooling() const {
 
 double watched_interval::largest_at_begin() const {
   double largest = 0.0;
-  for (const watched what : {watched::virial, watched::potential}) {
+  for (const burn_in_report::watched what :
+       {burn_in_report::watched::virial, burn_in_report::watched::potential}) {
     for (const double one : begin[static_cast<std::size_t>(what)]) largest = std::max(largest, std::abs(one));
   }
   return largest;
@@ -76,10 +80,10 @@ double watched_interval::largest_at_begin() const {
 
 double watched_interval::tau() const {
   double longest = 0.0;
-  for (std::size_t i = 0; i < watched_numbers; ++i) {
+  for (std::size_t i = 0; i < detail::watched_numbers; ++i) {
     if (!counts(i)) continue;
     const auto n = static_cast<double>(mean[i].size());
-    const discrepancy all = mean_over_chains(mean[i]);
+    const burn_in_report::discrepancy all = mean_over_chains(mean[i]);
     const double variance = mean_over_chains(square[i]).mean - all.mean * all.mean;
     const double of_means = all.standard_error * all.standard_error * n;
     if (variance > 0.0) longest = std::max(longest, duration * of_means / variance);
@@ -103,7 +107,7 @@ void detail::require_burn_in(const burn_in_options& options) {
 }
 
 void detail::refuse_escape(const watched_interval& later, const model& system) {
-  const auto& virials = later.square[static_cast<std::size_t>(watched::virial)];
+  const auto& virials = later.square[static_cast<std::size_t>(burn_in_report::watched::virial)];
   if (std::ranges::all_of(virials, [](double one) { return one == 0.0; })) {
     throw std::runtime_error(fmt::format(
         "gibbs: the motion of {} must be confined, got chains that have all left and meet no force",
@@ -116,7 +120,7 @@ void detail::refuse_escape(const watched_interval& later, const model& system) {
         "of the chains that have left and meet no force along a coordinate",
         describe(system), 100.0 * free));
   }
-  const discrepancy potential = later.potential_of_the_far();
+  const burn_in_report::discrepancy potential = later.potential_of_the_far();
   if (!potential.shows()) return;
   throw std::runtime_error(fmt::format(
       "gibbs: the motion of {} must be confined, or its potential the same wherever it goes, got chains that "
@@ -125,13 +129,13 @@ void detail::refuse_escape(const watched_interval& later, const model& system) {
       describe(system), potential.mean, potential.standard_error));
 }
 
-void detail::refuse_discrepancy(const discrepancy& found, std::size_t i, const char* what,
+void detail::refuse_discrepancy(const burn_in_report::discrepancy& found, std::size_t i, const char* what,
                                 const burn_in_report& report) {
   if (!found.shows()) return;
   throw std::runtime_error(
       fmt::format("gibbs: after a burn-in of {:.6g} the {} must {}, got a difference of {:.3g} +- {:.3g} kT; "
                   "burn in for longer",
-                  report.length, watched_names[i], what, found.mean, found.standard_error));
+                  report.length, detail::watched_names[i], what, found.mean, found.standard_error));
 }
 
 }  // namespace nysalt

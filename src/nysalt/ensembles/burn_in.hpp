@@ -31,31 +31,33 @@
 namespace nysalt {
 
 /// Mean over independent numbers and its standard error.
-discrepancy mean_over_chains(const std::vector<double>& x);
+burn_in_report::discrepancy mean_over_chains(const std::vector<double>& x);
 
 /// Chains over an interval of time.
 struct watched_interval {
-  double duration = 0.0;                   ///< how long it is
-  double zero = 0.0;                       ///< the potential of which potentials are differences, an energy
-  of_watched<std::vector<double>> begin;   ///< at its beginning, one number a chain
-  of_watched<std::vector<double>> mean;    ///< over time, one a chain
-  of_watched<std::vector<double>> square;  ///< mean square over time, one a chain
-  std::vector<Eigen::VectorXd> force_square;  ///< mean square over time of each force, a vector a chain
-  std::vector<double> way_to_begin;           ///< |q - q_0|^2 at the beginning, one a chain
-  double way_to_end = 0.0;                    ///< its mean at the end
+  double duration = 0.0;  ///< how long it is
+  double zero = 0.0;      ///< the potential of which potentials are differences, an energy
+  detail::of_watched<std::vector<double>> begin;   ///< at its beginning, one number a chain
+  detail::of_watched<std::vector<double>> mean;    ///< over time, one a chain
+  detail::of_watched<std::vector<double>> square;  ///< mean square over time, one a chain
+  std::vector<Eigen::VectorXd> force_square;       ///< mean square over time of each force, a vector a chain
+  std::vector<double> way_to_begin;                ///< |q - q_0|^2 at the beginning, one a chain
+  double way_to_end = 0.0;                         ///< its mean at the end
 
   /// A random walk doubles its variance over an interval that begins where half the time is over.
   bool confined() const { return way_to_end < 1.5 * mean_over_chains(way_to_begin).mean; }
   /// Mean potential energy of the half of the chains that have gone farther, less that of the other half.
   /// Where the motion is not confined it is 0 if the potential is the same wherever chains go, as that of
   /// angles and of a centre of mass. Where chains leave the potential behind there is no Gibbs distribution.
-  discrepancy potential_of_the_far() const;
+  burn_in_report::discrepancy potential_of_the_far() const;
   /// Largest share of chains, over all coordinates, that met no force there while others did. A random walk
   /// along a half-line does not return within an interval that doubles its time with the probability
   /// 2/pi arcsin(1/sqrt(2)) = 1/2; along a direction that repeats itself all chains meet the same forces.
   double share_without_force() const;
   /// Whether number i is meaningful: the virial is where the motion is confined.
-  bool counts(std::size_t i) const { return i != static_cast<std::size_t>(watched::virial) || confined(); }
+  bool counts(std::size_t i) const {
+    return i != static_cast<std::size_t>(burn_in_report::watched::virial) || confined();
+  }
 
   /// Whether the bath still cools what began at higher energies, all chains alike, which tau() does not see:
   /// the kinetic temperature, or the virial, is above that of the bath, and falls. Numbers that have
@@ -80,7 +82,7 @@ class burn_in_chains {
 
   /// Chains of a system, which comes without its bath, in another bath.
   burn_in_chains(const model& base, const bath& heat_bath, double step, std::uint64_t seed)
-      : system_(detail::own_copy(base).in(heat_bath)),
+      : system_(own_copy(base).in(heat_bath)),
         stepper_(make_stepper(system_, method(baoab{}), step, counter_noise(seed, noise_purpose::burn_in))) {}
   burn_in_chains(const burn_in_chains&) = delete;  // the stepper refers to the system
   burn_in_chains& operator=(const burn_in_chains&) = delete;
@@ -91,7 +93,8 @@ class burn_in_chains {
 
   /// Chains under way in the lanes of T, from these positions; lane 0 sees the noise of chain `first`.
   template <class T>
-  lockstep<stepper_type, T> open(phase_point<T, Eigen::Dynamic> start, std::int64_t first, int count) const {
+  detail::lockstep<stepper_type, T> open(phase_point<T, Eigen::Dynamic> start, std::int64_t first,
+                                         int count) const {
     draw_momenta(start, first, 0);
     return {stepper_, start, count, first};
   }
@@ -140,7 +143,7 @@ class burn_in_pilot {
     int first;
     int count;
     state start;
-    lockstep<burn_in_chains::stepper_type, T> run;
+    detail::lockstep<burn_in_chains::stepper_type, T> run;
   };
 
   /// Sums over an interval of time, as a Measure. Forces are not among the numbers that are read: these are
@@ -149,15 +152,15 @@ class burn_in_pilot {
     const burn_in_pilot& pilot;
     const burn_in_chains& chains;
     vector<T, Eigen::Dynamic> of_forces;
-    of_watched<T> sum{};
-    of_watched<T> squares{};
+    detail::of_watched<T> sum{};
+    detail::of_watched<T> squares{};
     double observations = 0.0;
 
-    static std::size_t width() { return watched_numbers; }
+    static std::size_t width() { return detail::watched_numbers; }
     void read(const state& x, std::span<T> out) { pilot.read(chains, x, out, of_forces); }
-    void see(std::int64_t, std::span<const T> seen, const condition_of<T>&) {
+    void see(std::int64_t, std::span<const T> seen, const detail::condition_of<T>&) {
       observations += 1.0;
-      for (std::size_t i = 0; i < watched_numbers; ++i) {
+      for (std::size_t i = 0; i < detail::watched_numbers; ++i) {
         sum[i] += seen[i];
         squares[i] += seen[i] * seen[i];
       }
@@ -172,7 +175,7 @@ class burn_in_pilot {
       : threads_(options.execution.threads), count_(plan.count), slowest_(&slowest) {
     for (int first = 0; first < plan.count; first += width) {
       const int here = std::min(width, plan.count - first);
-      const state start = sound_starts<T>(base, from, options.seed, first, here);
+      const state start = detail::sound_starts<T>(base, from, options.seed, first, here);
       const auto own = std::make_shared<const burn_in_chains>(base, plan.heat_bath, plan.step, options.seed);
       blocks_.push_back({own, first, here, start, own->open(start, plan.first_noise + first, here)});
     }
@@ -209,7 +212,7 @@ class burn_in_pilot {
   void read(const burn_in_chains& chains, const state& x, std::span<T> out,
             vector<T, Eigen::Dynamic>& squares_of_forces) const {
     const model& system = chains.system();
-    auto f = make_vector<T>(system);
+    auto f = detail::make_vector<T>(system);
     auto p = x.p;
     force<T>(system, x.q, f);
     T virial(0.0);
@@ -236,14 +239,14 @@ class burn_in_pilot {
   }
 
   void follow(block& here, std::int64_t end, std::int64_t every, watched_interval& result) {
-    of_watched<T> begin;
-    sums_over_time sums{*this, *here.chains, make_vector<T>(here.chains->system())};
+    detail::of_watched<T> begin;
+    sums_over_time sums{*this, *here.chains, detail::make_vector<T>(here.chains->system())};
     sums.read(here.run.synchronous(), begin);
     for (T& square : sums.of_forces) square = T(0.0);
     here.run.go_on(end, every, sums);
     for (int k = 0; k < here.count; ++k) {
       const auto chain = static_cast<std::size_t>(here.first + k);
-      for (std::size_t i = 0; i < watched_numbers; ++i) {
+      for (std::size_t i = 0; i < detail::watched_numbers; ++i) {
         result.begin[i][chain] = lane(begin[i], k);
         result.mean[i][chain] = sums.mean(sums.sum[i], k);
         result.square[i][chain] = sums.mean(sums.squares[i], k);
@@ -273,7 +276,8 @@ class burn_in_pilot {
             "gibbs: the motion of {} must be confined and the step small enough, got pilot chain {} that "
             "diverged at time {} with the step {}",
             describe(chains().system().base()), here.first + k,
-            in_digits(static_cast<double>(*lost) * chains().step(), 6), in_digits(chains().step(), 6));
+            detail::in_digits(static_cast<double>(*lost) * chains().step(), 6),
+            detail::in_digits(chains().step(), 6));
         throw chain_diverged(text, *lost);
       }
     }
@@ -291,7 +295,7 @@ class burn_in_pilot {
 /// frequency: then the slowest motion is none of them. Cost: that of modes().
 inline Eigen::VectorXd slowest_mode(const model& system) {
   if (!has_modes(system)) return {};
-  const auto modes = modal_coordinates::of(system);
+  const auto modes = detail::modal_coordinates::of(system);
   const auto omega = std::ranges::min_element(modes->frequencies());
   if (!(*omega > 0.0)) return {};
   const auto slowest = omega - modes->frequencies().begin();
@@ -312,7 +316,7 @@ void require_burn_in(const burn_in_options& options);
 /// others, or no chain met a force.
 void refuse_escape(const watched_interval& later, const model& system);
 /// Throws std::runtime_error where a discrepancy of number i shows; `what` says what it is.
-void refuse_discrepancy(const discrepancy& found, std::size_t i, const char* what,
+void refuse_discrepancy(const burn_in_report::discrepancy& found, std::size_t i, const char* what,
                         const burn_in_report& report);
 
 }  // namespace detail
@@ -379,10 +383,10 @@ class burn_in_search {
       if (interval.duration >= 32.0 * interval.tau() && !interval.is_cooling()) return interval;
       if (interval.duration > 32.0 * most) return std::nullopt;
     }
-    throw std::runtime_error(
-        sentence("gibbs: {} must become stationary within {} steps of {} with the friction {}; give another "
-                 "friction or more steps",
-                 describe(*base_), options_.most_steps, in_digits(step, 6), in_digits(friction, 6)));
+    throw std::runtime_error(sentence(
+        "gibbs: {} must become stationary within {} steps of {} with the friction {}; give another "
+        "friction or more steps",
+        describe(*base_), options_.most_steps, detail::in_digits(step, 6), detail::in_digits(friction, 6)));
   }
 
   /// The friction with the least tau, of omega/4, omega/16, ... with the highest frequency omega: strong
@@ -411,15 +415,15 @@ class burn_in_search {
       report.tau = std::max(coarse.tau(), fine.tau());
       report.confined = coarse.confined() && fine.confined();
       bool sound = true;
-      for (std::size_t i = 0; i < watched_numbers; ++i) {
-        const discrepancy a = mean_over_chains(coarse.mean[i]);
-        const discrepancy b = mean_over_chains(fine.mean[i]);
+      for (std::size_t i = 0; i < detail::watched_numbers; ++i) {
+        const burn_in_report::discrepancy a = mean_over_chains(coarse.mean[i]);
+        const burn_in_report::discrepancy b = mean_over_chains(fine.mean[i]);
         report.bias[i] = {a.mean - b.mean, std::hypot(a.standard_error, b.standard_error)};
-        if (i == static_cast<std::size_t>(watched::potential))
+        if (i == static_cast<std::size_t>(burn_in_report::watched::potential))
           report.bias[i].mean +=
               (coarse.zero - fine.zero) / (temperature_ * static_cast<double>(size(*base_)));
         // The momenta of the chains are not used.
-        if (i != static_cast<std::size_t>(watched::kinetic) && counts(report, i))
+        if (i != static_cast<std::size_t>(burn_in_report::watched::kinetic) && counts(report, i))
           sound = sound && !report.bias[i].shows();
       }
       if (sound) return true;
@@ -439,11 +443,11 @@ class burn_in_search {
     if (biased_++ < most_biased) return false;
     throw std::runtime_error(
         sentence("gibbs: the step must have no bias that shows, got {}; give a smaller one",
-                 in_digits(report.step, 6)));
+                 detail::in_digits(report.step, 6)));
   }
 
   static bool counts(const burn_in_report& report, std::size_t i) {
-    return i != static_cast<std::size_t>(watched::virial) || report.confined;
+    return i != static_cast<std::size_t>(burn_in_report::watched::virial) || report.confined;
   }
 
   /// Fresh pilots at the end of the burn-in against equipartition, and against themselves later.
@@ -451,11 +455,11 @@ class burn_in_search {
     auto chains = pilot(report.friction, report.step, options_.pilots);
     chains.watch(report.steps, report.steps);
     const auto later = chains.watch(2 * report.steps, std::max<std::int64_t>(1, report.steps / 256));
-    for (std::size_t i = 0; i < watched_numbers; ++i) {
+    for (std::size_t i = 0; i < detail::watched_numbers; ++i) {
       std::vector<double> difference = later.begin[i];
       for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= later.mean[i][k];
       report.to_forget[i] = mean_over_chains(difference);
-      if (i < static_cast<std::size_t>(watched::potential)) {
+      if (i < static_cast<std::size_t>(burn_in_report::watched::potential)) {
         report.excess[i] = mean_over_chains(later.begin[i]);
         report.excess[i].mean -= 1.0;
       }

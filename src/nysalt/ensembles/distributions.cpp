@@ -33,7 +33,7 @@ thermal_positions::thermal_positions(const model& system, std::vector<Eigen::Vec
   detail::fingerprint sum;
   for (const auto& q : positions) sum.add_all(q);
   description_ = fmt::format("thermal_positions({} positions, temperature={}, fingerprint={})",
-                             positions.size(), in_digits(temperature, 6), sum.text());
+                             positions.size(), detail::in_digits(temperature, 6), sum.text());
   positions_ = std::make_shared<const std::vector<Eigen::VectorXd>>(std::move(positions));
 }
 
@@ -41,8 +41,8 @@ phase_point<double, Eigen::Dynamic> thermal_positions::operator()(std::uint64_t 
   const auto size = static_cast<Eigen::Index>(deviations_.size());
   Eigen::VectorXd normals(size + 1);
   standard_normals(seed, {.trajectory = n, .purpose = noise_purpose::initial_state}, normals);
-  phase_point<double, Eigen::Dynamic> x{(*positions_)[index_by_normal(normals[size], positions_->size())],
-                                        Eigen::VectorXd(size)};
+  phase_point<double, Eigen::Dynamic> x{
+      (*positions_)[detail::index_by_normal(normals[size], positions_->size())], Eigen::VectorXd(size)};
   for (Eigen::Index i = 0; i < size; ++i) x.p[i] = normals[i] * deviations_[static_cast<std::size_t>(i)];
   return x;
 }
@@ -209,7 +209,7 @@ phase_point<double, Eigen::Dynamic> lennard_jones_liquid_law::operator()(std::ui
 }
 
 std::string lennard_jones_liquid_law::description() const {
-  return fmt::format("lennard_jones_liquid_law(temperature={})", in_digits(temperature_, 6));
+  return fmt::format("lennard_jones_liquid_law(temperature={})", detail::in_digits(temperature_, 6));
 }
 
 /// Four sites a cell: a corner, and the middles of the three faces that meet there.

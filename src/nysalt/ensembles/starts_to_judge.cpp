@@ -21,7 +21,7 @@ std::vector<state> starts_made_in_lanes(const model& system, const initial_state
     for (std::int64_t n = 0; n < most; n += lanes_in<T>) {
       const auto count = static_cast<int>(std::min<std::int64_t>(lanes_in<T>, most - n));
       try {
-        const auto block = sound_starts<T>(system, ensemble, seed, first + n, count);
+        const auto block = detail::sound_starts<T>(system, ensemble, seed, first + n, count);
         for (int k = 0; k < count; ++k) made.push_back(lane(block, k));
       } catch (const std::exception&) {
         if (n == 0) throw;
@@ -57,10 +57,10 @@ phase_points starts_to_judge(const model& system, const initial_states& ensemble
   return result;
 }
 
-std::vector<state> typical_and_energetic_starts(const model& system, const initial_states& ensemble,
-                                                std::uint64_t seed, std::int64_t first,
-                                                std::int64_t most_if_expensive) {
-  constexpr auto plain = static_cast<std::int64_t>(plain_starts);
+std::vector<state> detail::typical_and_energetic_starts(const model& system, const initial_states& ensemble,
+                                                        std::uint64_t seed, std::int64_t first,
+                                                        std::int64_t most_if_expensive) {
+  constexpr auto plain = static_cast<std::int64_t>(detail::plain_starts);
   constexpr std::int64_t energetic = 64;
   constexpr std::int64_t pool = 896;
   constexpr double numbers = 2e6;  // 16 MB

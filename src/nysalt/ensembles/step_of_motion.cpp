@@ -29,7 +29,7 @@ double frequency_at(const model& system, const states_in_double& states) {
 
 /// The largest |f_i|/sqrt(m_i kT) at some states, an inverse time; 0 without forces.
 double thermal_rate_at(const model& system, const states_in_double& states, double temperature) {
-  auto f = make_vector<double>(system);
+  auto f = detail::make_vector<double>(system);
   double largest = 0.0;
   for (const auto& state : states) {
     force<double>(system, state.q, f);

@@ -26,7 +26,7 @@ double median_of(std::vector<double>& numbers);
 /// cache; else with T double.
 decltype(auto) in_lanes_if_filled(const model& system, std::int64_t trajectories, const auto& f) {
   constexpr Eigen::Index large = 20'000;
-  if (trajectories < default_lanes / 4 || size(system) > large) return f(double());
+  if (trajectories < pack<double>::lanes / 4 || size(system) > large) return f(double());
   return with_scalar_of(system, f);
 }
 

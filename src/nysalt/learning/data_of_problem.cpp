@@ -340,7 +340,8 @@ phase_points states_of(const phase_points& mine, const flow_map_data& data, Eige
   phase_points result(pairs.size(), dimension);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const double* q = numbers.data() + 2 * size * k;
-    result.set(k, listed_point<Eigen::Map<const Eigen::VectorXd>>{{q, dimension}, {q + size, dimension}});
+    result.set(
+        k, detail::listed_point<Eigen::Map<const Eigen::VectorXd>>{{q, dimension}, {q + size, dimension}});
   }
   return result;
 }
@@ -351,11 +352,11 @@ std::vector<std::size_t> stiffest_pairs(const model& system, const flow_map_data
   std::vector<double> scored;  // a score and a number, of one pair after the other
   {
     const auto motion = starts_of(data, size(system), detail::spread_pairs(data.all_pairs(), most));
-    force_jacobian jacobian(system, motion);
-    auto v = make_vector<double>(system);
+    detail::force_jacobian jacobian(system, motion);
+    auto v = detail::make_vector<double>(system);
     std::mt19937_64 bits{1};
     auto chance = v;
-    for (double& x : chance) x = uniform_by_bits(bits()) - 0.5;
+    for (double& x : chance) x = detail::uniform_by_bits(bits()) - 0.5;
     chance /= chance.norm();
     std::vector<std::pair<double, std::size_t>> scores;
     for (std::size_t pair = 0; pair < data.pairs(); ++pair) {

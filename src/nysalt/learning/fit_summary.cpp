@@ -11,7 +11,7 @@ namespace nysalt {
 namespace {
 
 /// The standard error of a parameter in scientific notation with `digits` decimals, or why there is none.
-std::string error_of(const fitted_parameter& p, const fit_summary& fit, int digits) {
+std::string error_of(const fit_summary::fitted_parameter& p, const fit_summary& fit, int digits) {
   if (std::isinf(p.standard_error)) return "(not determined by the data)";
   if (std::isnan(p.standard_error)) return fit.is_held_by_guard ? "(held by the guard)" : "+- not known";
   return p.free ? fmt::format("+- {:.{}e}", p.standard_error, digits) : "(not free)";

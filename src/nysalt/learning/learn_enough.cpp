@@ -22,8 +22,8 @@ std::string enough_course::report() const {
       trajectories, share, deciding);
 }
 
-enough_course until_enough(std::int64_t first, const enough_options& options,
-                           const std::function<fit_summary(std::int64_t trajectories)>& learn) {
+enough_course detail::until_enough(std::int64_t first, const enough_options& options,
+                                   const std::function<fit_summary(std::int64_t trajectories)>& learn) {
   if (!(options.share > 0.0) || first < 2 || first > options.most) {
     throw std::invalid_argument(
         fmt::format("until_enough: share must be > 0 and trajectories a range from 2 or more, got a "
@@ -49,15 +49,15 @@ learned_enough learn_enough(const family& family, const model& system, const ini
   const auto learn_from = [&](std::int64_t trajectories) {
     data_options wanted = growing.first;
     wanted.trajectories = trajectories;
-    extend_data(system, ensemble, reference, wanted, data);
+    detail::extend_data(system, ensemble, reference, wanted, data);
     wanted.seed = growing.held_out_seed;
-    extend_data(system, ensemble, reference, wanted, held_out);
+    detail::extend_data(system, ensemble, reference, wanted, held_out);
     found = learn(family, system, data, held_out, options);
     return found->summary;
   };
   enough_options enough = growing.enough;
-  enough.most = std::min(enough.most, most_trajectories(growing.first, size(system)));
-  auto course = until_enough(growing.first.trajectories, enough, learn_from);
+  enough.most = std::min(enough.most, detail::most_trajectories(growing.first, size(system)));
+  auto course = detail::until_enough(growing.first.trajectories, enough, learn_from);
   return {std::move(*found), std::move(course)};
 }
 

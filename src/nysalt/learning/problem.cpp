@@ -25,8 +25,8 @@ namespace {
 /// Whether a change to modes costs a pass over the coordinates, and no product with a full matrix.
 bool has_cheap_modes(const model& system) {
   if (!has_modes(system)) return false;
-  const auto each = std::ssize(modal_coordinates::of(system)->entries()) / size(system);
-  return each <= most_for_all_frequencies;
+  const auto each = std::ssize(detail::modal_coordinates::of(system)->entries()) / size(system);
+  return each <= detail::most_for_all_frequencies;
 }
 
 /// The coordinates that were asked for; else the energy coordinates where the loss is of them and they are
@@ -75,7 +75,7 @@ fit_options within_proposals(fit_options options, const loss_kind& kind, int sho
 }
 
 /// The guard that knows the frequencies along both sets of data.
-stability_guard guard_along(const learning_problem& problem) {
+detail::stability_guard guard_along(const learning_problem& problem) {
   auto [states, typical] = some_states(problem.system, problem.data);
   states.append(some_states(problem.system, problem.held_out).states);
   // Over ten thousand steps, as at first: what grows more slowly a trial run shows.
@@ -91,7 +91,7 @@ void require_served_with_slopes(const word& letters, const model& system, bool i
   if (in_lanes) {
     require_served<model, detail::lanes_with_slopes>(letters, system);
   } else {
-    require_served<model, dual<double, directions_at_a_time>>(letters, system);
+    require_served<model, dual<double, detail::directions_at_a_time>>(letters, system);
   }
 }
 
@@ -231,11 +231,11 @@ learning_problem learning_problem::shorter() const {
 double learning_problem::judge(const Eigen::VectorXd& theta) const {
   if (law_) return law_(theta).value;
   switch (chosen.kind->judge) {
-    case judge_of_minima::held_out_end:
+    case loss_kind::judge_of_minima::held_out_end:
       return at_end_of_held_out->value(theta);
-    case judge_of_minima::training_loss:
+    case loss_kind::judge_of_minima::training_loss:
       return over_data->value(theta);
-    case judge_of_minima::held_out_loss:
+    case loss_kind::judge_of_minima::held_out_loss:
       break;
   }
   return over_held_out->value(theta);
@@ -313,7 +313,7 @@ void require_sound_letters_on(const model& system, const word& letters, const fl
   for (std::size_t quarter = 0; quarter < 4 && pairs > 0; ++quarter) {
     points.push_back(data.start[(2 * quarter + 1) * pairs / 8]);
   }
-  if (!points.empty()) require_sound_letters(system, letters, points, data.step);
+  if (!points.empty()) detail::require_sound_letters(system, letters, points, data.step);
 }
 
 }  // namespace

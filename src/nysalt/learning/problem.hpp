@@ -38,7 +38,7 @@ class learning_problem {
   fit_options options;                    ///< options as given, but for the planned steps of proposals
   coordinates which;                      ///< coordinates in which an error of the state counts
   std::shared_ptr<const metric> measure;  ///< weights of an error of the state
-  stability_guard guard;                  ///< knows the frequencies of the system
+  detail::stability_guard guard;          ///< knows the frequencies of the system
   double known_frequency;  ///< frequency that was given, or that of the highest mode; 0: neither is known
   fit_summary facts;       ///< facts that are known before a search
 

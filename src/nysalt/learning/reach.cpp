@@ -114,12 +114,13 @@ method at_size_of(const model& system, const method& learned, const initial_stat
         "learned:{} must run on {}, for which it was learned, got {}: {}; learn it there, or use anywhere()",
         learned.name(), validity->system, describe(system), why));
   };
-  if (validity->kind.empty() || validity->kind != kind_of(system)) refuse("the systems are not of one kind");
+  if (validity->kind.empty() || validity->kind != detail::kind_of(system))
+    refuse("the systems are not of one kind");
   const judgement found =
       judge(system, starts_to_judge(system, starts), learned.anywhere(), validity->step, options);
   if (!found.holds()) refuse(found.in_words());
   return {learned.name(), learned.letters(), learned.coefficients(), learned,
-          method_validity{validity->step, describe(system), kind_of(system)}};
+          method_validity{validity->step, describe(system), detail::kind_of(system)}};
 }
 
 }  // namespace nysalt

@@ -46,7 +46,8 @@ candidate descend(const search_task& task, const theta_condition& defined, const
 /// A parameter is held at the end of all ranges: the data do not determine it, and such a fit is not usable.
 bool has_run_away(const candidate& one, const std::vector<Eigen::Index>& free) {
   return std::ranges::any_of(free, [&](Eigen::Index k) {
-    return std::ranges::find(one.free, k) == one.free.end() && std::abs(one.theta[k]) == farthest_parameter;
+    return std::ranges::find(one.free, k) == one.free.end() &&
+           std::abs(one.theta[k]) == detail::farthest_parameter;
   });
 }
 

@@ -49,7 +49,7 @@ method learned_method(const learning_problem& problem, const Eigen::VectorXd& th
           family.letters,
           family.coefficients(theta),
           {family.order, family.symmetric, family.requires_quadratic_kinetic},
-          method_validity{problem.data.step, problem.data.system, kind_of(problem.system),
+          method_validity{problem.data.step, problem.data.system, detail::kind_of(problem.system),
                           is_of_data ? problem.data.energies : std::nullopt}};
 }
 
@@ -73,7 +73,7 @@ class solution {
   }
 
  private:
-  std::string objection_of_guard(const Eigen::VectorXd& theta, met which) const {
+  std::string objection_of_guard(const Eigen::VectorXd& theta, detail::met which) const {
     return problem_.guard.objection(family_.letters, family_.coefficients(theta), problem_.facts.step, which);
   }
   const judgement& judged(const Eigen::VectorXd& theta) const {
@@ -122,7 +122,7 @@ solution::solution(const learning_problem& problem)
   free_ = detail::free_parameters(family_, options_);
   starts_ = detail::starts_of(family_, options_, problem_, free_);
   if (!(frequency_ > 0.0)) {
-    for (const auto& band : problem_.guard.frequencies(met::often)) {
+    for (const auto& band : problem_.guard.frequencies(detail::met::often)) {
       frequency_ = std::max(frequency_, band.high);
     }
   }
@@ -145,11 +145,11 @@ search_task solution::task_of() const {
                    .judge = [this](const Eigen::VectorXd& theta) { return problem_.judge(theta); },
                    .admits =
                        [this](const Eigen::VectorXd& theta) {
-                         return !options_.guarded || objection_of_guard(theta, met::often).empty();
+                         return !options_.guarded || objection_of_guard(theta, detail::met::often).empty();
                        },
                    .admits_at_edge =
                        [this](const Eigen::VectorXd& theta) {
-                         return !options_.guarded || objection_of_guard(theta, met::ever).empty();
+                         return !options_.guarded || objection_of_guard(theta, detail::met::ever).empty();
                        },
                    .free = free_,
                    .max_iterations = options_.max_iterations};
@@ -296,18 +296,19 @@ void solution::describe_search(fit_summary& summary) const {
   if (found_.unguarded) summary.unguarded = objection_to_unguarded();
   for (const Eigen::Index k : free_) {
     const bool is_held_there = std::ranges::find(best.free, k) == best.free.end();
-    if (is_held_there && std::abs(best.theta[k]) == farthest_parameter) summary.is_at_no_bound = false;
+    if (is_held_there && std::abs(best.theta[k]) == detail::farthest_parameter)
+      summary.is_at_no_bound = false;
   }
 }
 
 std::string solution::objection_to_unguarded() const {
   const Eigen::VectorXd& theta = found_.unguarded->theta;
-  std::string text = objection_of_guard(theta, met::often);
+  std::string text = objection_of_guard(theta, detail::met::often);
   if (text.empty()) {
     const judgement& found = judged(theta);
     if (!found.holds()) text = found.reason;
   }
-  return text.empty() ? objection_of_guard(theta, met::ever) : text;
+  return text.empty() ? objection_of_guard(theta, detail::met::ever) : text;
 }
 
 std::optional<spread_of_minimum> solution::describe_curvature(fit_summary& summary) const {

@@ -21,7 +21,7 @@ namespace nysalt {
 
 namespace {
 
-constexpr double margin = stability_guard::widened;
+constexpr double margin = detail::stability_guard::widened;
 constexpr double rarely = 0.1;  // of the states
 
 /// Threefold is much: a stable motion whose energy swings by nine. On the FPU chain at h omega = j pi
@@ -40,7 +40,7 @@ double exceeded_often(std::vector<double> values, std::size_t states) {
 /// between them over a quarter of their distance from 0 and over a tenth of the highest. The first begins at
 /// 0. The k-th lowest frequency is continuous along the motion, and passes through all between the least and
 /// the largest that is met. One range where not all frequencies are known, or of few states.
-std::vector<frequency_band> clusters(const frequencies_along& along) {
+std::vector<frequency_band> clusters(const detail::frequencies_along& along) {
   constexpr double quarter = 0.25;
   constexpr double tenth = 0.1;
   constexpr int enough = 64;
@@ -76,22 +76,22 @@ std::string in_words(const std::vector<frequency_band>& bands) {
 
 }  // namespace
 
-stability_guard::stability_guard(const model& system, const phase_points& states, bool rotations,
-                                 std::int64_t steps, std::size_t typical)
+detail::stability_guard::stability_guard(const model& system, const phase_points& states, bool rotations,
+                                         std::int64_t steps, std::size_t typical)
     : steps_(steps) {
   if (system.facts().has_bands) declare(system.frequency_bands());
-  scan_along(frequencies_of_states(system, states), states.size(), std::min(typical, states.size()),
+  scan_along(detail::frequencies_of_states(system, states), states.size(), std::min(typical, states.size()),
              has_quadratic_kinetic(system));
   const bool has_soft_derivative = system.facts().serves<double>(soft_gradient_kick::letter);
   if (has_soft_derivative && rotations && states.size() > 0) watch_rotations(system, states);
 }
 
-void stability_guard::declare(const std::vector<frequency_band>& bands) {
+void detail::stability_guard::declare(const std::vector<frequency_band>& bands) {
   for (const auto& band : bands) bands_.push_back({band.low * (1.0 - margin), band.high * (1.0 + margin)});
 }
 
-void stability_guard::scan_along(const frequencies_along& along, std::size_t count, std::size_t typical,
-                                 bool has_quadratic_kinetic) {
+void detail::stability_guard::scan_along(const detail::frequencies_along& along, std::size_t count,
+                                         std::size_t typical, bool has_quadratic_kinetic) {
   const bool are_declared = !bands_.empty();
   highest_along_ = along.highest().frequency;
   state_of_highest_ = along.highest().state;
@@ -102,9 +102,9 @@ void stability_guard::scan_along(const frequencies_along& along, std::size_t cou
     extend(along, typical);
   } else if (highest_along_ > 0.0) {
     estimate(along, typical);
-    description_ = fmt::format("estimated {} along {} states", in_words(bands_), count);
-    if (in_words(often_) != in_words(bands_))
-      description_ += fmt::format(", {} in nine tenths of them", in_words(often_));
+    description_ = fmt::format("estimated {} along {} states", nysalt::in_words(bands_), count);
+    if (nysalt::in_words(often_) != nysalt::in_words(bands_))
+      description_ += fmt::format(", {} in nine tenths of them", nysalt::in_words(often_));
   } else if (has_quadratic_kinetic && count == 0) {
     throw std::invalid_argument(
         "stability_guard: frequency_bands() must be declared, or states given to estimate them from, got "
@@ -116,7 +116,7 @@ void stability_guard::scan_along(const frequencies_along& along, std::size_t cou
   }
 }
 
-void stability_guard::estimate(const frequencies_along& along, std::size_t typical) {
+void detail::stability_guard::estimate(const detail::frequencies_along& along, std::size_t typical) {
   const std::vector<frequency_band> met = clusters(along);
   for (std::size_t k = 0; k < met.size(); ++k) {
     const auto& [low, high] = met[k];
@@ -151,7 +151,7 @@ struct beyond_bands {
 };
 
 /// By the frequencies of the first states.
-beyond_bands beyond(const std::vector<frequency_band>& declared, const frequencies_along& along,
+beyond_bands beyond(const std::vector<frequency_band>& declared, const detail::frequencies_along& along,
                     std::size_t states) {
   const auto distance = [](const frequency_band& band, double omega) {
     return omega > band.high ? omega - band.high : band.low - omega;
@@ -185,7 +185,7 @@ beyond_bands beyond(const std::vector<frequency_band>& declared, const frequenci
 
 }  // namespace
 
-void stability_guard::extend(const frequencies_along& along, std::size_t typical) {
+void detail::stability_guard::extend(const detail::frequencies_along& along, std::size_t typical) {
   const std::vector<frequency_band> declared = bands_;
   const beyond_bands all = beyond(declared, along, along.of_state.size());
   const beyond_bands of_typical = beyond(declared, along, typical);
@@ -233,12 +233,12 @@ void stability_guard::extend(const frequencies_along& along, std::size_t typical
   if (often > 0.0) often_.push_back({0.0, often * (1.0 + margin)});
 }
 
-void stability_guard::add_mode(double omega) {
+void detail::stability_guard::add_mode(double omega) {
   const auto is_near = [&](double other) { return std::abs(omega - other) <= 1e-9 * other; };
   if (std::none_of(modes_.begin(), modes_.end(), is_near)) modes_.push_back(omega);
 }
 
-void stability_guard::watch_modes(const std::vector<double>& frequencies, double highest) {
+void detail::stability_guard::watch_modes(const std::vector<double>& frequencies, double highest) {
   all_modes_ = frequencies;
   for (const double omega : all_modes_) add_mode(omega);
   stiffest_soft_ = highest * (1.0 + margin);
@@ -246,15 +246,16 @@ void stability_guard::watch_modes(const std::vector<double>& frequencies, double
       fmt::format("; {} modes under soft forces of frequencies up to {:.4g}", modes_.size(), stiffest_soft_);
 }
 
-std::string stability_guard::unstable(const nysalt::word& word, const std::vector<double>& coefficients,
-                                      double step, met which) const {
+std::string detail::stability_guard::unstable(const nysalt::word& word,
+                                              const std::vector<double>& coefficients, double step,
+                                              met which) const {
   // trace/2 = cosh(rate): over the steps the growth is less than e where the excess is below this.
   const double excess = 0.5 / (static_cast<double>(steps_) * static_cast<double>(steps_));
   for (const auto& band : frequencies(which)) {
     const double low = step * band.low;
     const double high = step * band.high;
-    const auto trace = half_trace(word, coefficients, 0.0, low * low, high * high);
-    if (const auto x = where_larger(trace, 1.0 + excess)) {
+    const auto trace = detail::half_trace(word, coefficients, 0.0, low * low, high * high);
+    if (const auto x = detail::where_larger(trace, 1.0 + excess)) {
       return fmt::format(
           "it is not linearly stable at z = {:.4g}, on the frequencies {:.4g} to {:.4g} of the system",
           std::sqrt(*x), band.low, band.high);
@@ -263,8 +264,8 @@ std::string stability_guard::unstable(const nysalt::word& word, const std::vecto
   return {};
 }
 
-std::string stability_guard::magnified(const nysalt::word& word, const std::vector<double>& coefficients,
-                                       double step) const {
+std::string detail::stability_guard::magnified(const nysalt::word& word,
+                                               const std::vector<double>& coefficients, double step) const {
   const auto worst = most_magnified(word, coefficients, step, too_much);
   if (worst.factor <= too_much) return {};
   return fmt::format(
@@ -273,8 +274,8 @@ std::string stability_guard::magnified(const nysalt::word& word, const std::vect
       std::isfinite(worst.factor) ? fmt::format("{:.3g}-fold", worst.factor) : "without bound");
 }
 
-std::string stability_guard::resonant(const nysalt::word& word, const std::vector<double>& coefficients,
-                                      double step) const {
+std::string detail::stability_guard::resonant(const nysalt::word& word,
+                                              const std::vector<double>& coefficients, double step) const {
   const auto worst = most_resonant(word, coefficients, step);
   if (!(worst.growth > std::log(too_much))) return {};
   const double turns = step * (worst.first + worst.second) / (2.0 * std::numbers::pi);
@@ -287,11 +288,11 @@ std::string stability_guard::resonant(const nysalt::word& word, const std::vecto
 
 // What a guard has against a word at a step.
 
-stability_guard::stability_guard(const model& system, const phase_points& states, const nysalt::word& word,
-                                 std::int64_t steps, std::size_t typical)
-    : stability_guard(system, states, word.rotates(), steps, typical) {
+detail::stability_guard::stability_guard(const model& system, const phase_points& states,
+                                         const nysalt::word& word, std::int64_t steps, std::size_t typical)
+    : detail::stability_guard(system, states, word.rotates(), steps, typical) {
   if (!word.has_own_letters()) return;
-  const auto parts = std::make_shared<const word_on_parts>(system, states, word);
+  const auto parts = std::make_shared<const detail::word_on_parts>(system, states, word);
   if (parts->is_known()) {
     parts_ = parts;
     description_ = fmt::format("linearised motion of {} along {} states", word.letters(), parts->states());
@@ -301,11 +302,11 @@ stability_guard::stability_guard(const model& system, const phase_points& states
   }
 }
 
-void stability_guard::watch_rotations(const model& system, const phase_points& states) {
-  const auto part = modal_coordinates::of(system);
+void detail::stability_guard::watch_rotations(const model& system, const phase_points& states) {
+  const auto part = detail::modal_coordinates::of(system);
   watch_modes(part->frequencies(), hessian_spectrum(system, states, field::soft).highest_frequency());
   const Eigen::Index n = size(system);
-  if (n > most_for_all_frequencies) {
+  if (n > detail::most_for_all_frequencies) {
     description_ += "; pairs of modes are not examined";
     return;
   }
@@ -317,7 +318,7 @@ void stability_guard::watch_rotations(const model& system, const phase_points& s
   const normal_modes modes = system.modes();
   mean_soft_ = Eigen::MatrixXd::Zero(n, n);
   std::size_t number = 0;
-  force_jacobian jacobian(system, states, field::soft);
+  detail::force_jacobian jacobian(system, states, field::soft);
   for (const auto& state : states) {
     // Evenly spread: the k-th of those that are examined is the state count * k / enough.
     const bool is_examined = number * enough / count != (number + 1) * enough / count;
@@ -331,13 +332,14 @@ void stability_guard::watch_rotations(const model& system, const phase_points& s
   mean_soft_ /= static_cast<double>(soft_.size());
 }
 
-bool stability_guard::admits(const nysalt::word& word, const std::vector<double>& coefficients, double step,
-                             met which) const {
+bool detail::stability_guard::admits(const nysalt::word& word, const std::vector<double>& coefficients,
+                                     double step, met which) const {
   return objection(word, coefficients, step, which).empty();
 }
 
-std::string stability_guard::objection(const nysalt::word& word, const std::vector<double>& coefficients,
-                                       double step, met which) const {
+std::string detail::stability_guard::objection(const nysalt::word& word,
+                                               const std::vector<double>& coefficients, double step,
+                                               met which) const {
   word.require_one_for_each_slot(coefficients);
   if (word.has_own_letters()) {
     if (!parts_) return {};
@@ -356,7 +358,7 @@ std::string stability_guard::objection(const nysalt::word& word, const std::vect
 
 namespace {
 /// What a spectrum shows, as the end of a sentence.
-std::string shown_by(const symplectic_spectrum& spectrum) {
+std::string shown_by(const detail::symplectic_spectrum& spectrum) {
   if (!std::isfinite(spectrum.growth)) return "a step is not finite";
   if (!spectrum.is_on_circle()) {
     return fmt::format("a step multiplies a mode by exp({:.3g}), at the phase {:.4g}", spectrum.growth,
@@ -368,20 +370,21 @@ std::string shown_by(const symplectic_spectrum& spectrum) {
 }
 }  // namespace
 
-std::string stability_guard::grown_on_parts(const std::vector<double>& coefficients, double step) const {
+std::string detail::stability_guard::grown_on_parts(const std::vector<double>& coefficients,
+                                                    double step) const {
   const auto growth = parts_->growth(coefficients, step, steps_);
   if (growth.is_refused()) {
     const std::string how_much =
         std::isfinite(growth.late) ? fmt::format("by the factor {:.3g}", 1.0 + growth.late) : "without bound";
     return fmt::format("the linearised motion gains energy {} in {} steps: {}", how_much, steps_,
-                       shown_by(spectrum_of(parts_->step(coefficients, step, growth.state))));
+                       shown_by(detail::spectrum_of(parts_->step(coefficients, step, growth.state))));
   }
   // A perturbation that turns an eigenvalue by less than a radian in all steps may move two off the circle.
   // Two slow modes, or one and its conjugate, are of opposite signature and on either side of +1, without any
   // resonance: they are farther apart than one of them turns at least.
   if (parts_->has_mean()) {
-    const auto spectrum = spectrum_of(parts_->step(coefficients, step, parts_->states()));
-    const double too_near = std::min(2.0 / static_cast<double>(steps_), word_on_parts::least_turn);
+    const auto spectrum = detail::spectrum_of(parts_->step(coefficients, step, parts_->states()));
+    const double too_near = std::min(2.0 / static_cast<double>(steps_), detail::word_on_parts::least_turn);
     if (spectrum.krein_distance < too_near)
       return fmt::format("it is not strongly stable: {}", shown_by(spectrum));
   }
@@ -395,23 +398,22 @@ std::string stability_guard::grown_on_parts(const std::vector<double>& coefficie
   return {};
 }
 
-std::vector<stability_window> stability_guard::gaps(const nysalt::word& word,
-                                                    const std::vector<double>& coefficients,
-                                                    double step) const {
+std::vector<stability_window> detail::stability_guard::gaps(const nysalt::word& word,
+                                                            const std::vector<double>& coefficients,
+                                                            double step) const {
   if (word.rotates() || word.has_own_letters()) return {};
-  return gaps_below(stability_windows(conservative_part(word), conservative_part(word, coefficients)),
-                    step * highest_frequency(bands_));
+  return detail::gaps_below(stability_windows(conservative_part(word), conservative_part(word, coefficients)),
+                            step * highest_frequency(bands_));
 }
 
-stability_guard::magnified_mode stability_guard::most_magnified(const nysalt::word& word,
-                                                                const std::vector<double>& coefficients,
-                                                                double step, double enough) const {
+detail::stability_guard::magnified_mode detail::stability_guard::most_magnified(
+    const nysalt::word& word, const std::vector<double>& coefficients, double step, double enough) const {
   constexpr int samples = 64;  // a narrower gap is passed before it does harm, as soft forces change
   magnified_mode worst{0.0, 1.0};
   for (const double omega : modes_) {
     for (int i = 1; i <= samples && stiffest_soft_ > 0.0; ++i) {
       const double soft = step * stiffest_soft_ * i / samples;
-      const double grown = transient_growth(word, coefficients, step * omega, soft * soft, steps_);
+      const double grown = detail::transient_growth(word, coefficients, step * omega, soft * soft, steps_);
       if (!(grown <= worst.factor)) worst = {omega, grown};
       if (!(worst.factor <= enough)) return worst;
     }
@@ -419,15 +421,14 @@ stability_guard::magnified_mode stability_guard::most_magnified(const nysalt::wo
   return worst;
 }
 
-stability_guard::resonant_pair stability_guard::most_resonant(const nysalt::word& word,
-                                                              const std::vector<double>& coefficients,
-                                                              double step) const {
+detail::stability_guard::resonant_pair detail::stability_guard::most_resonant(
+    const nysalt::word& word, const std::vector<double>& coefficients, double step) const {
   resonant_pair worst{0.0, 0.0, 0.0};
   const auto growth_at = [&](const Eigen::MatrixXd& soft, Eigen::Index i, Eigen::Index j) {
     const Eigen::Array2d theta(step * all_modes_[static_cast<std::size_t>(i)],
                                step * all_modes_[static_cast<std::size_t>(j)]);
     const Eigen::Matrix2d k{{soft(i, i), soft(i, j)}, {soft(j, i), soft(j, j)}};
-    return growth_of_pair(word, coefficients, theta, step * step * k);
+    return detail::growth_of_pair(word, coefficients, theta, step * step * k);
   };
   for (Eigen::Index i = 0; i < mean_soft_.rows(); ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {

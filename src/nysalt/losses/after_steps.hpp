@@ -48,7 +48,7 @@ using terms_of_window = std::function<void(const residuals_of_window<R>& r, std:
 /// rank has its own.
 template <Scalar R = detail::lanes>
 class after_steps : public loss_on_data {
-  using C = dual<R, directions_at_a_time>;
+  using C = dual<R, detail::directions_at_a_time>;
   static constexpr int N = Eigen::Dynamic;
 
  public:
@@ -167,8 +167,9 @@ class after_steps : public loss_on_data {
         }
       }
       result[trajectory] = sum * weight_;
-      const std::int64_t of_each = is_black_box(watched) ? watched.calls() / std::ssize(part.entries)
-                                                         : std::ssize(steppers) * evaluations_of_window;
+      const std::int64_t of_each = detail::is_black_box(watched)
+                                       ? watched.calls() / std::ssize(part.entries)
+                                       : std::ssize(steppers) * evaluations_of_window;
       evaluations_ += of_each * static_cast<std::int64_t>(part.end - part.begin);
     };
     const auto pass = [&] {
@@ -199,7 +200,7 @@ class after_steps : public loss_on_data {
   }
 
   static flow_state<C, N> make_state(const model& system) {
-    return {{make_vector<C>(system), make_vector<C>(system)}, make_vector<C>(system)};
+    return {{detail::make_vector<C>(system), detail::make_vector<C>(system)}, detail::make_vector<C>(system)};
   }
 
   /// The coefficients with their derivatives along two parameters at a time, in all lanes.
@@ -207,12 +208,12 @@ class after_steps : public loss_on_data {
     const auto c = family_.coefficients(theta);
     const Eigen::MatrixXd slopes = family_.jacobian(theta);
     std::vector<std::vector<C>> result;
-    for (Eigen::Index first = 0; first == 0 || first < parameters(); first += directions_at_a_time) {
+    for (Eigen::Index first = 0; first == 0 || first < parameters(); first += detail::directions_at_a_time) {
       result.emplace_back(c.begin(), c.end());
       if (!with_slopes) return result;
       for (std::size_t i = 0; i < c.size(); ++i) {
-        for (Eigen::Index k = 0; k < std::min<Eigen::Index>(directions_at_a_time, parameters() - first);
-             ++k) {
+        for (Eigen::Index k = 0;
+             k < std::min<Eigen::Index>(detail::directions_at_a_time, parameters() - first); ++k) {
           result.back()[i].derivative[static_cast<std::size_t>(k)] =
               R(slopes(static_cast<Eigen::Index>(i), first + k));
         }
@@ -256,8 +257,8 @@ class after_steps : public loss_on_data {
     for (std::size_t k = 0; k < r.values.size(); ++k) {
       r.values[k] = of_directions[k].value;
       if (!with_slopes) continue;
-      for (std::size_t i = 0; i < directions_at_a_time; ++i) {
-        const std::size_t parameter = d * directions_at_a_time + i;
+      for (std::size_t i = 0; i < detail::directions_at_a_time; ++i) {
+        const std::size_t parameter = d * detail::directions_at_a_time + i;
         if (parameter < r.parameters) r.slopes[k * r.parameters + parameter] = of_directions[k].derivative[i];
       }
     }
@@ -267,7 +268,7 @@ class after_steps : public loss_on_data {
     const bath& in = system_.bath();
     const nysalt::word& word = family_.letters;
     if (in.sigma() == 0.0 || word.stochastic_letters == 0) return {};
-    const auto needed = intervals_of_noise(word, family_.coefficients(family_.starts.front().theta));
+    const auto needed = detail::intervals_of_noise(word, family_.coefficients(family_.starts.front().theta));
     if (data.noise_parts == 0 || data.noise_parts % needed.parts != 0) {
       throw std::invalid_argument(
           sentence("noise_parts of the data must be a multiple of {} for the word {}, got {}; make the data "

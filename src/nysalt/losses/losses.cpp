@@ -18,7 +18,7 @@
 
 namespace nysalt {
 
-std::vector<after_steps_options> after_each_step(int K, int shortest) {
+std::vector<after_steps_options> detail::after_each_step(int K, int shortest) {
   return {{.steps = {K}, .apart = std::max(1, shortest / 4)}, {.steps = {K}}};
 }
 
@@ -27,13 +27,13 @@ namespace {
 using made_loss = std::unique_ptr<const loss_on_data>;
 
 template <Scalar R>
-made_loss after_steps_of(const loss_inputs& from, const window_error<R>& error) {
+made_loss after_steps_of(const loss_kind::inputs& from, const window_error<R>& error) {
   return std::make_unique<const after_steps<R>>(from.family, from.system, from.data, error, from.how);
 }
 
 // state:K, the state's error after K steps.
 
-made_loss of_states(const loss_inputs& from) {
+made_loss of_states(const loss_kind::inputs& from) {
   return from.in_lanes ? after_steps_of(from, state_error<detail::lanes>(from.measure))
                        : after_steps_of(from, state_error<double>(from.measure));
 }
@@ -64,7 +64,7 @@ double scale_of_energies(const model& system, const flow_map_data& data) {
 
 namespace {
 
-made_loss of_energies(const loss_inputs& from) {
+made_loss of_energies(const loss_kind::inputs& from) {
   return from.in_lanes ? after_steps_of(from, energy_error<detail::lanes>(from.system, from.data))
                        : after_steps_of(from, energy_error<double>(from.system, from.data));
 }
@@ -99,7 +99,7 @@ std::vector<after_steps_options> stages_of_trajectory(int, int shortest) {
 // covariance, the loss of the stationary distribution of a thermostatted word: no data are needed.
 
 objective of_law(const model& system, const family& family, double step) {
-  return objective_of(stationary_covariance(system, family.letters, step), family);
+  return detail::objective_of(stationary_covariance(system, family.letters, step), family);
 }
 // acceptance, the energy's error at several times of whole trajectories: what Metropolis' rule rejects by.
 
@@ -191,12 +191,12 @@ std::span<const std::shared_ptr<const loss_kind>> losses() {
   static const std::vector<std::shared_ptr<const loss_kind>> all{
       row({.name = "trajectory",
            .counts_steps = false,
-           .judge = judge_of_minima::training_loss,
+           .judge = loss_kind::judge_of_minima::training_loss,
            .is_of_energy_norm = true,
            .is_shortened = true,
            .stages = stages_of_trajectory,
            .over_data = of_states}),
-      row({.name = "state", .judge = judge_of_minima::held_out_end, .over_data = of_states}),
+      row({.name = "state", .judge = loss_kind::judge_of_minima::held_out_end, .over_data = of_states}),
       row({.name = "energy", .is_for_sampling = true, .over_data = of_energies}),
       row({.name = "acceptance",
            .counts_steps = false,
@@ -240,7 +240,7 @@ void require_name(const std::string& name) {
 template <Scalar R>
 loss_choice choice_by_residuals(const std::string& name, int steps, const window_error<R>& error) {
   require_name(name);
-  const auto over_data = [error](const loss_inputs& from) { return after_steps_of(from, error); };
+  const auto over_data = [error](const loss_kind::inputs& from) { return after_steps_of(from, error); };
   return {row({.name = name, .is_for_sampling = true, .over_data = over_data}), steps};
 }
 
@@ -276,7 +276,7 @@ std::string loss_choice::description() const {
   return kind->counts_steps ? fmt::format("{}:{}", kind->name, steps) : kind->name;
 }
 
-std::optional<loss_choice> find_loss(std::string_view text) {
+std::optional<loss_choice> detail::find_loss(std::string_view text) {
   const auto colon = text.find(':');
   for (const auto& kind : losses()) {
     if (kind->name != text.substr(0, colon)) continue;
@@ -290,13 +290,13 @@ std::optional<loss_choice> find_loss(std::string_view text) {
 loss_choice usual_loss(const bath& around) { return around.acts() ? loss_named("state:1") : loss_choice{}; }
 
 loss_choice loss_named(std::string_view text) {
-  if (const auto found = find_loss(text)) return *found;
+  if (const auto found = detail::find_loss(text)) return *found;
   throw std::invalid_argument(
       fmt::format("unknown loss '{}': it is one of {} with the number K of steps, and {}", text,
-                  loss_patterns(true), loss_patterns(false)));
+                  detail::loss_patterns(true), detail::loss_patterns(false)));
 }
 
-std::string loss_patterns(bool count_steps) {
+std::string detail::loss_patterns(bool count_steps) {
   std::string all;
   for (const auto& kind : losses()) {
     if (kind->counts_steps != count_steps) continue;

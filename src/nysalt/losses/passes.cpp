@@ -60,7 +60,7 @@ void metric::change_coordinates(const model& system, coordinates which) {
         fmt::format("a loss in {} coordinates: the system must have modes(), got {}; use qp",
                     to_string(which), describe(system)));
   }
-  const auto modes = modal_coordinates::of(system);
+  const auto modes = detail::modal_coordinates::of(system);
   sums_of_q_.resize(static_cast<std::size_t>(size_));
   sums_of_p_.resize(static_cast<std::size_t>(size_));
   for (const auto& [i, k, heavy, light] : modes->entries()) {

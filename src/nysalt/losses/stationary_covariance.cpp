@@ -106,7 +106,7 @@ template std::vector<detail::slopes> stationary_covariance::residuals(
 
 squares stationary_covariance::at(const std::vector<double>& coefficients,
                                   const Eigen::MatrixXd& jacobian) const {
-  constexpr int width = directions_at_a_time;
+  constexpr int width = detail::directions_at_a_time;
   const auto values = residuals(coefficients);
   const Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
   Eigen::MatrixXd J(r.size(), jacobian.cols());
@@ -147,13 +147,13 @@ void stationary_covariance::split_at_bath() {
   const std::string& letters = word_.letters();
   for (std::size_t i = 0; i < letters.size();) {
     pieces_.push_back({word_.first_slot(i), std::nullopt});
-    const std::size_t length = std::min(letters.find(bath_letter, i), letters.size()) - i;
+    const std::size_t length = std::min(letters.find(detail::bath_letter, i), letters.size()) - i;
     if (length > 0) pieces_.back().turn = nysalt::word(letters.substr(i, length));
     i += std::max<std::size_t>(length, 1);
   }
 }
 
-objective objective_of(const stationary_covariance& loss, const family& family) {
+objective detail::objective_of(const stationary_covariance& loss, const family& family) {
   return [=](const Eigen::VectorXd& theta) {
     return loss.at(family.coefficients(theta), family.jacobian(theta));
   };

@@ -55,8 +55,8 @@ struct noise_of_entries {
 
 /// The noise in data that the letters O of a word need.
 struct wanted_noise {
-  noise_intervals intervals;   ///< intervals of the letters O, in parts of the data
-  double damping_of_part = 0;  ///< gamma times the length of a part
+  detail::noise_intervals intervals;  ///< intervals of the letters O, in parts of the data
+  double damping_of_part = 0;         ///< gamma times the length of a part
 };
 
 /// The pairs with which windows of a number of steps begin, trajectory by trajectory. first_of is as in

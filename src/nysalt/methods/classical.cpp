@@ -5,7 +5,7 @@
 
 namespace nysalt {
 
-method as_data(const classical_row& row) {
+method detail::as_data(const detail::classical_row& row) {
   return {std::string(row.name),
           word(row.letters),
           {row.coefficients.begin(), row.coefficients.end()},
@@ -14,11 +14,11 @@ method as_data(const classical_row& row) {
 
 std::vector<method> classical_methods() {
   std::vector<method> result;
-  for (const auto& row : classical_table) {
+  for (const auto& row : detail::classical_table) {
     const bool is_for_baths = row.letters.find(ornstein_uhlenbeck::letter) != std::string_view::npos;
-    if (!is_for_baths && !row.repeats) result.push_back(as_data(row));
+    if (!is_for_baths && !row.repeats) result.push_back(detail::as_data(row));
   }
-  for (const auto& row : processed_table) result.push_back(as_data(row));
+  for (const auto& row : detail::processed_table) result.push_back(detail::as_data(row));
   return result;
 }
 

@@ -119,11 +119,11 @@ double coefficient_of_three_stages(double highest_z) {
 }
 
 std::vector<double> of_two_stages(double a) {
-  const auto all = palindrome<5>({a});
+  const auto all = detail::palindrome<5>({a});
   return {all.begin(), all.end()};
 }
 std::vector<double> of_three_stages(double b) {
-  const auto all = palindrome<7>({b, (1.0 - 2.0 * b) / (4.0 - 12.0 * b)});
+  const auto all = detail::palindrome<7>({b, (1.0 - 2.0 * b) / (4.0 - 12.0 * b)});
   return {all.begin(), all.end()};
 }
 

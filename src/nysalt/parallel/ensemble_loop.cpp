@@ -18,8 +18,8 @@
 
 namespace nysalt {
 
-void for_each_block(std::int64_t count, int width, const execution& how,
-                    const std::function<void(std::int64_t, int)>& body) {
+void detail::for_each_block(std::int64_t count, int width, const execution& how,
+                            const std::function<void(std::int64_t, int)>& body) {
   const int threads = how.threads;
   const progress_callback& progress = how.progress;
   if (threads < 1) throw std::invalid_argument(fmt::format("threads must be at least one, got {}", threads));
@@ -81,7 +81,7 @@ void for_each_block(std::int64_t count, int width, const execution& how,
 
 void for_each_trajectory(std::int64_t count, const execution& how,
                          const std::function<void(std::int64_t)>& body) {
-  for_each_block(count, 1, how, [&](std::int64_t m, int) { body(m); });
+  detail::for_each_block(count, 1, how, [&](std::int64_t m, int) { body(m); });
 }
 
 }  // namespace nysalt

@@ -32,7 +32,7 @@ class exact_flow_of_modes {
           system_));
     }
     require_orthonormal(system.modes(), system.size());
-    modes_ = modal_coordinates::of(system);
+    modes_ = detail::modal_coordinates::of(system);
     require_linear(system);
   }
 
@@ -114,7 +114,7 @@ class exact_flow_of_modes {
   }
 
   std::string system_;
-  std::shared_ptr<const modal_coordinates> modes_;
+  std::shared_ptr<const detail::modal_coordinates> modes_;
 };
 
 }  // namespace

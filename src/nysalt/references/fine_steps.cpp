@@ -54,7 +54,7 @@ class evaluations_of_interval {
 
   /// A black box counts its own since there were `before` of them.
   std::int64_t operator()(const model& system, std::int64_t before) const {
-    if (is_black_box(system)) return (system.calls() - before) * count_;
+    if (detail::is_black_box(system)) return (system.calls() - before) * count_;
     return count_ * detail::evaluations_of(system, all_, derivatives_);
   }
 
@@ -67,11 +67,11 @@ class evaluations_of_interval {
 /// Each interval is a run of the stepper of its own, so that its end has the bits of a run that ends there:
 /// steps of two intervals do not merge.
 template <class T>
-class steps_run final : public reference_run<T> {
+class steps_run final : public detail::reference_run<T> {
  public:
   steps_run(const model& system, const nysalt::method& method, double step,
-            const phase_point<T, Eigen::Dynamic>& start, const reference_intervals& intervals)
-      : reference_run<T>(start, intervals),
+            const phase_point<T, Eigen::Dynamic>& start, const detail::reference_intervals& intervals)
+      : detail::reference_run<T>(start, intervals),
         steps_(steps_in_interval(intervals.length, step)),
         evaluations_(method.letters(), steps_, intervals.count),
         system_(system.separate()),
@@ -98,7 +98,7 @@ template <class T>
 struct summing_noise {
   static constexpr bool is_memoryless = false;
   const finer_noise* path;
-  const coarse_graining* coarse;
+  const detail::coarse_graining* coarse;
   vector<T, Eigen::Dynamic>* const* sum;
 
   void normals(const noise_place& at, vector<T, Eigen::Dynamic>& xi) const {
@@ -109,11 +109,11 @@ struct summing_noise {
 
 /// Steps along a path whose noise was halved `halvings` times; as steps_run, each interval by itself.
 template <class T>
-class path_run final : public reference_run<T> {
+class path_run final : public detail::reference_run<T> {
  public:
   path_run(const model& system, const nysalt::method& method, double step, int halvings,
-           const phase_point<T, Eigen::Dynamic>& start, const reference_intervals& intervals)
-      : reference_run<T>(start, intervals),
+           const phase_point<T, Eigen::Dynamic>& start, const detail::reference_intervals& intervals)
+      : detail::reference_run<T>(start, intervals),
         parts_(std::max(intervals.noise_parts, 1)),
         steps_of_part_(steps_in_part(intervals.length, step, parts_)),
         evaluations_(method.letters(), steps_of_part_ * parts_, intervals.count),
@@ -145,7 +145,7 @@ class path_run final : public reference_run<T> {
   model system_;
   double step_;
   finer_noise path_;
-  coarse_graining coarse_;
+  detail::coarse_graining coarse_;
   vector<T, Eigen::Dynamic>* sum_ = nullptr;
   stepper<model, double, summing_noise<T>> stepper_;
 };
@@ -156,12 +156,14 @@ class small_steps final : public detail::reference_kind {
   small_steps(double step, nysalt::method method, std::optional<int> halvings)
       : step_(step), method_(std::move(method)), halvings_(halvings) {}
 
-  std::unique_ptr<reference_run<double>> open(const model& system, const start_of_one& start,
-                                              const reference_intervals& intervals) const override {
+  std::unique_ptr<detail::reference_run<double>> open(
+      const model& system, const start_of_one& start,
+      const detail::reference_intervals& intervals) const override {
     return opened<double>(system, start, intervals);
   }
-  std::unique_ptr<reference_run<detail::lanes>> open(const model& system, const start_of_lanes& start,
-                                                     const reference_intervals& intervals) const override {
+  std::unique_ptr<detail::reference_run<detail::lanes>> open(
+      const model& system, const start_of_lanes& start,
+      const detail::reference_intervals& intervals) const override {
     return opened<detail::lanes>(system, start, intervals);
   }
   std::shared_ptr<const reference_kind> finer() const override {
@@ -175,8 +177,9 @@ class small_steps final : public detail::reference_kind {
 
  private:
   template <class T>
-  std::unique_ptr<reference_run<T>> opened(const model& system, const phase_point<T, Eigen::Dynamic>& start,
-                                           const reference_intervals& intervals) const {
+  std::unique_ptr<detail::reference_run<T>> opened(const model& system,
+                                                   const phase_point<T, Eigen::Dynamic>& start,
+                                                   const detail::reference_intervals& intervals) const {
     if (halvings_) {
       return std::make_unique<path_run<T>>(system, method_, step_, *halvings_, start, intervals);
     }

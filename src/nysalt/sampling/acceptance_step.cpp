@@ -62,8 +62,9 @@ double slope_of_acceptance(double mu) {
 
 }  // namespace
 
-proposal_acceptance acceptance_of_proposals(const model& system, const method& method, double step,
-                                            const initial_states& states, const proposal_options& options) {
+detail::proposal_acceptance detail::acceptance_of_proposals(const model& system, const method& method,
+                                                            double step, const initial_states& states,
+                                                            const proposal_options& options) {
   require_proposals(system, method, step, options);
   const auto shares = shares_of_steps(2.0 * options.length / step);
   const std::size_t width = shares.size();
@@ -103,7 +104,7 @@ proposal_acceptance acceptance_of_proposals(const model& system, const method& m
       if (!std::isfinite(mu)) continue;  // all are rejected
       const double slope = mu > 0.0 ? slope_of_acceptance(mu) : 0.0;
       for (std::size_t m = first; m < end; ++m) {
-        of_each[m] += shares[n] * (acceptance_at(mu) + slope * (mu_of(m, n) - mu));
+        of_each[m] += shares[n] * (detail::acceptance_at(mu) + slope * (mu_of(m, n) - mu));
       }
     }
   }
@@ -118,14 +119,14 @@ acceptance_step step_at_acceptance(const model& system, const std::function<meth
     throw std::invalid_argument(
         sentence("step_at_acceptance: the acceptance must be between 0 and 1, got {}", acceptance));
   }
-  const auto accepted = [&](double step) -> proposal_acceptance {
+  const auto accepted = [&](double step) -> detail::proposal_acceptance {
     std::optional<method> method;
     try {
       method = method_at(step);
     } catch (const std::invalid_argument&) {
       return {{0.0, 0.0}, std::vector<double>(static_cast<std::size_t>(options.states), 0.0)};
     }
-    return acceptance_of_proposals(system, *method, step, states, options);
+    return detail::acceptance_of_proposals(system, *method, step, states, options);
   };
   constexpr double growth = 8.0 / 7.0;
   constexpr double least = 1e-3;
@@ -156,12 +157,12 @@ acceptance_step step_at_acceptance(const model& system, const std::function<meth
   // brackets, which meets the acceptance to a tenth of a standard error of most samples.
   constexpr double precision = 1e-3;
   constexpr int most_refinements = 20;
-  const auto level = [&](const proposal_acceptance& at) {
+  const auto level = [&](const detail::proposal_acceptance& at) {
     const double inside = std::clamp(at.probability.mean, 1e-12, 1.0 - 1e-12);
     return std::log(energy_error_at(inside) / energy_error_at(acceptance));
   };
   double step = low;
-  proposal_acceptance at = at_low;
+  detail::proposal_acceptance at = at_low;
   double slope = 0.0;  // of the acceptance, by log step
   for (int n = 0; n < most_refinements; ++n) {
     const double below = level(at_low);

@@ -135,9 +135,9 @@ double effective_draws(const std::vector<std::vector<double>>& chains) {
   const int lags = static_cast<int>(std::min<std::size_t>(draws / 3, 2000));
   double centre = 0.0;
   for (const auto& chain : chains) centre += mean_of(chain) / static_cast<double>(chains.size());
-  std::vector<autocovariance_sums> groups;
+  std::vector<detail::autocovariance_sums> groups;
   for (const auto& chain : chains) {
-    autocovariance_along<double> sums(lags, centre);
+    detail::autocovariance_along<double> sums(lags, centre);
     for (const double x : chain) sums.add(x);
     groups.push_back(sums.in_lane(0));
   }

@@ -234,7 +234,7 @@ class block_of_chains {
     const double root = std::sqrt(temperature);
     for (std::size_t i = 0; i < size; ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      x_.p[k] = normals_[i] * (root * system.root_mass(k));
+      x_.p[k] = normals_[i] * (root * root_mass(system, k));
     }
     const T before = kinetic_energy<T>(system, x_.p) + potential_;
     auto run = stepper.open(x_);

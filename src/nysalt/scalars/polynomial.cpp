@@ -9,7 +9,7 @@
 
 namespace nysalt {
 
-int bernstein_polynomial::turns(double rounding) const {
+int detail::bernstein_polynomial::turns(double rounding) const {
   int result = 0;
   double before = 0.0;
   for (std::size_t i = 0; i + 1 < c_.size(); ++i) {
@@ -22,14 +22,15 @@ int bernstein_polynomial::turns(double rounding) const {
   return result;
 }
 
-bernstein_polynomial& bernstein_polynomial::operator+=(bernstein_polynomial b) {
+detail::bernstein_polynomial& detail::bernstein_polynomial::operator+=(detail::bernstein_polynomial b) {
   while (c_.size() < b.c_.size()) elevate();
   while (b.c_.size() < c_.size()) b.elevate();
   for (std::size_t i = 0; i < c_.size(); ++i) c_[i] += b.c_[i];
   return *this;
 }
 
-std::pair<bernstein_polynomial, bernstein_polynomial> bernstein_polynomial::halves() const {
+std::pair<detail::bernstein_polynomial, detail::bernstein_polynomial> detail::bernstein_polynomial::halves()
+    const {
   auto lower = *this;
   auto upper = *this;
   lower.high_ = upper.low_ = std::midpoint(low_, high_);
@@ -41,7 +42,7 @@ std::pair<bernstein_polynomial, bernstein_polynomial> bernstein_polynomial::halv
   return {lower, upper};
 }
 
-bernstein_polynomial bernstein_polynomial::times_linear(double a, double b) const {
+detail::bernstein_polynomial detail::bernstein_polynomial::times_linear(double a, double b) const {
   auto result = *this;
   result.c_.push_back(0.0);
   const auto n = static_cast<double>(c_.size());
@@ -52,15 +53,16 @@ bernstein_polynomial bernstein_polynomial::times_linear(double a, double b) cons
   return result;
 }
 
-std::optional<double> where_larger(const bernstein_polynomial& f, double bound, int halvings) {
+std::optional<double> detail::where_larger(const detail::bernstein_polynomial& f, double bound,
+                                           int halvings) {
   const auto is_within = [&](double value) { return -bound <= value && value <= bound; };
   if (!is_within(f.at_low())) return f.low();
   if (!is_within(f.at_high())) return f.high();
   const auto [least, most] = f.bounds();
   if ((is_within(least) && is_within(most)) || halvings == 0) return std::nullopt;
   const auto [lower, upper] = f.halves();
-  if (const auto x = where_larger(lower, bound, halvings - 1)) return x;
-  return where_larger(upper, bound, halvings - 1);
+  if (const auto x = detail::where_larger(lower, bound, halvings - 1)) return x;
+  return detail::where_larger(upper, bound, halvings - 1);
 }
 
 }  // namespace nysalt

@@ -9,8 +9,8 @@
 
 namespace nysalt {
 
-normal_modes stiffness_modes(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& inverse_masses,
-                             std::string_view who) {
+normal_modes detail::stiffness_modes(const Eigen::MatrixXd& stiffness, const Eigen::VectorXd& inverse_masses,
+                                     std::string_view who) {
   const Eigen::Index n = stiffness.rows();
   if (n == 0 || n != stiffness.cols()) {
     throw std::invalid_argument(

@@ -36,7 +36,8 @@ void require_room(const run_command& command, const trajectories_plan& plan, boo
   const std::int64_t at_once = longest_segment(plan.steps, command.every);
   const std::int64_t apart = at_once / command.sample_every;
   const auto samples = static_cast<double>(apart + 1);
-  const std::int64_t at_a_time = whole_document ? plan.count : std::int64_t{default_lanes} * plan.threads;
+  const std::int64_t at_a_time =
+      whole_document ? plan.count : std::int64_t{pack<double>::lanes} * plan.threads;
   const auto trajectories = static_cast<double>(std::min(plan.count, at_a_time));
   if (numbers * samples * trajectories <= most) return;
   refuse(

@@ -68,7 +68,7 @@ CLI::Option* add_list(CLI::App& command, const std::string& name, std::vector<st
   return command.add_option(name, take, help)->expected(1, 1000)->take_all();
 }
 
-const char* type_of(const declared_parameter& parameter) {
+const char* type_of(const detail::declared_parameter& parameter) {
   return parameter.is_text() ? "TEXT" : parameter.is_whole() ? "N" : "X";
 }
 
@@ -227,7 +227,7 @@ void add_search(CLI::App& command, learning_options& how, const std::string& pre
       .add_option(prefix + "loss", how.loss,
                   fmt::format("the loss to minimise: {}, or {} after K steps [that of the purpose: "
                               "trajectory, and state:1 in a bath; state:1; state:1; acceptance]",
-                              loss_patterns(false), loss_patterns(true)))
+                              detail::loss_patterns(false), detail::loss_patterns(true)))
       ->type_name(a_name);
   command
       .add_option("--coordinates", how.coordinates,

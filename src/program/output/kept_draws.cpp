@@ -27,7 +27,7 @@ void kept_draws::gather(const communicator& ranks) {
   std::vector<std::size_t> first_of_rank;
   for (int r = 0; r <= ranks.size(); ++r)
     first_of_rank.push_back(static_cast<std::size_t>(share.first_of(r)) * draws_ * width_);
-  all_gather_items(ranks, numbers_, first_of_rank);
+  detail::all_gather_items(ranks, numbers_, first_of_rank);
 }
 
 std::vector<double> kept_draws::first(std::int64_t draws) const {

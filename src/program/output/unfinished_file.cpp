@@ -185,7 +185,7 @@ void unfinished_file::finish() {
   if (failure) {
     throw nysalt::detail::write_failure(message("cannot write {}: {}", path_.string(), failure.message()));
   }
-  put_folder_on_disk(path_);
+  detail::put_folder_on_disk(path_);
   keep();
 }
 

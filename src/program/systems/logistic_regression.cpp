@@ -80,7 +80,7 @@ labelled_rows example_rows() {
   for (Eigen::Index r = 0; r < rows; ++r) {
     draw(r);
     result.predictors.row(r) = (0.8 * normals.head(columns)).array() + 0.6 * normals[columns];
-    const double uniform = uniform_by_normal(normals[columns + 1]);
+    const double uniform = detail::uniform_by_normal(normals[columns + 1]);
     const double score = result.predictors.row(r) * coefficients;
     result.labels[r] = uniform * (1.0 + std::exp(-score)) < 1.0 ? 1.0 : 0.0;
   }

@@ -30,7 +30,7 @@ Eigen::VectorXd errors_without_weights(const flow_map_data& data, const Eigen::V
   const metric measure(chain, data, coordinates::qp);
   const after_steps<> loss(family(nystrom()), chain, data, state_error(measure));
   const std::vector<Eigen::VectorXd> none;
-  return curvature(hessian(objective_of(loss), theta), {0, 1})
+  return curvature(hessian(detail::objective_of(loss), theta), {0, 1})
       .spread(trajectory_gradients(loss, theta), none)
       .standard_errors;
 }
