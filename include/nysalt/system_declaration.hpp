@@ -43,8 +43,8 @@ struct declared_parameter {
   bool is_whole() const { return std::holds_alternative<std::int64_t>(usual); }
   /// Whether its value is a text.
   bool is_text() const { return std::holds_alternative<std::string>(usual); }
-  /// Throws std::invalid_argument, in a sentence that begins with the name, for a value that is not within the
-  /// bounds, or not finite.
+  /// Throws std::invalid_argument, in a sentence that begins with the name, for a value that is not within
+  /// the bounds, or not finite.
   void require(const parameter_value& value) const;
 };
 

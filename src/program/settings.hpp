@@ -34,7 +34,7 @@ struct bath_settings {
 };
 
 struct system_settings {
-  std::string name;  // empty: of the potential, or not said
+  std::string name;                              // empty: of the potential, or not said
   const system_declaration* declared = nullptr;  // of the name or the potential, where it is known already
   /// A system of the caller's own, under that name; empty: one of ours.
   std::function<std::unique_ptr<prepared_problem>(const surroundings&)> own = {};

@@ -264,8 +264,8 @@ std::string option_of(std::string_view parameter) {
 std::string options_of(const system_declaration& system) {
   std::string text;
   for (const auto& parameter : system.parameters) {
-    text += fmt::format("{}{}={}", text.empty() ? "--parameter " : ",", parameter.name,
-                        text_of(parameter.usual));
+    text +=
+        fmt::format("{}{}={}", text.empty() ? "--parameter " : ",", parameter.name, text_of(parameter.usual));
   }
   if (system.has_spread) text += text.empty() ? "--spread 1" : " --spread 1";
   return text;

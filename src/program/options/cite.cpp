@@ -19,8 +19,7 @@ subcommand offer_cite(CLI::App& app, common_settings& common) {
   const auto typed = std::make_shared<cite_as_typed>();
   auto& asked = typed->asked;
   auto& command = *app.add_subcommand("cite", "the works that a set-up rests on, as BibTeX");
-  command
-      .add_option("files", asked.files, "scheme files, or results whose manifests say how they were made")
+  command.add_option("files", asked.files, "scheme files, or results whose manifests say how they were made")
       ->type_name(a_file);
   begin_group(command, "Set-up, in place of files");
   command.add_option("--system", asked.system, "the system: a name of nysalt list")->type_name(a_name);

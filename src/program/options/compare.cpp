@@ -56,7 +56,8 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
   command.add_option("--range", typed->range, "the ends of the histogram of distribution [of the starts]")
       ->type_name("LOW,HIGH");
   add_number(command, "--bins", asked.bins, "number of bins of the histogram of distribution");
-  add_number(command, "--longest-lag", asked.longest_lag, "the longest lag of the autocovariance acf, a time");
+  add_number(command, "--longest-lag", asked.longest_lag,
+             "the longest lag of the autocovariance acf, a time");
   add_number(command, "--hmc-temperature", asked.hmc_temperature,
              "the temperature kT of acceptance, an energy");
   command

@@ -63,9 +63,8 @@ std::string grouped_help::groups_of(const CLI::App& app, CLI::AppFormatMode mode
   });
   std::string all;
   for (const auto& group : groups) {
-    const auto options = app.get_options([&](const CLI::Option* option) {
-      return option->get_group() == group && option->nonpositional();
-    });
+    const auto options = app.get_options(
+        [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
     if (!options.empty()) all += make_group(group, false, options);
   }
   return all;

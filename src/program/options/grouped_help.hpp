@@ -23,7 +23,8 @@ std::size_t options_of_help_all(const CLI::App& command);
 /// -h and --help-all of a command, in the group of the general options.
 void describe_help(CLI::App& command);
 
-/// Lines of at most 110 columns. Of an option: its name, what it takes, its default in brackets, and a phrase.
+/// Lines of at most 110 columns. Of an option: its name, what it takes, its default in brackets, and a
+/// phrase.
 class grouped_help : public CLI::Formatter {
  public:
   grouped_help();

@@ -46,7 +46,8 @@ subcommand offer_learn(CLI::App& app, common_settings& common) {
   command.footer(
       "Examples:\n"
       "  nysalt learn --system fpu --step 0.03 --output scheme.json\n"
-      "  nysalt learn --system oscillator --omega 50 --step 0.02 --coordinates energy --fix b1=0.5 --json\n"
+      "  nysalt learn --system oscillator --parameter omega=50 --step 0.02 --coordinates energy --fix b1=0.5 "
+      "--json\n"
       "  nysalt learn --system fpu --friction 0.01 --sigma 0.05 --placement symmetric --step 0.02\n"
       "  nysalt learn --system fpu --family fg4 --steps 0.04,0.05,0.06,0.07 --output curve.json");
   const auto run_it = [typed, &asked, &command, &common] {

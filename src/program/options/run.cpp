@@ -43,8 +43,7 @@ subcommand offer_run(CLI::App& app, common_settings& common) {
   command.add_option("--observables", typed->observables, "the observables to sample [that of the system]")
       ->type_name(names);
   add_number(command, "--sample-every", asked.sample_every, "number of steps between two samples");
-  command
-      .add_option("--output", asked.output, "the file to write: CSV, or .h5 or .npy [standard output]")
+  command.add_option("--output", asked.output, "the file to write: CSV, or .h5 or .npy [standard output]")
       ->type_name(a_file);
   command.add_flag("--plot", asked.plot, "draw the first trajectory, in pictures beside the output");
   add_json(command, common);

@@ -25,8 +25,7 @@ subcommand offer_sample(CLI::App& app, common_settings& common) {
              "the mean acceptance that the burn-in tunes the step to [0.9 without --step]");
   add_number(command, "--length", asked.length,
              "mean duration of trajectories, uniform from 0 to twice it [pi/2 for --diagonal-masses]");
-  add_number(command, "--hmc-temperature", asked.temperature,
-             "the temperature kT of exp(-V/kT), an energy");
+  add_number(command, "--hmc-temperature", asked.temperature, "the temperature kT of exp(-V/kT), an energy");
   command.add_flag("--diagonal-masses", asked.diagonal_masses,
                    "masses kT/var(q_i), found in the first half of the burn-in");
   begin_group(command, "Chains");
@@ -36,8 +35,7 @@ subcommand offer_sample(CLI::App& app, common_settings& common) {
   begin_group(command, output_group);
   command.add_option("--output", asked.output, "a CSV file to write, of all draws")->type_name(a_file);
   add_json(command, common);
-  command
-      .add_option("--checkpoint", asked.checkpoint, "a file from which the chains can go on if stopped")
+  command.add_option("--checkpoint", asked.checkpoint, "a file from which the chains can go on if stopped")
       ->type_name(a_file);
   add_number(command, "--every", asked.every, "trajectories of a chain between two checkpoints");
   command.add_flag("--resume", asked.resume, "go on from the checkpoint");
@@ -45,9 +43,9 @@ subcommand offer_sample(CLI::App& app, common_settings& common) {
   add_force(command, common, "sample with a scheme at another step or system than it was learned for");
   command.footer(
       "Examples:\n"
-      "  nysalt sample --system phi4 --masses 64 --length 1 --method omelyan5v\n"
+      "  nysalt sample --system phi4 --parameter masses=64 --length 1 --method omelyan5v\n"
       "  nysalt sample --potential '(x^2 + 100*y^2)/2' --variables x,y --diagonal-masses --output draws.csv\n"
-      "  nysalt sample --system phi4_lattice --side 8 --length 0.5 --output draws.csv --checkpoint "
+      "  nysalt sample --system phi4_lattice --parameter side=8 --length 0.5 --output draws.csv --checkpoint "
       "draws.checkpoint --every 500\n"
       "  nysalt sample --system pendulum --method verlet --step 0.5 --length 2 --draws 10000");
   return {&command, [typed, &common] { return sample(*typed, common); }};

@@ -169,8 +169,9 @@ std::vector<CLI::Option*> add_system(CLI::App& command, system_settings& system)
              "the temperature kT of the bath, an energy; or --sigma");
   CLI::Option* file =
       command
-          .add_option("--start", system.start,
-                      "where to start: law (the initial distribution), gibbs, trajectory, or a file of states")
+          .add_option(
+              "--start", system.start,
+              "where to start: law (the initial distribution), gibbs, trajectory, or a file of states")
           ->type_name(a_name);
   command
       .add_option("--at", system.at,
@@ -181,8 +182,7 @@ std::vector<CLI::Option*> add_system(CLI::App& command, system_settings& system)
       ->excludes(file);
 
   begin_group(command, more_of(system_options));
-  add_list(command, "--around", system.potential.around,
-           "where the starts of the formula are: x=1 [0]")
+  add_list(command, "--around", system.potential.around, "where the starts of the formula are: x=1 [0]")
       ->type_name("NAME=VALUE,...");
   add_number(command, "--spread", system.spread,
              "factor of the standard deviations of the initial distribution [1]");
@@ -212,8 +212,7 @@ void add_placement(CLI::App& command, std::string& placement) {
 void add_search(CLI::App& command, learning_options& how, const std::string& prefix) {
   begin_group(command, learning_group);
   command
-      .add_option("--for", how.purpose,
-                  fmt::format("what the runs to come are for: {} [state]", purposes()))
+      .add_option("--for", how.purpose, fmt::format("what the runs to come are for: {} [state]", purposes()))
       ->type_name(a_name);
   add_number(command, prefix + "trajectories", how.trajectories, "number of trajectories to learn from");
   command

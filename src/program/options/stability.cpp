@@ -32,8 +32,8 @@ subcommand offer_stability(CLI::App& app, common_settings& common) {
   command.add_option("--parameters", typed->parameters, "the values of the parameters of the family")
       ->type_name(numbers);
   auto of_system = add_system(command, typed->system);
-  command.get_option("--system")->description(
-      "a system, with --step: a name of nysalt list, or a file of your own");
+  command.get_option("--system")
+      ->description("a system, with --step: a name of nysalt list, or a file of your own");
   begin_group(command, method_options);
   of_system.push_back(
       add_number(command, "--step", asked.step, "with a system: the step at which the method is judged"));
