@@ -60,13 +60,6 @@ std::vector<subcommand> offer_all(CLI::App& app, common_settings& common) {
 
 namespace {
 
-/// Where --help leaves options out.
-std::string line_of_more(const CLI::App& command) {
-  const auto left_out = options_of_help_all(command);
-  if (left_out == 0) return {};
-  return fmt::format("nysalt {} --help-all shows {} more options.\n", command.get_name(), left_out);
-}
-
 /// Ranks may have different numbers of threads.
 std::string without_threads(const std::string& options) {
   std::istringstream lines(options);
@@ -90,8 +83,8 @@ int run_command_line(int argc, char** argv) {
   add_of_program(app);
   const std::vector<subcommand> all = offer_all(app, common);
   for (auto* command : app.get_subcommands({})) {
-    command->footer("--config FILE holds options, as typed without the dashes (TOML).\n" +
-                    line_of_more(*command) + "\n" + command->get_footer());
+    command->footer("--config FILE holds options, as typed without the dashes (TOML).\n\n" +
+                    command->get_footer());
   }
   app.footer(
       "nysalt COMMAND --help describes a command.\nExit codes: 0 done, 2 bad input, 3 every trajectory "

@@ -148,14 +148,15 @@ surroundings surroundings_of(const system_settings& settings) {
 
 /// The typed value of a parameter, as its declaration has it.
 parameter_value value_of(const detail::declared_parameter& parameter, const std::string& text) {
-  const std::string option = "--parameter " + parameter.name;
+  const std::string by = "--parameter ";
+  const std::string option = by + parameter.name;
   if (parameter.is_text()) return text;
   parameter_value value = parameter.is_whole() ? parameter_value(number_of<std::int64_t>(option, text))
                                                : parameter_value(number_of<double>(option, text));
   try {
     parameter.require(value);
   } catch (const std::invalid_argument& problem) {
-    refuse("--parameter {}", problem.what());
+    refuse("{}", by + problem.what());
   }
   return value;
 }

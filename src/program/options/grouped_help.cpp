@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "grouped_help.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
 #include <string>
@@ -30,15 +32,20 @@ std::string broken(const std::string& text, std::size_t width) {
   return lines;
 }
 
+/// "nysalt learn --help-all shows 31 more options.", if there are some.
+std::string line_of_more(const CLI::App& command) {
+  const auto left_out =
+      command.get_options([](const CLI::Option* option) { return is_of_few(option->get_group()); }).size();
+  if (left_out == 0) return {};
+  return fmt::format("\n{} {} --help-all shows {} more options.\n", command.get_parent()->get_name(),
+                     command.get_name(), left_out);
+}
+
 }  // namespace
 
 void begin_group(CLI::App& command, const std::string& group) { command.option_defaults()->group(group); }
 
 std::string more_of(const std::string& group) { return group + more; }
-
-std::size_t options_of_help_all(const CLI::App& command) {
-  return command.get_options([](const CLI::Option* option) { return is_of_few(option->get_group()); }).size();
-}
 
 void describe_help(CLI::App& command) {
   command.get_option("--help")->group(general_options)->description("print the options that most runs need");
@@ -50,7 +57,8 @@ grouped_help::grouped_help() { column_width(columns_of_names); }
 std::string grouped_help::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
   if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
   return make_description(app) + make_usage(app, name) + make_positionals(app) + groups_of(*app, mode) +
-         make_subcommands(app, mode) + '\n' + make_footer(app);
+         make_subcommands(app, mode) + (mode == CLI::AppFormatMode::Normal ? line_of_more(*app) : "") + '\n' +
+         make_footer(app);
 }
 
 std::string grouped_help::groups_of(const CLI::App& app, CLI::AppFormatMode mode) const {

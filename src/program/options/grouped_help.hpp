@@ -18,8 +18,6 @@ std::string more_of(const std::string& group);
 /// The group of "--omega 50", which is "--parameter omega=50".
 inline constexpr const char* short_forms = "Short forms of --parameter";
 
-/// How many options --help leaves out.
-std::size_t options_of_help_all(const CLI::App& command);
 /// -h and --help-all of a command, in the group of the general options.
 void describe_help(CLI::App& command);
 
