@@ -25,13 +25,13 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
   begin_group(command, method_options);
   command
       .add_option("--methods", typed->methods,
-                  "names of nysalt list, word:LETTERS, learned:FAMILY, files, or all that apply [all]")
+                  "names, word:LETTERS, learned:FAMILY, files; all: each of nysalt list that suits [all]")
       ->type_name(names);
   command.add_option("--steps", typed->steps, "the steps at which each method is measured")
       ->type_name(numbers)
       ->required();
   command.add_flag("--equal-cost", asked.equal_cost,
-                   "steps are per force evaluation: of n evaluations a method takes n times the step");
+                   "steps are per force evaluation: n evaluations make n times the step");
   add_number(command, "--horizon", asked.horizon,
              "length of each trajectory, a time [0.5, or ten of the largest steps if longer]");
   add_number(command, "--trajectories", asked.trajectories, "number of trajectories to measure errors on");

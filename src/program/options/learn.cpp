@@ -32,12 +32,11 @@ subcommand offer_learn(CLI::App& app, common_settings& common) {
       ->type_name(numbers);
   add_placement(command, asked.placement);
   add_learning(command, asked.learning, "--");
-  command.get_option("--loss")->group(learning_group);
   command.get_option("--horizon")->group(learning_group);
   command.get_option("--fix")->group(learning_group);
   begin_group(command, learning_group);
   add_number(command, "--enough", asked.enough,
-             "in place of --trajectories: take as many as bring their share of the loss below X");
+             "in place of --trajectories: as many as bring their share of the loss below X");
   begin_group(command, output_group);
   command.add_option("--output", asked.output, "the scheme file to write")->type_name(a_file);
   add_json(command, common);

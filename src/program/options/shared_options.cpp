@@ -169,9 +169,8 @@ std::vector<CLI::Option*> add_system(CLI::App& command, system_settings& system)
              "the temperature kT of the bath, an energy; or --sigma");
   CLI::Option* file =
       command
-          .add_option(
-              "--start", system.start,
-              "where to start: law (the initial distribution), gibbs, trajectory, or a file of states")
+          .add_option("--start", system.start,
+                      "where to start: law (the initial distribution), gibbs, trajectory, or a file")
           ->type_name(a_name);
   command
       .add_option("--at", system.at,
@@ -223,10 +222,11 @@ void add_search(CLI::App& command, learning_options& how, const std::string& pre
 
   begin_group(command, more_of(learning_group));
   command
-      .add_option(prefix + "loss", how.loss,
-                  fmt::format("the loss to minimise: {}, or {} after K steps [that of the purpose: "
-                              "trajectory, and state:1 in a bath; state:1; state:1; acceptance]",
-                              detail::loss_patterns(false), detail::loss_patterns(true)))
+      .add_option(
+          prefix + "loss", how.loss,
+          fmt::format("the loss to minimise: {}, or {} after K steps [by --for: state has "
+                      "trajectory, in a bath state:1; energy and distribution state:1; sampling acceptance]",
+                      detail::loss_patterns(false), detail::loss_patterns(true)))
       ->type_name(a_name);
   command
       .add_option("--coordinates", how.coordinates,
