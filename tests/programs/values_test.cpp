@@ -105,7 +105,7 @@ template <System S>
 void must_step(const std::string& options, const S& system, const Ensemble<S> auto& starts) {
   const auto last = fmt::format("p{}", size(system));
   const auto all = document(
-      "run --system fpu --seed 5 --method verlet --step 0.01 --horizon 0.01 --trajectories 2 "
+      "run --seed 5 --method verlet --step 0.01 --horizon 0.01 --trajectories 2 "
       "--observables energy,q1," +
       last + " --system " + options);
   const auto start = starts(seed_for(role::test, seed), 1);
