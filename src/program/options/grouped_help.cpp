@@ -48,8 +48,13 @@ void begin_group(CLI::App& command, const std::string& group) { command.option_d
 std::string more_of(const std::string& group) { return group + more; }
 
 void describe_help(CLI::App& command) {
-  command.get_option("--help")->group(general_options)->description("print the options that most runs need");
-  command.get_option("--help-all")->group(general_options)->description("print all options");
+  if (command.get_parent() == nullptr) return;  // a program without commands
+  const auto describe = [&](const char* name, const char* what) {
+    CLI::Option* option = command.get_option_no_throw(name);
+    if (option != nullptr) option->group(general_options)->description(what);
+  };
+  describe("--help", "print the options that most runs need");
+  describe("--help-all", "print all options");
 }
 
 grouped_help::grouped_help() { column_width(columns_of_names); }
