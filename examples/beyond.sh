@@ -89,19 +89,19 @@ compare() { # NAME TITLE METRIC LEVEL OPTION...: a chapter of the page; METRIC i
   section "$report" "### Best at its cost" | sed '/^!/,$d' >>"$chapters"  # pictures of steps are in the report
 }
 
-one_step fpu_50_state_one_step 0.01 --system fpu --omega 50 \
+one_step fpu_50_state_one_step 0.01 --system fpu --parameter omega=50 \
   --trajectories 48 --steps 0.001,0.002,0.004,0.0056,0.008,0.0112,0.016,0.0225,0.032 --horizon 10
-compare fpu_50_state "FPU chain, omega = 50, on [0, 10]: the state" state 0.01 --system fpu --omega 50 \
+compare fpu_50_state "FPU chain, omega = 50, on [0, 10]: the state" state 0.01 --system fpu --parameter omega=50 \
   --trajectories 48 --steps 0.001,0.002,0.004,0.0056,0.008,0.0112,0.016,0.0225,0.032 \
   --methods $explicit,$processed,$rotating,$classical,$fitted,impulse --horizon 10 \
   --metric state,path,exchange,energy
 compare fpu_50_stiff "FPU chain, omega = 50, on [0, 100]: the stiff energy, of fewer methods" path_stiff_energy 0.003 \
-  --system fpu --omega 50 --trajectories 48 --steps 0.002,0.004,0.0056,0.008,0.0112,0.016,0.0225,0.032 \
+  --system fpu --parameter omega=50 --trajectories 48 --steps 0.002,0.004,0.0056,0.008,0.0112,0.016,0.0225,0.032 \
   --methods learned:nystrom,learned:aba4,learned:aba3_free,learned:fg_chin,learned:fg4,learned:r_aba4,verlet,pefrl,mclachlan5,srkn6b,chin4a,omelyan_fg4,phase_fitted_chin4a,phase_fitted_mclachlan5,impulse \
   --horizon 100 --metric path,exchange
-one_step fpu_200_state_one_step 0.01 --system fpu --omega 200 \
+one_step fpu_200_state_one_step 0.01 --system fpu --parameter omega=200 \
   --trajectories 48 --steps 0.00025,0.0005,0.001,0.0014,0.002,0.0028,0.004,0.0056,0.008 --horizon 10
-compare fpu_200_state "FPU chain, omega = 200, on [0, 10]: the state" state 0.01 --system fpu --omega 200 \
+compare fpu_200_state "FPU chain, omega = 200, on [0, 10]: the state" state 0.01 --system fpu --parameter omega=200 \
   --trajectories 48 --steps 0.00025,0.0005,0.001,0.0014,0.002,0.0028,0.004,0.0056,0.008 \
   --methods $explicit,$processed,$rotating,$classical,$fitted,impulse --horizon 10 \
   --metric state,path,exchange,energy
@@ -111,9 +111,9 @@ one_step henon_heiles_one_step 0.0001 --system henon_heiles \
 compare henon_heiles "Henon and Heiles' system on [0, 30]: the state" state 0.0001 --system henon_heiles \
   --trajectories 48 --horizon 30 --metric state,energy \
   --steps 0.05,0.07,0.1,0.14,0.2,0.28,0.4 --methods "$explicit,$processed,$rotating,$classical,$fitted,impulse"
-one_step phi4_one_step 0.01 --system phi4 --masses 8 \
+one_step phi4_one_step 0.01 --system phi4 --parameter masses=8 \
   --trajectories 48 --horizon 10 --steps 0.035,0.05,0.07,0.1,0.14,0.2
-compare phi4 "The phi^4 chain of 8 wells on [0, 10]: the state" state 0.01 --system phi4 --masses 8 \
+compare phi4 "The phi^4 chain of 8 wells on [0, 10]: the state" state 0.01 --system phi4 --parameter masses=8 \
   --trajectories 48 --horizon 10 --metric state,energy \
   --steps 0.035,0.05,0.07,0.1,0.14,0.2 --methods "$explicit,$processed,$rotating,$classical,$fitted,impulse"
 one_step kepler_one_step 0.0001 --system kepler \

@@ -141,7 +141,7 @@ compare resonances --system fpu --metric relative --trajectories 96 --learn-hori
 
 say "A stiffer chain, omega = 200"
 stiffer() { # NAME METHODS STEPS
-  compare "$1" --system fpu --omega 200 $equal_cost --metric relative --fine-step 1e-4 --horizon 100 --methods "$2" --steps "$3"
+  compare "$1" --system fpu --parameter omega=200 $equal_cost --metric relative --fine-step 1e-4 --horizon 100 --methods "$2" --steps "$3"
 }
 stiffer stiffer_larger learned:fg4,learned:fg_chin,phase_fitted_chin4a 0.0031,0.0036,0.0042,0.0048,0.0056,0.0064,0.0072,0.0082
 stiffer stiffer_fourth pefrl,mclachlan_atela4,chin4a,mclachlan5 0.0012,0.0014,0.0016
@@ -196,7 +196,7 @@ for spread in 0.5 1.5 2; do other_law "phi4, spread $spread" phi4 8 0.1 --spread
 for spread in 0.5 1.5; do
   other_law "henon_heiles, spread $spread" henon_heiles 20 0.25 --spread $spread
 done
-for e in 0.4 0.75; do other_law "kepler, eccentricity $e" kepler 2 0.02 --eccentricity $e; done
+for e in 0.4 0.75; do other_law "kepler, eccentricity $e" kepler 2 0.02 --parameter eccentricity=$e; done
 
 say "Tables"
 {

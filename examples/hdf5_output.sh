@@ -6,7 +6,7 @@ set -eu
 here=$(dirname "$0")
 
 # [run]
-run="nysalt run --method verlet --step 0.01 --horizon 10 --trajectories 40 --observables energy,q1 --sample-every 10"
+run="nysalt run --system fpu --method verlet --step 0.01 --horizon 10 --trajectories 40 --observables energy,q1 --sample-every 10"
 $run --output out.h5
 $run --output out.npy
 "${PYTHON:-python3}" "$here/read_run.py"

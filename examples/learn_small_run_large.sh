@@ -5,18 +5,18 @@ set -eu
 
 # [learn]
 nysalt learn --system fpu --step 0.0888 --effort quick --trajectories 50 --output small.json >learned.txt
-nysalt compare --system fpu --pairs 64 --steps 0.0148 --equal-cost --metric state --horizon 5 --trajectories 16 \
+nysalt compare --system fpu --parameter pairs=64 --steps 0.0148 --equal-cost --metric state --horizon 5 --trajectories 16 \
   --methods small.json,verlet,pefrl,blanes_moan_s6,phase_fitted_mclachlan5
 # [/learn]
 
 # Another stiffness is another kind.
-nysalt run --system fpu --pairs 64 --omega 51 --method small.json --step 0.0888 --horizon 8.88 || echo "exit code $?"
+nysalt run --system fpu --parameter pairs=64,omega=51 --method small.json --step 0.0888 --horizon 8.88 || echo "exit code $?"
 
 # Frequencies that grow with the number of atoms: this step is too long for thirteen, and the trial says so.
 # [refused]
-nysalt learn --system lennard_jones --atoms 2 --family nystrom --step 0.08 --trajectories 30 --effort quick \
+nysalt learn --system lennard_jones --parameter atoms=2 --family nystrom --step 0.08 --trajectories 30 --effort quick \
   --output pair.json >learned.txt
-nysalt run --system lennard_jones --atoms 13 --method pair.json --step 0.08 --horizon 6 || echo "exit code $?"
+nysalt run --system lennard_jones --parameter atoms=13 --method pair.json --step 0.08 --horizon 6 || echo "exit code $?"
 # [/refused]
 
 # Expected output:

@@ -18,7 +18,7 @@ awk 'function uniform() { state = (state * 16807) % 2147483647; return state / 2
   }' >patients.csv
 # [/table]
 # [sample]
-nysalt sample --system logistic_regression --data patients.csv --variance 4 --diagonal-masses --output draws.csv
+nysalt sample --system logistic_regression --parameter data=patients.csv,variance=4 --diagonal-masses --output draws.csv
 # [/sample]
 
 # Expected output:

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Writes the manual page of PROGRAM to standard output: TEMPLATE, with what the program's own --help tells of its
+# Writes the manual page of PROGRAM to standard output: TEMPLATE, with what the program's own --help-all tells of its
 # commands and options in place of the lines @commands@ and @examples@.
 #
 # usage: manual.sh PROGRAM TEMPLATE
@@ -16,7 +16,7 @@ commands=$(printf '%s\n' "$help" | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .
 help=$(
   for command in $commands; do
     printf '@command %s\n' "$command"
-    "$program" "$command" --help
+    "$program" "$command" --help-all
   done
 )
 printf '%s\n' "$help" | awk -v version="$version" -v template="$template" '
@@ -40,8 +40,8 @@ printf '%s\n' "$help" | awk -v version="$version" -v template="$template" '
   /^@command / { command = $2; names[++number] = command; part = "about"; next }
   part == "about" { about[command] = $0; part = "usage"; next }
   /^Usage: / { usage[command] = substr($0, 8); next }
-  /^(Options|Positionals):$/ { part = "options"; next }
   /^Examples:$/ { part = "examples"; next }
+  part ~ /usage|options/ && /^[A-Z].*:$/ { part = "options"; next }  # a group
   part == "options" && /^$/ { keep(); next }
   part == "options" && /^--config / { part = "footer"; next }
   part == "options" && /^  [^ ]/ {
@@ -70,7 +70,7 @@ printf '%s\n' "$help" | awk -v version="$version" -v template="$template" '
           text = text paragraph(one[1], one[2])
         } else {
           split(one[1], word, /[ =]/)
-          if (word[1] != "-h,--help") shared = shared (shared == "" ? "" : ", ") word[1]
+          if (word[1] !~ /--help/) shared = shared (shared == "" ? "" : ", ") word[1]
         }
       }
       if (shared != "") text = text ".PP\nAnd of those that several commands take: " roff(shared) ".\n"

@@ -30,7 +30,7 @@ namespace detail {
 
 /// A parameter of a system, a number or a text, as options, help, files and Python name it.
 struct declared_parameter {
-  std::string name;       ///< lower-case letters, digits and _: the option is --name
+  std::string name;       ///< lower-case letters, digits and _
   parameter_value usual;  ///< default value; its type says whether it is a text, or the number is whole
   std::string meaning{};  ///< meaning, for the help
   double least = -std::numeric_limits<double>::infinity();  ///< the smallest that is allowed
@@ -43,8 +43,8 @@ struct declared_parameter {
   bool is_whole() const { return std::holds_alternative<std::int64_t>(usual); }
   /// Whether its value is a text.
   bool is_text() const { return std::holds_alternative<std::string>(usual); }
-  /// Throws std::invalid_argument, in a sentence that begins with the name of the option, for a value that is
-  /// not within the bounds, or not finite.
+  /// Throws std::invalid_argument, in a sentence that begins with the name, for a value that is not within
+  /// the bounds, or not finite.
   void require(const parameter_value& value) const;
 };
 

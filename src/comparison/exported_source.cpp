@@ -40,8 +40,10 @@ double step_of(const method_source& source, const export_request& request) {
 
 export_source plain_source(const method_source& source, const export_request& request) {
   if (source.family) {
-    refuse("export: {} must be learned first: nysalt learn --family {} --step STEP --output scheme.json",
-           source.typed, *source.family);
+    refuse(
+        "export: {} must be learned first: nysalt learn --system SYSTEM --family {} --step STEP --output "
+        "scheme.json",
+        source.typed, *source.family);
   }
   if (source.adaptive != nullptr) {
     refuse(

@@ -235,8 +235,9 @@ method found_at(const method_source& source, const prepared_problem& system, dou
     }
   }
   const std::string where = source.where ? fmt::format(" --placement {}", to_string(*source.where)) : "";
-  refuse("{} must be learned first: nysalt learn --family {}{} --step {} --output scheme.json", source.typed,
-         *source.family, where, step);
+  refuse(
+      "{} must be learned first: nysalt learn --system SYSTEM --family {}{} --step {} --output scheme.json",
+      source.typed, *source.family, where, step);
 }
 
 constexpr placement usual = placement::symmetric;  // the best of the three for the invariant distribution

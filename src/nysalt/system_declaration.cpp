@@ -31,7 +31,7 @@ void detail::declared_parameter::require(const parameter_value& value) const {
   if (is_text()) return;  // what makes the system judges it
   const double x = as_real(value);
   const auto refuse = [&](const std::string& condition) {
-    throw std::invalid_argument(sentence("--{} must be {}, got {}", name, condition, text_of(value)));
+    throw std::invalid_argument(sentence("{} must be {}, got {}", name, condition, text_of(value)));
   };
   if (!std::isfinite(x)) refuse("finite");
   if (is_positive && !(x > 0.0)) refuse("positive");

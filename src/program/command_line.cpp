@@ -44,6 +44,7 @@ void load_named_system(int argc, char** argv) {
 }  // namespace
 
 std::vector<subcommand> offer_all(CLI::App& app, common_settings& common) {
+  app.set_help_all_flag("--help-all", "print this help, and all options of each command");
   try {
     return {offer_list(app, common),    offer_learn(app, common),     offer_run(app, common),
             offer_compare(app, common), offer_recommend(app, common), offer_stability(app, common),

@@ -106,6 +106,10 @@ std::optional<std::string> parse(CLI::App& app, int argc, char** argv) {
   } catch (const CLI::CallForHelp&) {
     const CLI::App& command = asked_of(app);
     return &command == &app ? app.help() : command.help(app.get_name());
+  } catch (const CLI::CallForAllHelp&) {
+    const CLI::App& command = asked_of(app);
+    return &command == &app ? app.help("", CLI::AppFormatMode::All)
+                            : command.help(app.get_name(), CLI::AppFormatMode::All);
   } catch (const CLI::CallForVersion&) {
     return fmt::format("{} {}\n", app.get_name(), version);
   } catch (const CLI::ConfigError& problem) {

@@ -34,12 +34,12 @@ struct bath_settings {
 };
 
 struct system_settings {
-  std::string name = "fpu";
+  std::string name;                              // empty: of the potential, or not said
   const system_declaration* declared = nullptr;  // of the name or the potential, where it is known already
   /// A system of the caller's own, under that name; empty: one of ours.
   std::function<std::unique_ptr<prepared_problem>(const surroundings&)> own = {};
   std::map<std::string, std::string> parameters{};  // by name, as typed
-  typed_potential potential{};                      // instead of a name
+  typed_potential potential{};  // instead of a name; its parameters are those of a named system, too
   std::optional<double> spread;
   std::optional<double> frequency;  // to which methods are fitted
   bath_settings bath;

@@ -148,11 +148,16 @@ surroundings surroundings_of(const system_settings& settings) {
 
 /// The typed value of a parameter, as its declaration has it.
 parameter_value value_of(const detail::declared_parameter& parameter, const std::string& text) {
-  const std::string option = "--" + parameter.name;
+  const std::string by = "--parameter ";
+  const std::string option = by + parameter.name;
   if (parameter.is_text()) return text;
   parameter_value value = parameter.is_whole() ? parameter_value(number_of<std::int64_t>(option, text))
                                                : parameter_value(number_of<double>(option, text));
-  parameter.require(value);
+  try {
+    parameter.require(value);
+  } catch (const std::invalid_argument& problem) {
+    refuse("{}", by + problem.what());
+  }
   return value;
 }
 
@@ -168,18 +173,20 @@ std::map<std::string, std::string> typed_values(const system_settings& settings)
 void require_options(const system_settings& settings, const std::map<std::string, std::string>& typed,
                      const system_declaration& declared) {
   std::vector<std::string> takes;
-  for (const auto& parameter : declared.parameters) takes.push_back("--" + parameter.name);
+  for (const auto& parameter : declared.parameters) takes.push_back(parameter.name);
   if (declared.has_spread) takes.push_back("--spread");
   const auto require = [&](const std::string& name) {
-    const std::string option = "--" + name;
-    if (std::ranges::find(takes, option) != takes.end()) return;
-    refuse("unknown parameter '{}' of the system {}: it takes {}", option,
+    if (std::ranges::find(takes, name) != takes.end()) return;
+    const std::string near = nearest_name(name, takes);
+    refuse("unknown parameter '{}' of the system {}: {}", name,
            settings.potential.text.empty() ? settings.name : declared.name,
-           takes.empty() ? "no options of its own" : listed(takes));
+           !near.empty()   ? "did you mean " + near + "?"
+           : takes.empty() ? "it takes none"
+                           : "it takes " + listed(takes));
   };
   for (const auto& [name, text] : typed) require(name);
   const bool is_given = gives_states(settings) || is_file_of_starts(settings.start);
-  if (settings.spread && !is_given) require("spread");
+  if (settings.spread && !is_given) require("--spread");
 }
 
 /// Adds coordinates and momenta by the names of the coordinates to the observables.
@@ -219,9 +226,14 @@ const system_declaration& declaration_in(const system_settings& settings) {
   if (settings.declared != nullptr) return *settings.declared;
   const auto& potential = settings.potential;
   if (!potential.text.empty()) return plugin_at(kept_source(source_of(potential)).string(), "--potential");
-  const bool has_more = !potential.variables.empty() || !potential.parameters.empty() ||
-                        !potential.masses.empty() || !potential.around.empty();
-  if (has_more) refuse("--variables, --parameter, --mass and --around must come with --potential");
+  const bool has_more =
+      !potential.variables.empty() || !potential.masses.empty() || !potential.around.empty();
+  if (has_more) refuse("--variables, --mass and --around must come with --potential");
+  if (settings.name.empty()) {
+    refuse(
+        "--system must be given; name one that nysalt list shows, or a file of your own, or give a formula "
+        "as --potential");
+  }
   return declaration_of(settings.name);
 }
 
@@ -244,11 +256,17 @@ std::string text_of(const parameter_value& value) {
   return std::visit([](const auto& known) { return fmt::format("{}", known); }, value);
 }
 
+std::string option_of(std::string_view parameter) {
+  std::string option = "--" + std::string(parameter);
+  std::ranges::replace(option, '_', '-');
+  return option;
+}
+
 std::string options_of(const system_declaration& system) {
   std::string text;
   for (const auto& parameter : system.parameters) {
-    if (!text.empty()) text += ' ';
-    text += fmt::format("--{} {}", parameter.name, text_of(parameter.usual));
+    text +=
+        fmt::format("{}{}={}", text.empty() ? "--parameter " : ",", parameter.name, text_of(parameter.usual));
   }
   if (system.has_spread) text += text.empty() ? "--spread 1" : " --spread 1";
   return text;
@@ -265,9 +283,10 @@ std::map<std::string, std::string> files_of(const system_settings& settings) {
   };
   if (is_file_of_starts(settings.start)) add(settings.start);
   const system_declaration& declared = declaration_in(settings);
+  const auto typed = typed_values(settings);
   for (const auto& parameter : declared.parameters) {
-    const auto given = settings.parameters.find(parameter.name);
-    if (parameter.is_text() && given != settings.parameters.end()) add(given->second);
+    const auto given = typed.find(parameter.name);
+    if (parameter.is_text() && given != typed.end()) add(given->second);
   }
   return files;
 }

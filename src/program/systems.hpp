@@ -23,7 +23,9 @@ const system_declaration& declaration_in(const system_settings& settings);
 const system_declaration& declaration_of(const std::string& name);
 /// Of a parameter, for people; "none" for an empty text.
 std::string text_of(const parameter_value& value);
-/// "--pairs 3 --omega 50 --spread 1"
+/// "--mass-squared", the short form of a parameter
+std::string option_of(std::string_view parameter);
+/// "--parameter pairs=3,omega=50 --spread 1"
 std::string options_of(const system_declaration& system);
 /// Whether --start names a file of positions.
 bool is_file_of_starts(const std::string& start);

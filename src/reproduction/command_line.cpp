@@ -22,8 +22,10 @@ int run_command_line(int argc, char** argv) {
   CLI::App app("The paper's tables and figures beside our own.", "nysalt_paper");
   add_of_program(app);
   app.add_option("parts", asked.parts, "linear, deterministic, langevin [all; some ten minutes]");
-  app.add_option("--output", asked.output, "folder for paper.md, paper.html, paper.json and pictures");
-  app.add_flag("--quick", asked.quick, "few trajectories and steps, to see it run");
+  app.add_option("--output", asked.output, "a folder to write: paper.md, paper.html, paper.json and pictures")
+      ->type_name("FOLDER");
+  app.add_flag("--quick", asked.quick, "take few trajectories and steps, to see it run");
+  add_json(app, common);
   add_common(app, common);
   app.footer(
       "Examples:\n"

@@ -18,8 +18,8 @@ class Work:
     only_of_all: bool = False  # left out of --some
 
 
-RUN = ["run", "--method", "verlet", "--step", "0.004", "--horizon", "16", "--trajectories", "5", "--sample-every", "10",
-       "--observables", "energy,q1", "--threads", "1"]
+RUN = ["run", "--system", "fpu", "--method", "verlet", "--step", "0.004", "--horizon", "16", "--trajectories", "5",
+       "--sample-every", "10", "--observables", "energy,q1", "--threads", "1"]
 SAMPLE = ["sample", "--system", "henon_heiles", "--hmc-temperature", "0.01", "--length", "1", "--step", "0.3", "--chains", "2",
           "--draws", "40", "--burn-in", "40", "--threads", "1"]
 HENON_HEILES = ["--system", "henon_heiles", "--trajectories", "5", "--threads", "1"]

@@ -41,22 +41,24 @@ TEXTS = {
     "large": lambda: "q1,q2,q3,q4,q5,q6\n" + "1,2,3,4,5,6\n" * (100 * MB // 12),
     "endless": None,  # /dev/zero
 }
-COMPARE = ["compare", "--methods", "verlet", "--steps", "0.01", "--trajectories", "2", "--horizon", "0.1", "--threads", "1", "--output", "race"]
+FPU = ["--system", "fpu"]
+COMPARE = ["compare", *FPU, "--methods", "verlet", "--steps", "0.01", "--trajectories", "2", "--horizon", "0.1", "--threads",
+           "1", "--output", "race"]
 JOURNAL = "race/journal.jsonl"
 RUN = ["run", "--method", "verlet", "--step", "0.01", "--horizon", "0.1", "--threads", "1"]
 
 
 def commands_of_file(name):
     """Each kind of file that the program reads, as (kind, arguments)."""
-    yield "options", ["--config", name, *RUN]
-    yield "method", ["run", "--method", name, "--step", "0.01", "--horizon", "0.1", "--threads", "1"]
-    yield "method in a race", ["compare", "--methods", f"verlet,{name}", "--steps", "0.1", "--trajectories", "2", "--threads", "1"]
+    yield "options", ["--config", name, *RUN, *FPU]
+    yield "method", ["run", *FPU, "--method", name, "--step", "0.01", "--horizon", "0.1", "--threads", "1"]
+    yield "method in a race", ["compare", *FPU, "--methods", f"verlet,{name}", "--steps", "0.1", "--trajectories", "2", "--threads", "1"]
     yield "method to export", ["export", name, "--to", "c"]
     yield "template", ["export", "verlet", "--template", name]
     yield "stability", ["stability", "--method", name]
-    yield "starts", [*RUN, "--start", name]
+    yield "starts", [*RUN, *FPU, "--start", name]
     yield "data", [*RUN, "--system", "logistic_regression", "--data", name]
-    yield "checkpoint", [*RUN, "--output", "out.csv", "--checkpoint", name, "--every", "10", "--resume"]
+    yield "checkpoint", [*RUN, *FPU, "--output", "out.csv", "--checkpoint", name, "--every", "10", "--resume"]
     yield "system", [*RUN, "--system", name]
     yield "report", ["cite", name]
     yield "journal", [*COMPARE, "--resume"]
@@ -84,17 +86,17 @@ def commands_of_text():
         yield f"potential, {name}", [*RUN, "--potential", text, "--variables", "x"]
         yield f"parameters, {name}", [*RUN, "--potential", "k*x^2", "--variables", "x", "--parameter", text]
         yield f"variables, {name}", [*RUN, "--potential", "x^2", "--variables", text]
-        yield f"methods, {name}", ["compare", "--methods", text, "--steps", "0.1", "--trajectories", "2", "--threads", "1"]
-        yield f"steps, {name}", ["compare", "--methods", "verlet", "--steps", text, "--trajectories", "2", "--horizon", "0.1", "--threads", "1"]
-        yield f"observables, {name}", [*RUN, "--observables", text]
-        yield f"step, {name}", ["run", "--method", "verlet", "--step", text, "--horizon", "1", "--threads", "1"]
+        yield f"methods, {name}", ["compare", *FPU, "--methods", text, "--steps", "0.1", "--trajectories", "2", "--threads", "1"]
+        yield f"steps, {name}", ["compare", *FPU, "--methods", "verlet", "--steps", text, "--trajectories", "2", "--horizon", "0.1", "--threads", "1"]
+        yield f"observables, {name}", [*RUN, *FPU, "--observables", text]
+        yield f"step, {name}", ["run", *FPU, "--method", "verlet", "--step", text, "--horizon", "1", "--threads", "1"]
     for number in ("1000000000000000000", "9223372036854775807", "1e308", "100000000", "300000"):
         for system, option in (("fpu", "--pairs"), ("linear_chain", "--masses"), ("phi4", "--masses"),
                                ("lennard_jones", "--atoms"), ("lennard_jones_liquid", "--atoms"),
                                ("phi4_lattice", "--side"), ("gaussian", "--size")):
             yield f"{system} {option} {number}", [*RUN, "--system", system, option, number]
         if float(number) > 2**48:  # fewer are what is asked for, if it takes a day
-            yield f"trajectories {number}", [*RUN, "--trajectories", number, "--observables", "energy"]
+            yield f"trajectories {number}", [*RUN, *FPU, "--trajectories", number, "--observables", "energy"]
         yield f"variables q[{number}]", [*RUN, "--potential", "0.5*sum(q^2)", "--variables", f"q[{number}]"]
 
 OPTIONS_OF_LISTS = ("steps", "levels", "methods", "metric", "prices", "range", "fix", "variables")  # of compare
@@ -108,11 +110,11 @@ def long_and_right():
     short = ["--trajectories", "2", "--horizon", "0.1", "--threads", "1"]
     for many in (4_900, 100_000):  # nearly as many dots as a file may have, and too many
         steps = ",".join(f"0.{100000 + i}" for i in range(many))
-        yield "steps", ".toml", f"steps = [{steps}]\n", ["compare", "--methods", "verlet", *short, "--config"]
-        yield "steps", ".toml", f"steps = [{steps}]\n", ["learn", "--family", "bab2", *short, "--config"]
+        yield "steps", ".toml", f"steps = [{steps}]\n", ["compare", *FPU, "--methods", "verlet", *short, "--config"]
+        yield "steps", ".toml", f"steps = [{steps}]\n", ["learn", *FPU, "--family", "bab2", *short, "--config"]
     for lines in (1, 7, 8):  # of the shortest values, in a file of nearly a megabyte, and in one too long
         text = "".join(f"{name} = [{','.join('1' * 65_000)}]\n" for name in OPTIONS_OF_LISTS[:lines])
-        yield "steps", ".toml", text, ["compare", *short, "--config"]
+        yield "steps", ".toml", text, ["compare", *FPU, *short, "--config"]
     cells = 1 << 22  # of a table, at most
     for starts in (
         "q1,q2,q3,q4,q5,q6\n" + "0.125,0.25,0.5,0.125,0.25,0.5\n" * (cells // 6 - 1),
@@ -120,7 +122,7 @@ def long_and_right():
         "q1,q2,q3,q4,q5,q6" + "".join(f",{i}" for i in range(cells // 2 - 6)) + "\n" + "0.125,0.25,0.5,0.125,0.25,0.5" + "," * (cells // 2 - 6) + "\n",
         "q1,q2,q3,q4,q5,q6" + "," * (60 * MB) + "\n",
     ):
-        yield "starts", ".csv", starts, [*RUN, "--start"]
+        yield "starts", ".csv", starts, [*RUN, *FPU, "--start"]
     of_one = [*RUN, "--system", "pendulum", "--start"]
     yield "starts", ".csv", "q1\n" + "1\n" * (cells - 1), of_one
     yield "starts", ".csv", "q1\n" + "1\n" * (31 * MB), of_one

@@ -80,14 +80,16 @@ BOOST_AUTO_TEST_CASE(at_one_budget_all_cost_the_same_and_the_least_error_is_firs
   BOOST_TEST(all["error_ratio"]["high"].get<double>() > gain);
 
   // Learned rows are what learn learns, and errors what compare finds.
-  const auto fit =
-      document("learn --family nystrom --step 0.025 --horizon 5 --effort quick --trajectories 8 --seed 3");
+  const auto fit = document(
+      "learn --system fpu --family nystrom --step 0.025 --horizon 5 --effort quick --trajectories 8 --seed "
+      "3");
   for (const auto& one : all["fits"]) {
     if (one["family"] == "nystrom") BOOST_TEST(one["parameters"] == fit["parameters"]);
   }
   // On the same trajectories, beside a finer reference: the two differ by the errors of both references.
   const auto by_compare = document(
-      "compare --methods srkn6b --steps 0.075 --horizon 5 --trajectories 24 --metric state --seed 3");
+      "compare --system fpu --methods srkn6b --steps 0.075 --horizon 5 --trajectories 24 --metric state "
+      "--seed 3");
   const auto& row = row_of(all, "srkn6b");
   BOOST_TEST(row["step_size"] == 0.075);
   const double own = row["reference_error"].get<double>() + 1e-9;
@@ -99,7 +101,8 @@ BOOST_AUTO_TEST_CASE(at_one_budget_all_cost_the_same_and_the_least_error_is_firs
   BOOST_TEST(all["output"] == "scheme.json");
   BOOST_TEST((folder.files() == std::set<std::string>{"scheme.json"}));
   const auto used = document(
-      "compare --methods scheme.json --steps 0.05 --horizon 5 --trajectories 24 --metric state --seed 3",
+      "compare --system fpu --methods scheme.json --steps 0.05 --horizon 5 --trajectories 24 --metric state "
+      "--seed 3",
       folder);
   BOOST_TEST(used["rows"][0]["error"].get<double>() == learned["error"].get<double>(),
              boost::test_tools::tolerance(1e-3));

@@ -14,7 +14,8 @@
 using namespace nysalt::test;
 
 BOOST_AUTO_TEST_CASE(rows_that_are_wrong_are_found) {
-  const std::string run = "run --method verlet --step 0.01 --horizon 0.02 --observables energy,q1";
+  const std::string run =
+      "run --system fpu --method verlet --step 0.01 --horizon 0.02 --observables energy,q1";
   const std::string json = "0 " + run + " --json";
   for (const auto& [row, why] : std::initializer_list<std::pair<std::string, std::string>>{
            {"2 list", "ended with 0"},

@@ -79,7 +79,8 @@ BOOST_AUTO_TEST_CASE(compare_gives_the_errors_of_the_library) {
   const auto kinetic = [](const state& x) { return kinetic_energy<double>(chain, x.p); };
   const auto must_all_be = [](const std::string& metric, const error_measure& measure) {
     const auto all = document(
-        "compare --seed 5 --methods learned:nystrom,s_aia2,srkn6b,phase_fitted_chin4a --steps 0.02 "
+        "compare --system fpu --seed 5 --methods learned:nystrom,s_aia2,srkn6b,phase_fitted_chin4a --steps "
+        "0.02 "
         "--fine-step 1e-3 "
         "--trajectories 20 "
         "--learn-trajectories 5 " +
@@ -147,7 +148,7 @@ void must_be_samples(const json& all, const auto& stepper, const auto& starts, i
 
 BOOST_AUTO_TEST_CASE(run_gives_the_samples_of_the_library) {
   const auto all = document(
-      "run --seed 5 --method srkn6b --step 0.03 --horizon 6 --sample-every 7 --trajectories 3 "
+      "run --system fpu --seed 5 --method srkn6b --step 0.03 --horizon 6 --sample-every 7 --trajectories 3 "
       "--observables stiff_energy,energy,kinetic_energy,potential_energy,q1,p6,stiff_energy_2");
   must_be_samples(all, make_stepper(chain, srkn6b(), .03), law, 200, 7, [](const state& x) {
     return std::vector<double>{chain.stiff_energy(x),
@@ -163,7 +164,8 @@ BOOST_AUTO_TEST_CASE(run_gives_the_samples_of_the_library) {
 BOOST_AUTO_TEST_CASE(run_gives_the_samples_of_the_library_in_a_bath) {
   const in_bath system(chain, bath::of_sigma(0.01, 0.05));
   const auto all = document(
-      "run --seed 5 --method srkn6b@symmetric --step 0.03 --horizon 0.6 --sample-every 4 --trajectories 3 "
+      "run --system fpu --seed 5 --method srkn6b@symmetric --step 0.03 --horizon 0.6 --sample-every 4 "
+      "--trajectories 3 "
       "--observables stiff_energy,kinetic_temperature,q1,p6 --start gibbs --friction 0.01 --sigma 0.05");
   const auto stepper = make_stepper(system, thermostat(srkn6b(), placement::symmetric), .03,
                                     counter_noise(seed_for(role::test, seed)));
@@ -173,8 +175,8 @@ BOOST_AUTO_TEST_CASE(run_gives_the_samples_of_the_library_in_a_bath) {
 }
 
 BOOST_AUTO_TEST_CASE(run_tells_where_the_library_sees_divergence) {
-  const auto all =
-      json_of(nysalt::test::run("run --method verlet --step 0.05 --horizon 1 --trajectories 5 --json"));
+  const auto all = json_of(
+      nysalt::test::run("run --system fpu --method verlet --step 0.05 --horizon 1 --trajectories 5 --json"));
   BOOST_REQUIRE(all["diverged"].size() == 5U);
   for (std::uint64_t m = 0; m < 5; ++m) {
     const auto end = integrate(chain, verlet(), .05, law(seed_for(role::test, 1), m), 20);
@@ -207,7 +209,8 @@ BOOST_AUTO_TEST_CASE(acceptances_are_those_of_the_library) {
       .step = 0.03, .steps = 66, .trajectories = 20, .seed = program::seed_for(program::role::test, 5)};
   for (const double temperature : {1.0, 0.2}) {
     const auto all = document(
-        "compare --methods verlet,learned:fg_chin --steps 0.03 --metric acceptance --trajectories 20 "
+        "compare --system fpu --methods verlet,learned:fg_chin --steps 0.03 --metric acceptance "
+        "--trajectories 20 "
         "--learn-trajectories 5 " +
         std::string("--seed 5 --horizon 2") + (temperature == 1.0 ? "" : " --hmc-temperature 0.2"));
     const auto& theta = all["fits"][0]["parameters"];
@@ -229,7 +232,8 @@ BOOST_AUTO_TEST_CASE(acceptances_are_those_of_the_library) {
 BOOST_AUTO_TEST_CASE(learn_gives_the_fit_of_the_library) {
   const auto fit = fitted(coordinates::modes).summary;
   const auto printed = document(
-      "learn --family nystrom --seed 5 --step 0.02 --fine-step 1e-3 --trajectories 15 --horizon 0.4 "
+      "learn --system fpu --family nystrom --seed 5 --step 0.02 --fine-step 1e-3 --trajectories 15 --horizon "
+      "0.4 "
       "--coordinates modes");
   for (const auto& parameter : fit.parameters) {
     BOOST_TEST(printed["parameters"][parameter.name] == parameter.value);
@@ -248,7 +252,8 @@ BOOST_AUTO_TEST_CASE(learn_gives_the_fit_of_the_library) {
 
 BOOST_AUTO_TEST_CASE(compare_learns_as_learn_does) {
   const auto all = document(
-      "compare --seed 5 --methods learned:nystrom --steps 0.02 --trajectories 2 --learn-trajectories 15 "
+      "compare --system fpu --seed 5 --methods learned:nystrom --steps 0.02 --trajectories 2 "
+      "--learn-trajectories 15 "
       "--learn-horizon 0.4 --fine-step 1e-3 --metric state");
   const auto fit = fitted(coordinates::energy);
   BOOST_TEST(all["fits"][0]["parameters"]["b1"] == fit.summary.parameters[0].value);
@@ -259,9 +264,10 @@ BOOST_AUTO_TEST_CASE(compare_learns_as_learn_does) {
 BOOST_AUTO_TEST_CASE(no_test_starts_where_training_did) {
   const auto energy_from = [](role which) { return energy<double>(chain, law(seed_for(which, 1), 0)); };
   const auto learned =
-      json_of(nysalt::test::run("learn --family nystrom --step 0.02 --trajectories 1 --json"));
+      json_of(nysalt::test::run("learn --system fpu --family nystrom --step 0.02 --trajectories 1 --json"));
   const auto training = learned["energy_range"].get<std::vector<double>>();
-  const auto test = document("run --method verlet --step 0.02 --horizon 0.02 --observables energy");
+  const auto test =
+      document("run --system fpu --method verlet --step 0.02 --horizon 0.02 --observables energy");
   // Both hold exactly: the range has the start in it, and the first sample is the start.
   BOOST_TEST(training[0] <= energy_from(role::training));
   BOOST_TEST(energy_from(role::training) <= training[1]);

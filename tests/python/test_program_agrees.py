@@ -21,7 +21,7 @@ def test_what_there_is_is_what_list_prints(program):
 DOCUMENTS = [
     (lambda: nysalt.learn(nysalt.system("fpu", omega=30, friction=0.01, sigma=0.05), "nystrom", step=0.02, trajectories=10,
                           horizon=0.2, placement="end", fix={"b1": 0.5}).fit,
-     "learn --family nystrom --omega 30 --friction 0.01 --sigma 0.05 --step 0.02 --trajectories 10 --horizon 0.2 "
+     "learn --system fpu --family nystrom --omega 30 --friction 0.01 --sigma 0.05 --step 0.02 --trajectories 10 --horizon 0.2 "
      "--placement end --fix b1=0.5"),
     (lambda: nysalt.compare(nysalt.system("henon_heiles"), ["verlet", "srkn6b", "learned:nystrom"], [0.05, 0.1],
                             equal_cost=True, horizon=4, trajectories=20, metric=["path:energy", "state"], learn_horizon=4,
@@ -158,13 +158,13 @@ def test_scheme_files_go_both_ways(program, tmp_path):
     scheme = nysalt.learn(chain, "nystrom", step=0.02, trajectories=10)
     mine, theirs = tmp_path / "mine.json", tmp_path / "theirs.json"
     scheme.save(mine)
-    program("learn", "--family", "nystrom", "--step", "0.02", "--trajectories", "10", "--output", "theirs.json")
+    program("learn", "--system", "fpu", "--family", "nystrom", "--step", "0.02", "--trajectories", "10", "--output", "theirs.json")
     assert mine.read_bytes() == theirs.read_bytes()
     loaded = nysalt.load(theirs)
     assert isinstance(loaded, nysalt.Scheme) and loaded.parameters == scheme.parameters and loaded.fit is None
     assert loaded.document == scheme.document == json.loads(theirs.read_text())
 
-    program("run", "--method", "mine.json", "--step", "0.02", "--horizon", "1", "--output", "run.npy")
+    program("run", "--system", "fpu", "--method", "mine.json", "--step", "0.02", "--horizon", "1", "--output", "run.npy")
     values = np.load(tmp_path / "run.npy")
     for method in (scheme, loaded, str(mine)):
         assert np.array_equal(nysalt.run(chain, method, 0.02, 1).values, values)

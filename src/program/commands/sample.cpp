@@ -243,7 +243,8 @@ method method_for(const method_source& source, const prepared_problem& system, c
                   bool force, std::vector<std::string>& warnings) {
   if (source.family) {
     refuse(
-        "{} must be learned first: nysalt learn --family {} --loss acceptance --step STEP --output "
+        "{} must be learned first: nysalt learn --system SYSTEM --family {} --loss acceptance --step STEP "
+        "--output "
         "scheme.json",
         source.typed, *source.family);
   }

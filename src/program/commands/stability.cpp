@@ -53,11 +53,11 @@ subject subject_of(const stability_command& command, const prepared_problem* sys
   if (source.learned) return {source.typed, source.learned->at(source.learned->curve.steps().back())};
   if (source.fixed) return {source.typed, *source.fixed};
   if (source.adaptive != nullptr) {
-    refuse("{} must have a step and a highest frequency; give --step, and --system unless the system is fpu",
-           source.typed);
+    refuse("{} must have a step and a highest frequency; give --system and --step", source.typed);
   }
-  refuse("{} must be learned first: nysalt learn --family {} --step STEP --output scheme.json", source.typed,
-         *source.family);
+  refuse(
+      "{} must be learned first: nysalt learn --system SYSTEM --family {} --step STEP --output scheme.json",
+      source.typed, *source.family);
 }
 
 /// The findings, as JSON and as text.

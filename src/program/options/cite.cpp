@@ -19,11 +19,18 @@ subcommand offer_cite(CLI::App& app, common_settings& common) {
   const auto typed = std::make_shared<cite_as_typed>();
   auto& asked = typed->asked;
   auto& command = *app.add_subcommand("cite", "the works that a set-up rests on, as BibTeX");
-  command.add_option("files", asked.files, "schemes and other results, which say how they were made");
-  command.add_option("--system", asked.system, "nysalt list shows all");
-  command.add_option("--methods", typed->methods, "names, learned:FAMILY, files; joined by commas");
-  command.add_option("--metric", typed->metrics, "as compare takes it");
+  command.add_option("files", asked.files, "scheme files and other results, which say how they were made")
+      ->type_name(a_file);
+  begin_group(command, "Set-up, in place of files");
+  command.add_option("--system", asked.system, "the system: a name of nysalt list")->type_name(a_name);
+  command
+      .add_option("--methods", typed->methods, "the methods: names of nysalt list, learned:FAMILY, or files")
+      ->type_name(names);
+  command.add_option("--metric", typed->metrics, "the metrics, as nysalt compare takes them")
+      ->type_name(names);
   command.add_flag("--bath", asked.in_bath, "the system is in a bath");
+  begin_group(command, output_group);
+  add_json(command, common);
   add_common(command, common);
   command.footer(
       "Examples:\n"

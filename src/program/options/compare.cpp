@@ -22,34 +22,54 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
   auto& asked = typed->asked;
   auto& command = *app.add_subcommand("compare", "errors of methods beside their cost");
   add_system(command, asked.system);
-  add_placement(command, asked.placement);
-  command.add_option("--methods", typed->methods,
-                     "names, word:LETTERS, learned:FAMILY, files, or all of nysalt list that apply; joined "
-                     "by commas [all]");
-  command.add_option("--steps", typed->steps, "joined by commas")->required();
-  command.add_flag("--equal-cost", asked.equal_cost, "steps are per force evaluation");
-  command.add_option(
-      "--prices", typed->prices,
-      "of the forces of parts 0, 1, ..., joined by commas: evaluations count as their shares of the "
-      "whole force [each kick as one]");
+  begin_group(command, method_options);
+  command
+      .add_option("--methods", typed->methods,
+                  "names, word:LETTERS, learned:FAMILY, files; all: each of nysalt list that suits [all]")
+      ->type_name(names);
+  command.add_option("--steps", typed->steps, "the steps at which each method is measured")
+      ->type_name(numbers)
+      ->required();
+  command.add_flag("--equal-cost", asked.equal_cost,
+                   "steps are per force evaluation: n evaluations make n times the step");
   add_number(command, "--horizon", asked.horizon,
-             "length of each trajectory [0.5, or ten of the largest steps if that is longer]");
-  add_number(command, "--trajectories", asked.trajectories, "to compare on");
-  command.add_option(
-      "--metric", typed->metrics,
-      "path, relative, state, exchange, energy, acceptance, distribution or acf, joined by commas; "
-      "path:OBSERVABLE names that of one [path]");
-  command.add_option("--observable", asked.observable,
-                     "of path, relative, distribution and acf [that of the system]");
-  command.add_option("--range", typed->range, "LOW,HIGH of the histogram [of the starts]");
-  add_number(command, "--bins", asked.bins, "of the histogram");
-  command.add_option("--levels", typed->levels,
-                     "errors, joined by commas, whose cost the report has [those of the data]");
-  add_number(command, "--longest-lag", asked.longest_lag, "of the autocovariance, a time");
-  add_number(command, "--hmc-temperature", asked.hmc_temperature, "kT of the acceptance, an energy");
+             "length of each trajectory, a time [0.5, or ten of the largest steps if longer]");
+  add_number(command, "--trajectories", asked.trajectories, "number of trajectories to measure errors on");
+  add_placement(command, asked.placement);
+  command
+      .add_option("--prices", typed->prices,
+                  "the prices of the forces of parts 0, 1, ...: an evaluation of a part counts as its share "
+                  "of the whole force [each kick counts as one]")
+      ->type_name(numbers)
+      ->group(more_of(method_options));
+  begin_group(command, metric_group);
+  command
+      .add_option("--metric", typed->metrics,
+                  "which errors: path, state, energy, relative, exchange, acceptance, distribution, acf "
+                  "[path, what an observer of the trajectory sees]")
+      ->type_name(names);
+  command
+      .add_option("--observable", asked.observable,
+                  "the observable of path, relative, distribution and acf [that of the system]")
+      ->type_name(a_name);
+  begin_group(command, more_of(metric_group));
+  command.add_option("--range", typed->range, "the ends of the histogram of distribution [of the starts]")
+      ->type_name("LOW,HIGH");
+  add_number(command, "--bins", asked.bins, "number of bins of the histogram of distribution");
+  add_number(command, "--longest-lag", asked.longest_lag,
+             "the longest lag of the autocovariance acf, a time");
+  add_number(command, "--hmc-temperature", asked.hmc_temperature,
+             "the temperature kT of acceptance, an energy");
+  command
+      .add_option("--levels", typed->levels,
+                  "errors for which the report says the cost of each method [chosen by the data]")
+      ->type_name(numbers);
   add_learning(command, asked.learning, "--learn-");
-  command.add_option("--output", asked.output, "folder for the report and its tables");
-  command.add_flag("--resume", asked.resume, "go on where a run into the same folder was stopped");
+  begin_group(command, output_group);
+  command.add_option("--output", asked.output, "a folder to write: the report and its table")
+      ->type_name("FOLDER");
+  command.add_flag("--resume", asked.resume, "go on where a comparison into this folder was stopped");
+  add_json(command, common);
   add_common(command, common);
   add_force(command, common, "use a scheme at another step or system than it was learned for");
   command.footer(

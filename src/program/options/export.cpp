@@ -16,18 +16,29 @@ namespace nysalt::program {
 subcommand offer_export(CLI::App& app, common_settings& common) {
   const auto asked = std::make_shared<export_command>();
   auto& command = *app.add_subcommand("export", "write a method as source for another language or code");
-  command.add_option("METHOD", asked->method, "a name, or the file of a scheme or table")->required();
-  command.add_option("--to", asked->host, "the language or code, one of those below");
-  command.add_option("--template", asked->template_file,
-                     "instead of --to: the file of a template of one's own, docs/how-to/export_template.md");
-  command.add_option("--output", asked->output, "the file [standard output]");
-  command.add_option("--name", asked->how.name, "identifier in the file [the family or method]");
+  command.add_option("METHOD", asked->method, "a name of nysalt list, or the file of a scheme or table")
+      ->required();
+  begin_group(command, method_options);
   add_number(command, "--step", asked->how.step,
-             "of a scheme over several steps: one of them, or between them");
-  command.add_option("--placement", asked->how.placement,
-                     "of letters O in a method without them: end, symmetric or middle [none: no bath]");
+             "of a scheme over several steps: the step to take, one of them or between them");
+  command
+      .add_option("--placement", asked->how.placement,
+                  "where letters O of a bath are put into a method without them: end, symmetric or middle "
+                  "[nowhere: no bath]")
+      ->type_name(a_name);
   command.add_flag("--displaced", asked->how.displaced,
-                   "gradient kicks G become displaced kicks D, not symplectic");
+                   "gradient kicks G become displaced kicks D, which are not symplectic");
+  begin_group(command, output_group);
+  command.add_option("--to", asked->host, "the language or code to write for, one of those below")
+      ->type_name("HOST");
+  command
+      .add_option("--template", asked->template_file,
+                  "in place of --to: a template of your own, docs/how-to/export_template.md")
+      ->type_name(a_file);
+  command.add_option("--name", asked->how.name, "the identifier in the file [the family or method]")
+      ->type_name(a_name);
+  command.add_option("--output", asked->output, "the file to write [standard output]")->type_name(a_file);
+  add_json(command, common);
   add_common(command, common);
   std::string hosts;
   for (const auto& host : export_hosts()) hosts += fmt::format("  {:14} {}\n", host.name, host.what);

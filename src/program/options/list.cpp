@@ -11,7 +11,11 @@ namespace nysalt::program {
 subcommand offer_list(CLI::App& app, common_settings& common) {
   auto& command = *app.add_subcommand("list", "systems, methods, families and metrics");
   const auto asked = std::make_shared<list_command>();
-  command.add_option("--system", asked->system, "the file of your own, to be listed too");
+  begin_group(command, system_options);
+  command.add_option("--system", asked->system, "the file of a system of your own, which is listed too")
+      ->type_name(a_file);
+  begin_group(command, output_group);
+  add_json(command, common);
   add_common(command, common);
   command.footer("Examples:\n  nysalt list\n  nysalt list --json");
   return {&command, [asked, &common] { return list(*asked, common); }};

@@ -31,7 +31,7 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, T& value, co
     return true;
   };
   CLI::Option* option = command.add_option(name, take, what);
-  option->type_name(std::is_floating_point_v<number> ? "NUMBER" : "INTEGER");
+  option->type_name(std::is_floating_point_v<number> ? "X" : "N");
   if constexpr (std::is_same_v<T, number>) option->default_str(fmt::format("{}", value));
   return option;
 }

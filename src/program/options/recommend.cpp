@@ -24,30 +24,46 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
   auto& asked = typed->asked;
   auto& command = *app.add_subcommand("recommend", "the best method at a cost, or for an error");
   add_system(command, asked.system);
-  add_placement(command, asked.placement);
-  add_number(command, "--budget", asked.budget, "force evaluations per unit time");
+  begin_group(command, "Cost or error");
+  add_number(command, "--budget", asked.budget, "force evaluations per unit time that a method may take; or");
   add_number(command, "--budget-seconds", asked.budget_seconds,
-             "seconds per unit time of one trajectory, on this machine");
-  add_number(command, "--error", asked.error, "to stay below, at the least cost");
-  add_number(command, "--horizon", asked.horizon, "length of each trajectory")->default_str("");
-  add_number(command, "--length", asked.sampling.length,
-             "for sampling: mean duration of a trajectory, which is uniform between 0 and twice that")
-      ->default_str("");
-  add_number(command, "--acceptance", asked.sampling.acceptance, "for sampling: at which steps are compared");
-  add_number(command, "--times-larger", asked.sampling.times_larger,
-             "for sampling: size of the system that will be sampled over the size of this one");
-  add_number(command, "--trajectories", asked.trajectories, "to rank on");
-  command.add_option("--metric", asked.metric, "path, state, exchange, energy or acceptance")
+             "seconds per unit time that one trajectory may take on this machine; or");
+  add_number(command, "--error", asked.error, "the error to stay below, at the least cost");
+  add_number(command, "--horizon", asked.horizon, "length of the runs to come, a time")->default_str("");
+  command
+      .add_option("--metric", asked.metric,
+                  "the error: state (what is learned for), path, exchange, energy or acceptance")
+      ->type_name(a_name)
       ->capture_default_str();
-  command.add_option("--observable", asked.observable, "of path [that of the system]");
-  add_number(command, "--hmc-temperature", asked.hmc_temperature, "kT of the acceptance, an energy");
+  add_number(command, "--trajectories", asked.trajectories,
+             "number of trajectories to rank on; the best are measured on as many again");
+  begin_group(command, more_of("Cost or error"));
+  command.add_option("--observable", asked.observable, "the observable of path [that of the system]")
+      ->type_name(a_name);
   add_number(command, "--looks", asked.looks,
-             "observations of each trajectory of later runs: processed methods pay for each observation");
-  command.add_flag("--reversible", asked.reversible, "symmetric methods only");
-  command.add_option("--families", typed->families, "to learn, joined by commas [all that suit]");
+             "number of observations of each trajectory of the runs to come: processed methods pay for each");
+  begin_group(command, "With --for sampling, in place of cost or error");
+  add_number(command, "--length", asked.sampling.length,
+             "mean duration of trajectories, uniform from 0 to twice it")
+      ->default_str("");
+  add_number(command, "--acceptance", asked.sampling.acceptance,
+             "the mean acceptance at which steps are compared");
+  add_number(command, "--times-larger", asked.sampling.times_larger,
+             "how many times as large as this system the one is that will be sampled");
+  add_number(command, "--hmc-temperature", asked.hmc_temperature,
+             "the temperature kT, an energy; that of --metric acceptance too");
+  begin_group(command, method_options);
+  command.add_option("--families", typed->families, "the families to learn [all that suit]")
+      ->type_name(names);
+  command.add_flag("--reversible", asked.reversible, "take symmetric methods only");
+  add_placement(command, asked.placement);
   add_search(command, asked.learning, "--learn-");
   add_horizon(command, asked.learning, "--learn-");
-  command.add_option("--output", asked.output, "write the winner's scheme file");
+  command.get_option("--learn-effort")
+      ->description("how long to search: quick (as many families are learned), normal or thorough");
+  begin_group(command, output_group);
+  command.add_option("--output", asked.output, "the file to write: the method to take")->type_name(a_file);
+  add_json(command, common);
   add_common(command, common);
   command.footer(
       "Examples:\n"

@@ -21,25 +21,38 @@ subcommand offer_run(CLI::App& app, common_settings& common) {
   auto& asked = typed->asked;
   auto& command = *app.add_subcommand("run", "trajectories of a method, sampled into a table");
   add_system(command, asked.system);
-  add_placement(command, asked.placement);
+  begin_group(command, method_options);
   command
       .add_option("--method", asked.method,
                   "a name of nysalt list, word:LETTERS, or the file of a scheme or table")
+      ->type_name(a_name)
       ->required();
-  add_number(command, "--step", asked.step, "of the method")->default_str("")->required();
-  add_number(command, "--horizon", asked.horizon, "length of each trajectory")->default_str("")->required();
+  add_number(command, "--step", asked.step, "the step of the method, a time")->default_str("")->required();
+  add_number(command, "--horizon", asked.horizon, "length of each trajectory, a time")
+      ->default_str("")
+      ->required();
   add_number(command, "--trajectories", asked.trajectories,
-             "how many [1, or one for each state that is given]");
-  command.add_option("--observables", typed->observables, "what to sample [that of the system]");
-  add_number(command, "--sample-every", asked.sample_every, "steps between samples");
-  command.add_option("--output", asked.output, "file: CSV, or .h5, .npy [standard output]");
-  command.add_flag("--plot", asked.plot, "draw the first trajectory beside the output");
-  command.add_option("--checkpoint", asked.checkpoint, "file to go on from if the run is stopped");
-  add_number(command, "--every", asked.every, "steps between checkpoints");
+             "number of trajectories [1, or one for each state that is given]");
+  add_placement(command, asked.placement);
+  const auto leave_out = [&asked](std::int64_t times) { asked.checks = times == 0; };
+  command
+      .add_flag_function("--no-checks", leave_out,
+                         "try neither the step nor a force of your own before the run")
+      ->group(more_of(method_options));
+  begin_group(command, output_group);
+  command.add_option("--observables", typed->observables, "the observables to sample [that of the system]")
+      ->type_name(names);
+  add_number(command, "--sample-every", asked.sample_every, "number of steps between two samples");
+  command.add_option("--output", asked.output, "the file to write: CSV, or .h5 or .npy [standard output]")
+      ->type_name(a_file);
+  command.add_flag("--plot", asked.plot, "draw the first trajectory, in pictures beside the output");
+  add_json(command, common);
+  command
+      .add_option("--checkpoint", asked.checkpoint, "a file from which the run can go on if it is stopped")
+      ->type_name(a_file);
+  add_number(command, "--every", asked.every, "number of steps between two checkpoints");
   command.add_flag("--resume", asked.resume,
                    "go on from the checkpoint; of a finished run to a longer --horizon");
-  const auto leave_out = [&asked](std::int64_t times) { asked.checks = times == 0; };
-  command.add_flag_function("--no-checks", leave_out, "try neither the step nor a force of your own first");
   add_common(command, common);
   add_force(command, common, "run a scheme at another step or system than it was learned for");
   command.footer(

@@ -14,33 +14,38 @@ subcommand offer_sample(CLI::App& app, common_settings& common) {
   auto& asked = *typed;
   auto& command = *app.add_subcommand("sample", "draws from exp(-V/kT) by Hybrid Monte Carlo");
   add_system(command, asked.system);
+  begin_group(command, method_options);
   command
       .add_option("--method", asked.method,
-                  "a symmetric one: a name of nysalt list, or the file of a scheme or table")
+                  "a symmetric method: a name of nysalt list, or the file of a scheme or table")
+      ->type_name(a_name)
       ->capture_default_str();
-  add_number(command, "--step", asked.step, "of the method; with --acceptance a first guess");
+  add_number(command, "--step", asked.step, "the step of the method; with --acceptance a first guess");
   add_number(command, "--acceptance", asked.acceptance,
-             "to which the burn-in tunes the step [0.9, unless there is a --step]");
+             "the mean acceptance that the burn-in tunes the step to [0.9 without --step]");
   add_number(command, "--length", asked.length,
-             "mean duration of a trajectory, which is uniform between 0 and twice that [pi/2 with "
-             "--diagonal-masses]");
-  add_number(command, "--hmc-temperature", asked.temperature, "kT, an energy");
-  add_number(command, "--chains", asked.chains, "independent ones");
-  add_number(command, "--burn-in", asked.burn_in, "trajectories of a chain before the first draw");
-  add_number(command, "--draws", asked.draws, "of each chain");
+             "mean duration of trajectories, uniform from 0 to twice it [pi/2 for --diagonal-masses]");
+  add_number(command, "--hmc-temperature", asked.temperature, "the temperature kT of exp(-V/kT), an energy");
   command.add_flag("--diagonal-masses", asked.diagonal_masses,
                    "masses kT/var(q_i), found in the first half of the burn-in");
-  command.add_option("--output", asked.output, "file of all draws: CSV");
-  command.add_option("--checkpoint", asked.checkpoint, "file to go on from if the chains are stopped");
+  begin_group(command, "Chains");
+  add_number(command, "--chains", asked.chains, "number of independent chains");
+  add_number(command, "--burn-in", asked.burn_in, "trajectories of each chain before its first draw");
+  add_number(command, "--draws", asked.draws, "draws of each chain");
+  begin_group(command, output_group);
+  command.add_option("--output", asked.output, "a CSV file to write, of all draws")->type_name(a_file);
+  add_json(command, common);
+  command.add_option("--checkpoint", asked.checkpoint, "a file from which the chains can go on if stopped")
+      ->type_name(a_file);
   add_number(command, "--every", asked.every, "trajectories of a chain between two checkpoints");
   command.add_flag("--resume", asked.resume, "go on from the checkpoint");
   add_common(command, common);
   add_force(command, common, "sample with a scheme at another step or system than it was learned for");
   command.footer(
       "Examples:\n"
-      "  nysalt sample --system phi4 --masses 64 --length 1 --method omelyan5v\n"
+      "  nysalt sample --system phi4 --parameter masses=64 --length 1 --method omelyan5v\n"
       "  nysalt sample --potential '(x^2 + 100*y^2)/2' --variables x,y --diagonal-masses --output draws.csv\n"
-      "  nysalt sample --system phi4_lattice --side 8 --length 0.5 --output draws.csv --checkpoint "
+      "  nysalt sample --system phi4_lattice --parameter side=8 --length 0.5 --output draws.csv --checkpoint "
       "draws.checkpoint --every 500\n"
       "  nysalt sample --system pendulum --method verlet --step 0.5 --length 2 --draws 10000");
   return {&command, [typed, &common] { return sample(*typed, common); }};

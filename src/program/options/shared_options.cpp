@@ -21,23 +21,31 @@
 namespace nysalt::program {
 
 void add_of_program(CLI::App& program) {
-  program.set_version_flag("--version", version);
-  program.get_formatter()->column_width(34);
-  program.set_config("--config", "", "TOML file of options, as typed without the dashes");
+  program.set_version_flag("--version", version, "print the version");
+  program.formatter(std::make_shared<grouped_help>());
+  program.get_help_ptr()->description("print this help");
+  program.set_config("--config", "", "a TOML file of options, as typed without the dashes")
+      ->type_name(a_file);
   program.config_formatter(std::make_shared<options_file>(program));
   program.allow_config_extras(CLI::config_extras_mode::error);
 }
 
 void add_common(CLI::App& command, common_settings& common) {
-  add_number(command, "--seed", common.seed, "of all random numbers");
-  add_number(command, "--threads", common.execution.threads, "at most N threads; results do not depend on it")
+  begin_group(command, general_options);
+  add_number(command, "--seed", common.seed, "the seed of all random numbers");
+  add_number(command, "--threads", common.execution.threads,
+             "the most threads to use; results do not depend on their number")
       ->default_str("all cores");
-  command.add_flag("--json", common.json, "one JSON document on standard output");
+  describe_help(command);
   command.fallthrough();  // for --config, which belongs to the program
 }
 
+void add_json(CLI::App& command, common_settings& common) {
+  command.add_flag("--json", common.json, "print one JSON document and nothing else");
+}
+
 void add_force(CLI::App& command, common_settings& common, const char* what) {
-  command.add_flag("--force", common.force, what);
+  command.add_flag("--force", common.force, what)->group(general_options);
 }
 
 namespace {
@@ -48,8 +56,8 @@ struct parameter_option {
   const char* type;
 };
 
-void add_list(CLI::App& command, const std::string& name, std::vector<std::string>& list,
-              const std::string& help) {
+CLI::Option* add_list(CLI::App& command, const std::string& name, std::vector<std::string>& list,
+                      const std::string& help) {
   const auto take = [&list](const CLI::results_t& texts) {
     list.clear();
     for (const auto& text : texts) {
@@ -57,123 +65,196 @@ void add_list(CLI::App& command, const std::string& name, std::vector<std::strin
     }
     return true;
   };
-  command.add_option(name, take, help)->type_name("TEXT")->expected(1, 1000)->take_all();
+  return command.add_option(name, take, help)->expected(1, 1000)->take_all();
 }
 
-/// Of all systems; several may have one of the same name: "linear_chain, phi4: of the chain [8], of the ring
-/// [16]".
+const char* type_of(const detail::declared_parameter& parameter) {
+  return parameter.is_text() ? "TEXT" : parameter.is_whole() ? "N" : "X";
+}
+
+/// Of bundled systems; several may have one of the same name: "of linear_chain, its masses [8]; of phi4,
+/// ...".
 std::vector<parameter_option> parameters_of_systems() {
   std::vector<parameter_option> all;
-  const auto add = [&](const system_declaration& system) {
+  for (const system_declaration& system : bundled_declarations()) {
     for (const auto& parameter : system.parameters) {
       const std::string help =
           fmt::format("{}: {} [{}]", system.name, parameter.meaning, text_of(parameter.usual));
       const auto known = std::ranges::find(all, parameter.name, &parameter_option::name);
       if (known == all.end()) {
-        const char* type = parameter.is_text() ? "TEXT" : parameter.is_whole() ? "INTEGER" : "NUMBER";
-        all.push_back({parameter.name, help, type});
+        all.push_back({parameter.name, help, type_of(parameter)});
       } else {
         known->help += "; " + help;
       }
     }
-  };
-  for (const auto& system : bundled_declarations()) add(system);
-  for (const system_declaration* system : loaded_plugins()) add(*system);
+  }
   return all;
+}
+
+CLI::Option* add_parameter(CLI::App& command, system_settings& system, const parameter_option& one) {
+  const auto take = [name = one.name, &system](const CLI::results_t& texts) {
+    system.parameters[name] = texts.back();
+    return true;
+  };
+  return command.add_option(option_of(one.name), take, one.help)->type_name(one.type);
+}
+
+/// "--omega 50" of the bundled systems, which is "--parameter omega=50", and of systems that were loaded.
+void add_parameters(CLI::App& command, system_settings& system) {
+  std::vector<std::string> added;
+  begin_group(command, short_forms);
+  for (const auto& one : parameters_of_systems()) {
+    add_parameter(command, system, one);
+    added.push_back(one.name);
+  }
+  for (const system_declaration* loaded : loaded_plugins()) {
+    begin_group(command, "Parameters of " + loaded->name);
+    for (const auto& parameter : loaded->parameters) {
+      const std::string help = fmt::format("{} [{}]", parameter.meaning, text_of(parameter.usual));
+      if (std::ranges::count(added, parameter.name) == 0) {
+        add_parameter(command, system, {parameter.name, help, type_of(parameter)});
+        added.push_back(parameter.name);
+        continue;
+      }
+      CLI::Option* option = command.get_option(option_of(parameter.name));
+      const bool is_bundled = option->get_group() == short_forms;
+      option->description(is_bundled ? help : option->get_description() + "; " + help);
+      if (is_bundled) option->group("Parameters of " + loaded->name)->type_name(type_of(parameter));
+    }
+  }
+}
+
+void add_potential(CLI::App& command, typed_potential& potential, CLI::Option* named) {
+  command
+      .add_option("--potential", potential.text,
+                  "in place of --system: V(q) as a formula, such as '0.5*k*(x^2 + y^2)'")
+      ->type_name("FORMULA")
+      ->excludes(named);
+  add_list(command, "--variables", potential.variables,
+           "the coordinates of the formula: x,y, or q[16] for sixteen")
+      ->type_name(names);
+  const auto take_masses = [&masses = potential.masses](const CLI::results_t& texts) {
+    masses.clear();
+    for (const auto& one : split_at_commas(texts.back())) masses.push_back(number_of<double>("--mass", one));
+    return true;
+  };
+  command
+      .add_option("--mass", take_masses, "the masses of the coordinates of the formula: one, or one each [1]")
+      ->type_name(numbers);
 }
 
 }  // namespace
 
-std::vector<CLI::Option*> add_system(CLI::App& command, system_settings& system, const char* start) {
+std::vector<CLI::Option*> add_system(CLI::App& command, system_settings& system) {
   const std::size_t before = command.get_options().size();
   // At once, before an option is missed that follows it: which options there are depends on the system.
   const auto is_known = [](const std::string& name) {
     declaration_of(name);
     return std::string();
   };
+  begin_group(command, system_options);
   CLI::Option* named =
-      command.add_option("--system", system.name, "a name that nysalt list shows, or the file of your own")
-          ->capture_default_str()
+      command
+          .add_option("--system", system.name,
+                      "a name of nysalt list, or a file of your own; it or --potential is required")
+          ->type_name(a_name)
           ->check(is_known);
-  command.add_option("--potential", system.potential.text, "instead: V as text, such as 0.5*k*(x^2 + y^2)")
-      ->excludes(named);
-  add_list(command, "--variables", system.potential.variables,
-           "of the potential: its coordinates, x,y or q[16]");
-  add_list(command, "--parameter", system.potential.parameters, "of the potential: k=400,l=2");
-  add_list(command, "--around", system.potential.around, "where its starts are: x=1 [0]");
-  const auto take_masses = [&masses = system.potential.masses](const CLI::results_t& texts) {
-    masses.clear();
-    for (const auto& one : split_at_commas(texts.back())) masses.push_back(number_of<double>("--mass", one));
-    return true;
-  };
-  command.add_option("--mass", take_masses, "of its coordinates: one, or one for each [1]")
-      ->type_name("NUMBERS");
-  for (const auto& [name, help, type] : parameters_of_systems()) {
-    const auto take = [name = name, &system](const CLI::results_t& texts) {
-      system.parameters[name] = texts.back();
-      return true;
-    };
-    command.add_option("--" + name, take, help)->type_name(type);
-  }
-  add_number(command, "--friction", system.bath.friction, "of a bath: gamma; with --sigma or --temperature");
-  add_number(command, "--sigma", system.bath.sigma, "of its noise");
-  add_number(command, "--temperature", system.bath.temperature, "kT = sigma^2/(2 gamma), an energy");
-  add_number(command, "--spread", system.spread,
-             "multiplies the standard deviations of the initial distribution [1]");
-  add_number(
-      command, "--frequency", system.frequency,
-      "angular frequency that phase_fitted_... and s_aia... are fitted to, and the highest one where none "
-      "is known [declared, or seen along the motion]");
-  CLI::Option* file = command.add_option("--start", system.start, start);
+  add_list(command, "--parameter", system.potential.parameters,
+           "parameters of the system, as nysalt list shows them: omega=50,pairs=4")
+      ->type_name("NAME=VALUE,...");
+  add_potential(command, system.potential, named);
+  add_number(command, "--friction", system.bath.friction,
+             "the friction of a bath that the system is in; --temperature comes with it");
+  add_number(command, "--temperature", system.bath.temperature,
+             "the temperature kT of the bath, an energy; or --sigma");
+  CLI::Option* file =
+      command
+          .add_option("--start", system.start,
+                      "where to start: law (the initial distribution), gibbs, trajectory, or a file")
+          ->type_name(a_name);
   command
       .add_option("--at", system.at,
-                  "a state to begin at, 'x=1,y=0; px=0,py=0.5', 0 where nothing is said; several: --at again")
-      ->type_name("TEXT")
+                  "a state to start at: 'x=1,y=0; px=0,py=0.5'; for several give --at again")
+      ->type_name("STATE")
       ->expected(1, 1000)
       ->take_all()
       ->excludes(file);
+
+  begin_group(command, more_of(system_options));
+  add_list(command, "--around", system.potential.around, "where the starts of the formula are: x=1 [0]")
+      ->type_name("NAME=VALUE,...");
+  add_number(command, "--spread", system.spread,
+             "factor of the standard deviations of the initial distribution [1]");
+  add_number(command, "--sigma", system.bath.sigma,
+             "the noise of the bath, in place of --temperature, which is sigma^2/(2 friction)");
   add_number(command, "--start-step", system.start_step,
-             "of a --start that run wrote: the step to begin at [the last]");
+             "of a --start that nysalt run wrote: the step to start at [the last]");
+  add_number(
+      command, "--frequency", system.frequency,
+      "the angular frequency that phase_fitted_... and s_aia... methods are fitted to, and the highest one "
+      "where none is known [that which the system declares, or which is seen along the motion]");
+  add_parameters(command, system);
   std::vector<CLI::Option*> added = command.get_options([](CLI::Option*) { return true; });
   added.erase(added.begin(), added.begin() + static_cast<std::ptrdiff_t>(before));
   return added;
 }
 
 void add_placement(CLI::App& command, std::string& placement) {
-  command.add_option("--placement", placement,
-                     "of O in a word that has none: end, symmetric or middle [symmetric]");
+  command
+      .add_option("--placement", placement,
+                  "where letters O of a bath are in a method without them: end, symmetric or middle "
+                  "[symmetric]")
+      ->type_name(a_name)
+      ->group(more_of(method_options));
 }
 
 void add_search(CLI::App& command, learning_options& how, const std::string& prefix) {
-  command.add_option("--for", how.purpose,
-                     fmt::format("{}: what the runs are for, which sets the loss [state]", purposes()));
-  add_number(command, prefix + "trajectories", how.trajectories, "to learn from");
-  command.add_option(
-      "--coordinates", how.coordinates,
-      "of the loss: qp, modes or energy [energy for trajectory where there are modes, else qp]");
-  command.add_option("--fix", how.fix, "keep a parameter: b1=0.5");
-  command.add_option(
-      prefix + "loss", how.loss,
-      fmt::format("{}, or {} after K steps [by the purpose: trajectory, and state:1 in a bath; state:1; "
-                  "state:1; acceptance]",
-                  detail::loss_patterns(false), detail::loss_patterns(true)));
+  begin_group(command, learning_group);
   command
-      .add_option(prefix + "effort", how.effort, "of the search by trajectories: quick, normal or thorough")
+      .add_option("--for", how.purpose, fmt::format("what the runs to come are for: {} [state]", purposes()))
+      ->type_name(a_name);
+  add_number(command, prefix + "trajectories", how.trajectories, "number of trajectories to learn from");
+  command
+      .add_option(prefix + "effort", how.effort,
+                  "how long to search for parameters: quick, normal or thorough")
+      ->type_name(a_name)
       ->capture_default_str();
+
+  begin_group(command, more_of(learning_group));
+  command
+      .add_option(
+          prefix + "loss", how.loss,
+          fmt::format("the loss to minimise: {}, or {} after K steps [by --for: state has "
+                      "trajectory, in a bath state:1; energy and distribution state:1; sampling acceptance]",
+                      detail::loss_patterns(false), detail::loss_patterns(true)))
+      ->type_name(a_name);
+  command
+      .add_option("--coordinates", how.coordinates,
+                  "the coordinates in which the loss measures a state: qp, modes or energy [energy for the "
+                  "loss trajectory of a system with modes, else qp]")
+      ->type_name(a_name);
+  command
+      .add_option("--fix", how.fix,
+                  "a parameter of the family that is not learned but has this value: b1=0.5")
+      ->type_name("NAME=VALUE");
   add_number(command, prefix + "random-starts", how.random_starts,
-             "of the search, beside the family's own [by the effort]");
+             "number of random parameters that the search begins from, beside those of the family [by the "
+             "effort]");
 }
 
 void add_horizon(CLI::App& command, learning_options& how, const std::string& prefix) {
   add_number(command, prefix + "horizon", how.horizon,
-             "length of each [200 steps; of losses after K steps 0.5 or ten steps]");
+             "length of the trajectories to learn from, a time [200 steps; of losses after K steps 0.5, or "
+             "ten steps if that is longer]")
+      ->group(more_of(learning_group));
 }
 
 void add_learning(CLI::App& command, learning_options& how, const std::string& prefix) {
-  add_number(command, "--fine-step", how.fine_step,
-             "of the reference; must divide the step [omega h <= 5e-3]");
-  add_horizon(command, how, prefix);
   add_search(command, how, prefix);
+  add_horizon(command, how, prefix);
+  add_number(command, "--fine-step", how.fine_step,
+             "the fine step of the reference, which must divide the step [omega h <= 5e-3]")
+      ->group(more_of(learning_group));
 }
 
 }  // namespace nysalt::program

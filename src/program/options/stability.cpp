@@ -24,16 +24,25 @@ subcommand offer_stability(CLI::App& app, common_settings& common) {
   const auto typed = std::make_shared<stability_as_typed>();
   auto& asked = typed->asked;
   auto& command = *app.add_subcommand("stability", "for which z = h omega a method is stable");
-  command.add_option("--method", asked.method, "a name, or the file of a scheme or table");
-  command.add_option("--family", asked.family, "with --parameters");
-  command.add_option("--parameters", typed->parameters, "of the family, joined by commas");
-  auto of_system =
-      add_system(command, typed->system,
-                 "law, gibbs or trajectory: as run takes it; frequencies are those of the first");
+  begin_group(command, method_options);
+  command.add_option("--method", asked.method, "a name of nysalt list, or the file of a scheme or table")
+      ->type_name(a_name);
+  command.add_option("--family", asked.family, "in place of --method: a family, with --parameters")
+      ->type_name(a_name);
+  command.add_option("--parameters", typed->parameters, "the values of the parameters of the family")
+      ->type_name(numbers);
+  auto of_system = add_system(command, typed->system);
+  command.get_option("--system")
+      ->description("a system, with --step: a name of nysalt list, or a file of your own");
+  begin_group(command, method_options);
   of_system.push_back(
-      add_number(command, "--step", asked.step, "with --system: is the system stable there?"));
-  command.add_option("--output", asked.output, "write trace/2 over z as CSV");
-  command.add_flag("--plot", asked.plot, "draw it beside the output: windows, and the system's z");
+      add_number(command, "--step", asked.step, "with a system: the step at which the method is judged"));
+  begin_group(command, output_group);
+  command.add_option("--output", asked.output, "a CSV file to write: trace/2 of the step over z")
+      ->type_name(a_file);
+  command.add_flag("--plot", asked.plot,
+                   "draw this curve beside the output, with its windows and the z of the system");
+  add_json(command, common);
   add_common(command, common);
   add_force(command, common, "examine a scheme at another step or system than it was learned for");
   command.footer(

@@ -18,10 +18,10 @@ system_declaration declare_fpu() {
                          .title = "Fermi-Pasta-Ulam chain: stiff linear and soft quartic springs in turn"};
   fpu.parameters = {{.name = "pairs",
                      .usual = 3,
-                     .meaning = "pairs of masses",
+                     .meaning = "number of pairs of masses",
                      .least = 1,
                      .most = 10'000'000},  // a run takes some gigabytes
-                    {.name = "omega", .usual = 50.0, .meaning = "stiff frequency"}};
+                    {.name = "omega", .usual = 50.0, .meaning = "frequency of the stiff springs"}};
   fpu.make = [](const parameter_values& values, const bath& in, double spread) {
     const auto pairs = values.whole("pairs");
     const double omega = values.real("omega");

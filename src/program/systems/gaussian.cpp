@@ -30,7 +30,7 @@ system_declaration declare_gaussian() {
                             .title = "independent oscillators around the frequency 1, for sampling"};
   result.parameters = {{.name = "size",
                         .usual = 100,
-                        .meaning = "coordinates",
+                        .meaning = "number of coordinates",
                         .least = 1,
                         .most = 10'000'000},  // a state of some hundred megabytes
                        {.name = "condition",
@@ -39,7 +39,7 @@ system_declaration declare_gaussian() {
                         .least = 1.0},
                        {.name = "deviation",
                         .usual = 0.0,
-                        .meaning = "of a normal part of log omega",
+                        .meaning = "standard deviation of a normal part of log omega",
                         .least = 0.0,
                         .most = 10.0}};
   result.make = [](const parameter_values& values, const bath& in, double spread) {

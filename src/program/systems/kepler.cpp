@@ -10,8 +10,11 @@ namespace nysalt::program {
 system_declaration declare_kepler() {
   system_declaration result{.name = "kepler",
                             .title = "p^2/2 - 1/|q| in the plane, ellipses of semi-major axis 1"};
-  result.parameters = {
-      {.name = "eccentricity", .usual = 0.6, .meaning = "of the starts", .least = 0.0, .below = 1.0}};
+  result.parameters = {{.name = "eccentricity",
+                        .usual = 0.6,
+                        .meaning = "eccentricity of the ellipses",
+                        .least = 0.0,
+                        .below = 1.0}};
   result.make = [](const parameter_values& values, const bath& in, double) {
     const double eccentricity = values.real("eccentricity");
     // V'' = 2/r^3 at the pericentre, r = 1 - e.

@@ -14,12 +14,15 @@ system_declaration declare_lennard_jones_liquid() {
   system_declaration result{.name = "lennard_jones_liquid",
                             .title = "atoms in a periodic cube, 4 (r^-12 - r^-6) each pair within a cut-off"};
   result.parameters = {
-      {.name = "atoms", .usual = 108, .meaning = "in the cube", .least = 2, .most = 1e5, .is_size = true},
-      {.name = "density", .usual = 0.8442, .meaning = "atoms in a unit of volume", .is_positive = true},
-      {.name = "cutoff", .usual = 2.2, .meaning = "distance of pairs without a force", .least = 1.0},
+      {.name = "atoms", .usual = 108, .meaning = "number of atoms", .least = 2, .most = 1e5, .is_size = true},
+      {.name = "density",
+       .usual = 0.8442,
+       .meaning = "number of atoms in a unit of volume",
+       .is_positive = true},
+      {.name = "cutoff", .usual = 2.2, .meaning = "distance from which pairs have no force", .least = 1.0},
       {.name = "smoothness",
        .usual = 3,
-       .meaning = "derivatives of a pair's potential that are continuous at the cut-off",
+       .meaning = "number of derivatives of a pair's potential that are continuous at the cut-off",
        .least = 0,
        .most = 3}};
   result.make = [](const parameter_values& values, const bath& in, double spread) {

@@ -12,10 +12,10 @@ system_declaration declare_linear_chain() {
                             .title = "equal masses between walls, joined by linear springs"};
   result.parameters = {{.name = "masses",
                         .usual = 8,
-                        .meaning = "of the chain",
+                        .meaning = "number of masses",
                         .least = 1,
                         .most = 1000},  // the modes of a chain are found from a full matrix: seconds
-                       {.name = "spring", .usual = 1.0, .meaning = "stiffness"}};
+                       {.name = "spring", .usual = 1.0, .meaning = "stiffness of the springs"}};
   result.make = [](const parameter_values& values, const bath& in, double spread) {
     const auto masses = values.whole("masses");
     const auto chain = linear_chain::between_walls(masses, values.real("spring"));

@@ -119,12 +119,14 @@ system_declaration declare_logistic_regression() {
   result.parameters = {
       {.name = "data",
        .usual = std::string(),
-       .meaning = "CSV file of numbers with a line of names; without one 500 rows of an example"},
-      {.name = "label", .usual = std::string(), .meaning = "column of labels 0 and 1, else the last"},
-      {.name = "variance", .usual = 1.0, .meaning = "of the normal prior", .is_positive = true},
+       .meaning = "CSV file of numbers under a line of names, else 500 rows of an example"},
+      {.name = "label",
+       .usual = std::string(),
+       .meaning = "name of the column of labels 0 and 1, else the last one"},
+      {.name = "variance", .usual = 1.0, .meaning = "variance of the normal prior", .is_positive = true},
       {.name = "standardise",
        .usual = 1,
-       .meaning = "1: predictors get mean 0 and deviation 1; 0: as they are",
+       .meaning = "whether predictors get mean 0 and deviation 1, 1 or 0",
        .least = 0,
        .most = 1}};
   result.make = [](const parameter_values& values, const bath& in, double spread) {

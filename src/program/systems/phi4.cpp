@@ -12,7 +12,7 @@ system_declaration declare_phi4() {
                             .title = "masses in wells q^4/4, a ring joined by linear springs"};
   result.parameters = {{.name = "masses",
                         .usual = 16,
-                        .meaning = "of the ring",
+                        .meaning = "number of masses",
                         .least = 1,
                         .most = 10'000'000}};  // a state of some hundred megabytes
   result.make = [](const parameter_values& values, const bath& in, double spread) {

@@ -11,9 +11,10 @@ namespace nysalt::program {
 
 system_declaration declare_phi4_lattice() {
   system_declaration result{.name = "phi4_lattice", .title = "lattice phi^4 theory on a periodic square"};
-  result.parameters = {{.name = "side", .usual = 12, .meaning = "sites of a row", .least = 2, .most = 4096},
-                       {.name = "mass_squared", .usual = -4.0, .meaning = "m^2"},
-                       {.name = "coupling", .usual = 4.0, .meaning = "lambda", .is_positive = true}};
+  result.parameters = {
+      {.name = "side", .usual = 12, .meaning = "number of sites of a row", .least = 2, .most = 4096},
+      {.name = "mass_squared", .usual = -4.0, .meaning = "the square m^2 of the mass"},
+      {.name = "coupling", .usual = 4.0, .meaning = "the coupling lambda", .is_positive = true}};
   result.make = [](const parameter_values& values, const bath& in, double spread) {
     const phi4_lattice lattice(values.whole("side"), values.real("mass_squared"), values.real("coupling"));
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(lattice.size());

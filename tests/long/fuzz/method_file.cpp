@@ -21,12 +21,12 @@ void try_method_file(const std::string& text) {
   const input_file file{"method.json", text};
   const std::string step = "0.02";
   run({"stability", "--method", file.name, "--json"}, {file});
-  run({"run", "--method", file.name, "--step", step, "--horizon", "0.06", "--threads", "1", "--force",
-       "--output", "out.csv"},
+  run({"run", "--system", "fpu", "--method", file.name, "--step", step, "--horizon", "0.06", "--threads", "1",
+       "--force", "--output", "out.csv"},
       {file});
   if (!is_one_in(1024, text)) return;
-  run({"compare", "--methods", "verlet," + file.name, "--steps", step, "--trajectories", "2", "--horizon",
-       "0.06", "--fine-step", "0.01", "--threads", "1", "--force", "--json"},
+  run({"compare", "--system", "fpu", "--methods", "verlet," + file.name, "--steps", step, "--trajectories",
+       "2", "--horizon", "0.06", "--fine-step", "0.01", "--threads", "1", "--force", "--json"},
       {file});
 }
 
