@@ -85,7 +85,7 @@ struct periodic_wells {
 enum class outcome { fine, grows, large };
 
 constexpr std::int64_t long_steps = 100'000;
-constexpr std::int64_t long_work = 40 * judging_options{}.work;
+const std::int64_t long_work = 40 * judging_options{}.work;
 
 /// Judged by what a guard does not use: whether the energy error of a long run is large, or grows.
 outcome what_came_of(const model& system, const method& method, double step, const phase_points& starts) {
