@@ -2,8 +2,9 @@
 // The ten lines of the README: learn a method for a chain at a step, and run it.
 #include <fmt/format.h>
 
+#include "nysalt/analyse.hpp"
+#include "nysalt/core.hpp"
 #include "nysalt/learn.hpp"
-#include "nysalt/nysalt.hpp"
 
 int main() {
   // [readme]
