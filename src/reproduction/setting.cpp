@@ -29,7 +29,8 @@ trajectories_plan plan_of(const setting& setup, double step, double horizon, std
 }  // namespace
 
 std::unique_ptr<prepared_problem> chain(double frequency, double spread) {
-  system_settings asked{.name = "fpu"};
+  system_settings asked;
+  asked.name = "fpu";
   asked.parameters["omega"] = fmt::format("{}", frequency);
   asked.spread = spread;
   return make_system(asked);
@@ -38,7 +39,8 @@ std::unique_ptr<prepared_problem> chain(double frequency, double spread) {
 const prepared_problem& setting::in_bath(const std::string& start) const {
   auto& system = baths_[start];
   if (system) return *system;
-  system_settings asked{.name = "fpu"};
+  system_settings asked;
+  asked.name = "fpu";
   asked.bath = {.friction = 0.01, .sigma = 0.05, .temperature = {}};
   asked.start = start;
   system = make_system(asked);
