@@ -25,7 +25,7 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
   begin_group(command, method_options);
   command
       .add_option("--methods", typed->methods,
-                  "names, word:LETTERS, learned:FAMILY, files; all: each of nysalt list that suits [all]")
+                  "names, word:LETTERS, learned:FAMILY, files; all: those of nysalt list [all]")
       ->type_name(names);
   command.add_option("--steps", typed->steps, "the steps at which each method is measured")
       ->type_name(numbers)
