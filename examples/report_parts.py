@@ -33,7 +33,7 @@ class Markdown(html.parser.HTMLParser):
         elif tag == "pre":
             self.text += "\n```\n"
         elif tag == "figure":
-            self.text += f"\n![{attributes['id']}]({attributes['id']}.svg)\n"
+            self.text += f"\n![{attributes['data-name']}]({attributes['data-name']}.svg)\n"
         elif tag == "tr":
             self.text += "|"
         elif tag in ("th", "td"):
@@ -66,7 +66,7 @@ class Markdown(html.parser.HTMLParser):
 def main():
     folder = pathlib.Path(sys.argv[1])
     page = (folder / "report.html").read_text(encoding="utf-8")
-    for name, drawn in re.findall(r'<figure id="([^"]+)">.*?(<svg.*?</svg>)', page, re.DOTALL):
+    for name, drawn in re.findall(r'<figure data-name="([^"]+)">.*?(<svg.*?</svg>)', page, re.DOTALL):
         (folder / f"{name}.svg").write_text(drawn + "\n", encoding="utf-8")
     markdown = Markdown()
     markdown.feed(re.sub(r"<(nav|svg|script|style)\b.*?</\1>", "", page, flags=re.DOTALL))

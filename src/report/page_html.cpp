@@ -140,7 +140,7 @@ struct html_of_block {
           picture.name);
     }
     return fmt::format(
-        "<figure id=\"{}\">\n<div role=\"img\" "
+        "<figure data-name=\"{}\">\n<div role=\"img\" "
         "aria-label=\"{}\">\n{}\n</div>\n<figcaption>{}</figcaption>\n</figure>\n",
         picture.name, html_plain(picture.caption), drawn, html_sentence(picture.caption));
   }
