@@ -60,7 +60,22 @@ json provenance_of(const common_settings& common) {
 }
 
 std::string first_line_of_table(const json& made) {
-  return std::string(mark_of_table) + made.dump(-1, ' ', true, json::error_handler_t::replace) + "\n";
+  std::string line(mark_of_table);
+  bool is_text = false;     // within quotes
+  bool is_escaped = false;  // behind a backslash there
+  for (const char c : made.dump(-1, ' ', true, json::error_handler_t::replace)) {
+    // A spreadsheet takes what follows a comma for a formula if it begins so.
+    const bool begins_formula = line.back() == ',' && (c == '=' || c == '+' || c == '-' || c == '@');
+    if (c == '"' && !is_escaped) is_text = !is_text;
+    is_escaped = is_text && c == '\\' && !is_escaped;
+    if (begins_formula && is_text) {
+      line += fmt::format("\\u{:04x}", c);
+    } else {
+      if (begins_formula) line += ' ';  // a number
+      line += c;
+    }
+  }
+  return line + '\n';
 }
 
 void write_result(const fs::path& file, std::string_view text) {

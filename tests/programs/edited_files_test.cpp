@@ -83,7 +83,8 @@ struct comparison {
   std::string line;
   comparison(const std::string& name, std::string arguments)
       : folder(name), line("\"$nysalt\" " + std::move(arguments) + " --output out") {
-    write(folder / "gnuplot", "#!/bin/sh\ncp ../journal.jsonl ../../kept\nexit 1\n");
+    const std::string here = folder.path().string();
+    write(folder / "gnuplot", "#!/bin/sh\ncp '" + here + "/out/journal.jsonl' '" + here + "/kept'\nexit 1\n");
     BOOST_TEST_REQUIRE(shell(folder, "chmod +x gnuplot && PATH=$PWD:$PATH " + line).code == 0);
   }
 
