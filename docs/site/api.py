@@ -32,7 +32,7 @@ groups = {
     "Comparisons": "compare recommend comparison_options export_to",
     "Ranks and files": "communicator communicators/ execution shard atomic_file",
 }
-internal = {"core", "kernels", "parallel", "stepping"}
+internal = {"core", "kernels", "parallel", "stepping", "requirements.hpp"}
 
 
 def public_headers(root):

@@ -83,7 +83,8 @@ class Uses:
 
     def samples(self, *arguments):
         """The observables of all samples of a run, a row for each."""
-        rows = self.run("run", "--no-checks", *arguments).splitlines()[1:]
+        lines = self.run("run", "--no-checks", *arguments).splitlines()
+        rows = [line for line in lines if not line.startswith("#")][1:]
         return [[float(number) for number in row.split(",")[3:]] for row in rows]
 
     def phase_error(self, method, step):
