@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <concepts>
 #include <functional>
 #include <random>
 #include <vector>
@@ -64,18 +63,18 @@ class order_probe {
   /// K = p.p/2 if quadratic_kinetic, else a generic polynomial. Always the same V and start.
   explicit order_probe(bool quadratic_kinetic);
 
-  /// -h grad V(q), a series in h; over other scalars with h = 1.
+  /// -h grad V(q), a series in h.
   template <class T>
   void force(const vector<T, 3>& q, vector<T, 3>& f) const {
     potential_gradient_(q, f);
-    for (T& entry : f) entry = entry * -step<T>();
+    for (T& entry : f) entry = entry * -taylor::variable();
   }
-  /// h grad K(p), a series in h; over other scalars with h = 1.
+  /// h grad K(p), a series in h.
   template <class T>
   void velocity(const vector<T, 3>& p, vector<T, 3>& v) const {
     v = p;
     if (!quadratic_kinetic_) kinetic_gradient_(p, v);
-    for (T& entry : v) entry = entry * step<T>();
+    for (T& entry : v) entry = entry * taylor::variable();
   }
 
   phase_point<taylor, 3> start() const { return start_.cast<taylor>(); }  ///< generic q and p, constant in h
@@ -85,12 +84,6 @@ class order_probe {
   phase_point<taylor, 3> flow() const;
 
  private:
-  template <class T>
-  static T step() {
-    if constexpr (std::same_as<T, taylor>) return taylor::variable();
-    return T(1.0);
-  }
-
   std::mt19937_64 bits_;
   generic_gradient potential_gradient_{bits_};
   generic_gradient kinetic_gradient_{bits_};
