@@ -18,7 +18,7 @@ namespace nysalt {
 struct common_options {
   std::uint64_t seed = 1;  ///< below 2^51: learning, judging and testing draw apart from each other by it
   bool force = false;      ///< whether a scheme may be used at another step or system than in learning
-  nysalt::execution execution{};  ///< threads only: progress is told by parts
+  nysalt::execution execution{};  ///< the number of threads; progress_of_parts is called in place of progress
   /// Callback with the name of the current part and its completed share, from any thread, one call at a time.
   /// An exception that it throws cancels the work. Empty: progress is written to standard error, on a
   /// terminal as one line, and elsewhere once a minute.

@@ -42,7 +42,7 @@ struct judging_options {
   /// a black box, whose cost is not known, of force evaluations a two-thousandth of it.
   std::int64_t work = 400'000'000;
   std::uint64_t seed = 1;         ///< seed of the noise, in a bath
-  nysalt::execution execution{};  ///< threads only
+  nysalt::execution execution{};  ///< only the number of threads is used
   bool watches_energy = true;     ///< false: only divergence counts, as for proposals of Hybrid Monte Carlo
 };
 

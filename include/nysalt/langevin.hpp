@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/noise.hpp"
 #include "nysalt/word.hpp"
 
@@ -42,7 +45,7 @@ constexpr int thermostatted_order(placement p, int order, bool symmetric) {
 /// A word with its letters O. Throws std::invalid_argument if it has some already, if it has no central
 /// letter to split, or if it is processed: only the kernel decides the temperature of a mode, as a processor
 /// changes no action, and a kernel that was learned with a processor may have any.
-word thermostatted(const word& letters, placement where);
+inline word thermostatted(const word& letters, placement where);
 
 namespace detail {
 
@@ -68,8 +71,41 @@ std::vector<C> thermostatted_coefficients(const word& letters, placement where, 
 
 /// Intervals of a step that the letters O of a word cover. Throws std::invalid_argument unless they share it
 /// as noise_intervals says.
-noise_intervals intervals_of_noise(const word& letters, const std::vector<double>& coefficients);
+inline noise_intervals intervals_of_noise(const word& letters, const std::vector<double>& coefficients);
 
 }  // namespace detail
+
+inline word thermostatted(const word& letters, placement where) {
+  const std::string text = letters.letters();
+  if (letters.stochastic_letters > 0) {
+    throw std::invalid_argument(sentence("thermostat: the word must have no letters O, got {}", text));
+  }
+  if (letters.is_processed()) {
+    throw std::invalid_argument(
+        sentence("thermostat: the word in a bath must have no processor, got {}; take one without, as a "
+                 "kernel that is made for a processor gives modes another temperature",
+                 text));
+  }
+  const std::string o(1, detail::bath_letter);
+  if (where == placement::end) return letters.with_letters(text + o);
+  if (where == placement::symmetric) return letters.with_letters(o + text + o);
+  if (text.size() % 2 == 0) {
+    throw std::invalid_argument(
+        sentence("thermostat: the word must have a central letter to split, got {}; place O at the end, or "
+                 "symmetric",
+                 text));
+  }
+  const std::size_t central = text.size() / 2;
+  return letters.with_letters(text.substr(0, central + 1) + o + text.substr(central));
+}
+
+inline detail::noise_intervals detail::intervals_of_noise(const word& letters,
+                                                          const std::vector<double>& coefficients) {
+  std::vector<double> of_bath;
+  for (std::size_t i = 0; i < letters.length; ++i) {
+    if (letters.letter(i) == detail::bath_letter) of_bath.push_back(coefficients[letters.first_slot(i)]);
+  }
+  return detail::intervals_of_noise(letters.letters(), of_bath);
+}
 
 }  // namespace nysalt

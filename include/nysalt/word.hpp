@@ -5,12 +5,14 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "nysalt/core/sentence.hpp"
 #include "nysalt/letters.hpp"
 
 namespace nysalt {
@@ -23,17 +25,17 @@ namespace detail {
 enum class evaluation { none, unshared, shared };
 
 // Refusals of words: a word that is a constant does not compile where it would call one of them.
-[[noreturn]] void refuse_word_without_letters();
-[[noreturn]] void refuse_too_long_word(std::string_view letters, std::size_t most);
-[[noreturn]] void refuse_unknown_letter(std::string_view letters, char letter);
-[[noreturn]] void refuse_two_splittings(std::string_view letters);
-[[noreturn]] void refuse_word_of_bath_only(std::string_view letters);
-[[noreturn]] void refuse_letters_of_processor(std::string_view letters, std::string_view processor);
-[[noreturn]] void refuse_processor_in_bath(std::string_view letters);
-[[noreturn]] void refuse_processor_of_rotations(std::string_view letters);
-[[noreturn]] void refuse_too_many_own_letters(std::string_view letters, std::size_t most);
-[[noreturn]] void refuse_coefficients(std::string_view letters, std::size_t length, std::size_t slots,
-                                      std::size_t got);
+[[noreturn]] inline void refuse_word_without_letters();
+[[noreturn]] inline void refuse_too_long_word(std::string_view letters, std::size_t most);
+[[noreturn]] inline void refuse_unknown_letter(std::string_view letters, char letter);
+[[noreturn]] inline void refuse_two_splittings(std::string_view letters);
+[[noreturn]] inline void refuse_word_of_bath_only(std::string_view letters);
+[[noreturn]] inline void refuse_letters_of_processor(std::string_view letters, std::string_view processor);
+[[noreturn]] inline void refuse_processor_in_bath(std::string_view letters);
+[[noreturn]] inline void refuse_processor_of_rotations(std::string_view letters);
+[[noreturn]] inline void refuse_too_many_own_letters(std::string_view letters, std::size_t most);
+[[noreturn]] inline void refuse_coefficients(std::string_view letters, std::size_t length, std::size_t slots,
+                                             std::size_t got);
 
 }  // namespace detail
 
@@ -336,11 +338,11 @@ constexpr double declared_cost(const word& letters, std::span<const double> pric
 
 /// Whether the kernel of a method, which is all of it without a processor, reads the same from both ends,
 /// letters and coefficients. A step back undoes a step then, with any processor.
-bool is_palindrome(const word& letters, const std::vector<double>& coefficients);
+inline bool is_palindrome(const word& letters, const std::vector<double>& coefficients);
 
 /// The word without its letters O: what it is in a bath that does not act. Throws std::invalid_argument if
 /// nothing is left.
-word conservative_part(const word& letters);
+inline word conservative_part(const word& letters);
 /// The coefficients of the letters that are left. Throws std::invalid_argument unless there is one for each
 /// slot.
 template <class C>
@@ -360,7 +362,7 @@ std::vector<C> conservative_part(const word& letters, const std::vector<C>& all)
 namespace detail {
 
 /// The word before the first step of a processed word, P(h)^-1: the letters of P from the last to the first.
-word pre_processor(const word& letters);
+inline word pre_processor(const word& letters);
 /// The coefficients of P(h)^-1 from the coefficients of the whole word.
 template <class C>
 std::vector<C> pre_processor_coefficients(const word& letters, const std::vector<C>& all) {
@@ -369,7 +371,7 @@ std::vector<C> pre_processor_coefficients(const word& letters, const std::vector
   return result;
 }
 /// The word on a copy that is observed, P(-h).
-word post_processor(const word& letters);
+inline word post_processor(const word& letters);
 /// The coefficients of P(-h) from the coefficients of the whole word.
 template <class C>
 std::vector<C> post_processor_coefficients(const word& letters, const std::vector<C>& all) {
@@ -379,5 +381,105 @@ std::vector<C> post_processor_coefficients(const word& letters, const std::vecto
 }
 
 }  // namespace detail
+
+// What a word that cannot be says, and functions of words.
+
+namespace detail {
+
+/// The letters of the library of which `is_meant` holds, joined by commas.
+std::string listed_letters(const auto& is_meant) {
+  std::string all;
+  for (const letter_facts& one : letter_table) {
+    if (is_meant(one)) (all += all.empty() ? "" : ", ") += one.letter;
+  }
+  return all;
+}
+
+inline void refuse_word_without_letters() {
+  throw std::invalid_argument("word: letters must be one or more, got none");
+}
+
+inline void refuse_too_long_word(std::string_view letters, std::size_t most) {
+  throw std::invalid_argument(sentence("word: letters must be at most {}, got {} in {}...; split the step",
+                                       most, letters.size(), letters.substr(0, 16)));
+}
+
+inline void refuse_unknown_letter(std::string_view letters, char letter) {
+  throw std::invalid_argument(
+      sentence("word: letters must be known, got {} with the letter {}; known letters are {}", letters,
+               letter, listed_letters([](const letter_facts&) { return true; })));
+}
+
+inline void refuse_two_splittings(std::string_view letters) {
+  const auto letters_of = [](splitting of_h) {
+    return listed_letters([=](const letter_facts& one) { return one.splits == of_h; });
+  };
+  throw std::invalid_argument(sentence(
+      "the word {}: letters must be of one splitting, either {} of H into K and V or {} of H into "
+      "its quadratic part and the rest",
+      letters, letters_of(splitting::kinetic_and_potential), letters_of(splitting::quadratic_part_and_rest)));
+}
+
+inline void refuse_word_of_bath_only(std::string_view letters) {
+  throw std::invalid_argument(sentence("word: a word must have a letter other than O, got {}", letters));
+}
+
+inline void refuse_letters_of_processor(std::string_view letters, std::string_view processor) {
+  throw std::invalid_argument(
+      sentence("the word {}: the letters of its processor must be A and B in turn, as in BABA, got {}",
+               letters, processor));
+}
+
+inline void refuse_processor_in_bath(std::string_view letters) {
+  throw std::invalid_argument(
+      sentence("the word {} must not have both letters O and a processor; leave one of them away, as a "
+               "kernel that is made for a processor gives the modes another temperature",
+               letters));
+}
+
+inline void refuse_processor_of_rotations(std::string_view letters) {
+  throw std::invalid_argument(
+      sentence("the word {}: the kernel of a processor must be of the letters A, B, D and G, as the "
+               "letters A and B of a processor do not mix with R, S and H; take another kernel",
+               letters));
+}
+
+inline void refuse_too_many_own_letters(std::string_view letters, std::size_t most) {
+  throw std::invalid_argument(
+      sentence("the word {} must have at most {} letters of a system; leave some away", letters, most));
+}
+
+inline void refuse_coefficients(std::string_view letters, std::size_t length, std::size_t slots,
+                                std::size_t got) {
+  const std::string two = slots > length ? sentence(" and {} coefficients", slots) : "";
+  throw std::invalid_argument(
+      sentence("word: coefficients must fit the word {} with {} letters{}, got {} coefficients", letters,
+               length, two, got));
+}
+
+inline word pre_processor(const word& letters) {
+  const std::string_view p = letters.processor();
+  return word(std::string(p.rbegin(), p.rend()));
+}
+
+inline word post_processor(const word& letters) { return word(letters.processor()); }
+
+}  // namespace detail
+
+inline bool is_palindrome(const word& letters, const std::vector<double>& coefficients) {
+  for (std::size_t i = 0, j = letters.length; i < j--; ++i) {
+    if (letters.letter(i) != letters.letter(j)) return false;
+    for (std::size_t k = 0; k < letters.slots_of(i); ++k) {
+      if (coefficients[letters.first_slot(i) + k] != coefficients[letters.first_slot(j) + k]) return false;
+    }
+  }
+  return true;
+}
+
+inline word conservative_part(const word& letters) {
+  std::string kept = letters.letters();
+  std::erase(kept, detail::bath_letter);
+  return letters.with_letters(kept);
+}
 
 }  // namespace nysalt

@@ -63,18 +63,18 @@ class order_probe {
   /// K = p.p/2 if quadratic_kinetic, else a generic polynomial. Always the same V and start.
   explicit order_probe(bool quadratic_kinetic);
 
-  /// -h grad V(q), a series in h.
+  /// -h grad V(q), a series in h; over numbers, which letters may ask for, h = 1.
   template <class T>
   void force(const vector<T, 3>& q, vector<T, 3>& f) const {
     potential_gradient_(q, f);
-    for (T& entry : f) entry = entry * -taylor::variable();
+    for (T& entry : f) entry = entry * -step<T>();
   }
-  /// h grad K(p), a series in h.
+  /// h grad K(p), a series in h; over numbers h = 1.
   template <class T>
   void velocity(const vector<T, 3>& p, vector<T, 3>& v) const {
     v = p;
     if (!quadratic_kinetic_) kinetic_gradient_(p, v);
-    for (T& entry : v) entry = entry * taylor::variable();
+    for (T& entry : v) entry = entry * step<T>();
   }
 
   phase_point<taylor, 3> start() const { return start_.cast<taylor>(); }  ///< generic q and p, constant in h
@@ -84,6 +84,15 @@ class order_probe {
   phase_point<taylor, 3> flow() const;
 
  private:
+  template <class T>
+  static auto step() {
+    if constexpr (requires(T x) { x = x * taylor::variable(); }) {  // a series, or derivatives of series
+      return taylor::variable();
+    } else {
+      return T(1.0);
+    }
+  }
+
   std::mt19937_64 bits_;
   generic_gradient potential_gradient_{bits_};
   generic_gradient kinetic_gradient_{bits_};

@@ -28,7 +28,7 @@ struct burn_in_options {
   int pilots = 256;     ///< number of chains that are measured
   std::int64_t most_steps = 10'000'000;  ///< largest number of steps of a pilot until it is stationary
   std::uint64_t seed = 1;                ///< seed of the pilots
-  nysalt::execution execution{};         ///< of the pilots; threads only
+  nysalt::execution execution{};         ///< of the pilots; only the number of threads is used
 };
 
 namespace detail {

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "nysalt/family.hpp"
+#include "nysalt/families/parameters.hpp"
 #include "nysalt/flows/drift_kick.hpp"
 #include "nysalt/flows/rotation.hpp"
 #include "nysalt/methods/classical.hpp"

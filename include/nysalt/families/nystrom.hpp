@@ -4,8 +4,9 @@
 #include <array>
 #include <string_view>
 
-#include "nysalt/family.hpp"
+#include "nysalt/families/parameters.hpp"
 #include "nysalt/flows/drift_kick.hpp"
+#include "nysalt/word.hpp"
 
 namespace nysalt {
 

@@ -24,7 +24,7 @@ struct after_steps_options {
   std::vector<int> steps{1};      ///< rising numbers; the last is the length K of a window
   int apart = 1;                  ///< steps from the beginning of one window to the beginning of the next
   int every = 1;                  ///< trajectory counts whose number this divides
-  nysalt::execution execution{};  ///< threads only: ranks are those of the data
+  nysalt::execution execution{};  ///< the number of threads; the ranks are the ranks of the data
 };
 
 namespace detail {

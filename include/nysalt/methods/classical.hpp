@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -187,12 +188,25 @@ inline constexpr classical_row processed_table[] = {
 namespace detail {
 
 /// A row of the table as a method.
-method as_data(const classical_row& row);
+inline method as_data(const classical_row& row) {
+  return {std::string(row.name),
+          word(row.letters),
+          {row.coefficients.begin(), row.coefficients.end()},
+          {row.order, row.symmetric, row.requires_quadratic_kinetic}};
+}
 
 }  // namespace detail
 
 /// Rows without letters O that are not several steps of another: what a learned method is compared with.
-std::vector<method> classical_methods();
+inline std::vector<method> classical_methods() {
+  std::vector<method> result;
+  for (const auto& row : detail::classical_table) {
+    const bool is_for_baths = row.letters.find(ornstein_uhlenbeck::letter) != std::string_view::npos;
+    if (!is_for_baths && !row.repeats) result.push_back(detail::as_data(row));
+  }
+  for (const auto& row : detail::processed_table) result.push_back(detail::as_data(row));
+  return result;
+}
 
 namespace detail {
 
