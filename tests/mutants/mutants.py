@@ -252,7 +252,7 @@ mutant(64, "one half of a merged letter O is taken twice", HEADERS + "stepping/m
        "core methods",
        ("both_.decay = begin.decay * end.decay;",
         "both_.decay = begin.decay * end.decay * (MUTANT ? begin.decay : C(1.0));"))
-mutant(65, "O at the end of a step comes first, with the coefficients as they were", LIBRARY + "langevin.cpp",
+mutant(65, "O at the end of a step comes first, with the coefficients as they were", HEADERS + "langevin.hpp",
        "core methods families",
        ("return letters.with_letters(text + o);", "return letters.with_letters(MUTANT ? o + text : text + o);"))
 mutant(66, "the force of a run that is taken up again is lost", HEADERS + "ensemble_run.hpp",
@@ -309,7 +309,7 @@ mutant(75, "one digit of classical<\"pefrl\"> alone is wrong: the order is 2", H
         "      all[1] += 1e-8, all[7] += 1e-8, all[3] -= 1e-8, all[5] -= 1e-8;\n      one.coefficients = all;\n"
         "    }\n    return one;\n  }())) {}"))
 mutant(76, "one digit of pefrl is wrong wherever it is taken from the table: the order is 2",
-       LIBRARY + "methods/classical.cpp", "methods",
+       HEADERS + "methods/classical.hpp", "methods",
        ("          {row.coefficients.begin(), row.coefficients.end()},",
         "          [&] {\n            std::vector<double> all(row.coefficients.begin(), row.coefficients.end());\n"
         "            if (MUTANT && row.name == \"pefrl\") {\n"
