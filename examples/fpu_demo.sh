@@ -9,7 +9,7 @@ mkdir -p "$folder"
 echo "== Learn a scheme for the step 0.02"
 "$nysalt" learn --system fpu --family nystrom --step 0.02 --loss state:1 --output "$folder/scheme.json"  # for energies
 
-rm -f "$folder/journal.jsonl"  # of a demonstration that was stopped
+rm -f "$folder/report.work"  # of a demonstration that was stopped
 echo
 echo "== Compare with classical methods at equal cost; steps are per force evaluation"
 "$nysalt" compare --system fpu --equal-cost --steps 0.00125,0.0025,0.005,0.0075,0.01,0.015,0.02 \

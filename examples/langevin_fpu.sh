@@ -13,7 +13,7 @@ echo "== Learn a scheme for the step 0.019, with half of the bath before it and 
 
 echo
 echo "== Errors along paths; all see the same noise"
-rm -f "$folder"/*/journal.jsonl  # of a run that was stopped
+rm -f "$folder"/*/report.work  # of a run that was stopped
 "$nysalt" compare $system $learning --horizon 1 --trajectories 1000 \
   --steps 0.0025,0.005,0.01,0.019,0.033,0.036 \
   --methods learned:nystrom@symmetric,learned:nystrom@end,baoab,baoab_2x,mclachlan2,s_aia2 --output "$folder/path"

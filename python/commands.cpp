@@ -56,7 +56,7 @@ std::string compare(const held_system& system, const py::dict& arguments) {
   std::string document;
   compute(system.calls_python(), [&] {
     program::comparison all(program::make_system(command.system), command, common);
-    program::journal nowhere;
+    program::work_file nowhere;
     all.learn_and_measure(nowhere);
     document = dumped(document_of(all));
   });

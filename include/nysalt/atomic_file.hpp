@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 // Steps between which no signal handler runs.
 
@@ -84,6 +85,27 @@ void put_folder_on_disk(const std::filesystem::path& file);
 int make_part(const std::filesystem::path& part, const std::filesystem::path& target,
               std::optional<unfinished_name>& name);
 
+/// An open file, which is closed in the end; then a lock of it goes, too.
+class descriptor {
+ public:
+  explicit descriptor(int number = -1) : number_(number) {}
+  ~descriptor();
+  descriptor(descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  descriptor& operator=(descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+
+  int number() const { return number_; }  ///< -1: there is none
+
+ private:
+  int number_;
+};
+
+/// The regular file of a name, open and locked; without a number if there is no file. Throws file_in_use if
+/// another process writes the file, and write_failure if it cannot be opened.
+descriptor held(const std::filesystem::path& file);
+
 /// Whether the name still belongs to the open file.
 bool has_name(int file, const std::filesystem::path& name);
 
@@ -124,6 +146,9 @@ class atomic_file {
   /// arrive; then an older file is as it was. If it is to be `durable`, it outlasts the machine's power too,
   /// which costs some milliseconds.
   void commit(bool durable = false);
+
+  /// After commit(): the file under its name, still locked, so that no other process writes it.
+  detail::descriptor release() { return detail::descriptor(std::exchange(file_, -1)); }
 
  private:
   void write_gathered();

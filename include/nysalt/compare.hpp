@@ -60,9 +60,9 @@ comparison compare(const initial_value_problem& problem, const comparison_option
                    const common_options& common = {});
 
 /// A comparison with a report: a page with tables and pictures in a folder. Parts that are finished stand in
-/// journal.jsonl there at once, and the file goes when the report is written: after an interruption the same
-/// call goes on from it. Throws std::invalid_argument if the journal is of other options, or of a system with
-/// other forces at its first starts; std::runtime_error if it cannot be written.
+/// report.work there, and the file goes when the report is written: after an interruption the same call goes
+/// on from it. Throws std::invalid_argument if that file is of other options, or of a system with other
+/// forces at its first starts; std::runtime_error if it cannot be written.
 comparison report(const initial_value_problem& problem, comparison_options options,
                   const std::filesystem::path& folder, const common_options& common = {});
 

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "asked_metric.hpp"
-#include "journal.hpp"
 #include "json.hpp"
 #include "learned_row.hpp"
 #include "measurement.hpp"
@@ -21,6 +20,7 @@
 #include "nysalt/analysis/cost_against_error.hpp"
 #include "prepared_problem.hpp"
 #include "progress.hpp"
+#include "work_file.hpp"
 
 namespace nysalt::program {
 
@@ -46,7 +46,7 @@ struct row {
 /// its like.
 void require_fitting(const comparison_options& asked, const std::function<bool(const char*)>& is_given);
 
-/// Plans, learns and measures. Each part that is finished goes into a journal; what is there is not done
+/// Plans, learns and measures. Each part that is finished goes into a work file; what is there is not done
 /// again.
 class comparison {
  public:
@@ -56,7 +56,7 @@ class comparison {
   /// The question, without how it is computed: two comparisons of one question have the same results to the
   /// bit.
   const json& question() const { return question_; }
-  void learn_and_measure(journal& kept);
+  void learn_and_measure(work_file& kept);
 
   const comparison_options& options() const { return options_; }
   const common_settings& common() const { return common_; }
@@ -109,15 +109,15 @@ class comparison {
   double work_of_reference() const;                    // of one ensemble for a distribution
   double evaluations_expected(const row& line) const;  // by unit time, without the start
 
-  void learn(row& line, journal& kept);
-  void measure_paths(double step, const group& all, journal& kept);
+  void learn(row& line, work_file& kept);
+  void measure_paths(double step, const group& all, work_file& kept);
   std::vector<asked_metric> along_paths() const;
   /// Coarser than the usual where the rows' errors allow it; nothing: the usual one.
   std::optional<double> fine_step_for(double step, const std::vector<method>& methods) const;
   double refinement(const errors_plan& pilot, const std::vector<method>& methods) const;
   void take(std::size_t metric, double step, const group& all, const measured& found);
-  void measure_acceptance(std::size_t metric, double step, const group& all, journal& kept);
-  void measure_law(std::size_t metric, double step, const group& all, journal& kept);
+  void measure_acceptance(std::size_t metric, double step, const group& all, work_file& kept);
+  void measure_law(std::size_t metric, double step, const group& all, work_file& kept);
   statistics_plan statistics_at(std::size_t metric, double step) const;
   void prepare_bins(std::size_t metric);
   gathered_statistics reference(std::size_t metric, double step, int number, int finer);
@@ -128,7 +128,7 @@ class comparison {
   void require_samples_in_range(std::size_t metric, std::span<const gathered_statistics> all) const;
   void measure_seconds();
   void judge_steps();
-  void follow_energies(journal& kept);
+  void follow_energies(work_file& kept);
 
   comparison_options options_;
   common_settings common_;

@@ -46,7 +46,7 @@ void comparison::judge_steps() {
 }
 
 /// Of the first trajectories of the test, at some forty times.
-void comparison::follow_energies(journal& kept) {
+void comparison::follow_energies(work_file& kept) {
   constexpr std::int64_t most_trajectories = 64;
   constexpr std::int64_t samples = 40;
   for (row& line : rows_) {

@@ -27,7 +27,7 @@ std::vector<row*> usable(const std::vector<row*>& all) {
 
 }  // namespace
 
-void comparison::learn_and_measure(journal& kept) {
+void comparison::learn_and_measure(work_file& kept) {
   prepare_starts(*system_, common_, shown_, warnings_);
   if (kept.found() > 0 && !kept.warning().empty()) warnings_.push_back(kept.warning());
   for (const auto& source : schemes_) {
@@ -117,7 +117,7 @@ double comparison::work_of_reference() const {
   return work_of_law(system_->fastest_rate() / fine_angle * reference_evaluations);
 }
 
-void comparison::learn(row& line, journal& kept) {
+void comparison::learn(row& line, work_file& kept) {
   const method_source& source = families_.at(line.method);
   const auto where = placement_in(source, *system_, placement_asked(options_.placement));
   const std::string part = fmt::format("{} learned at {}", line.method, line.step);
@@ -226,7 +226,7 @@ void comparison::take(std::size_t metric, double step, const group& all, const m
   for (std::size_t k = 0; k < all.size(); ++k) all[k]->measurements[metric] = found.measurements.at(k);
 }
 
-void comparison::measure_paths(double step, const group& all, journal& kept) {
+void comparison::measure_paths(double step, const group& all, work_file& kept) {
   if (all.empty()) return;
   const std::string part = fmt::format("paths at {}", step);
   if (kept.has(part)) {
@@ -258,7 +258,7 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
   }
 }
 
-void comparison::measure_acceptance(std::size_t metric, double step, const group& all, journal& kept) {
+void comparison::measure_acceptance(std::size_t metric, double step, const group& all, work_file& kept) {
   shown_.part(fmt::format("acceptance at step {:g}", step));
   const std::string part = fmt::format("{} at {}", metrics_[metric].text(), step);
   const auto read = [&](const json& text) { return measured_from(text, all.size(), options_.trajectories); };

@@ -238,7 +238,7 @@ measurement comparison::law_of(std::size_t metric, const row& line,
   return one;
 }
 
-void comparison::measure_law(std::size_t metric, double step, const group& all, journal& kept) {
+void comparison::measure_law(std::size_t metric, double step, const group& all, work_file& kept) {
   if (all.empty()) return;
   prepare_bins(metric);
   references_.clear();

@@ -74,7 +74,8 @@ bool is_input(const std::filesystem::path& file) {
 std::vector<std::filesystem::path> names_while_written(const std::filesystem::path& output) {
   const std::string file = nysalt::detail::behind_links(output).string();
   std::vector<std::filesystem::path> names{file};
-  for (const char* ending : {".part", ".new.part", ".next.part", ".sorted.part"}) {
+  for (const char* ending :
+       {".part", ".new.part", ".next.part", ".sorted.part", ".work", ".work.next.part"}) {
     names.emplace_back(file + ending);
   }
   return names;

@@ -23,7 +23,7 @@ struct learned_row {
   bool gains_nothing = false;
   std::string rival{};   // the formula that is as good; empty: none
   std::string reason{};  // why it is not usable
-  json document{};       // all that results and journals hold of the fit
+  json document{};       // all that results and work files hold of the fit
 
   std::vector<double> theta() const;
   /// The scheme file; null of a fit that is not usable.
@@ -35,8 +35,8 @@ std::string scheme_file(const std::string& method, double step);
 
 /// `scheme` is the document of the scheme file; null of a fit that is not usable.
 learned_row learned_row_of(const std::string& method, const fit_summary& fit, json scheme);
-/// Of what a journal holds of the method, which people may have edited. Throws std::exception for what is not
-/// whole, of another method, or not of the family.
+/// Of what a work file holds of the method, which people may have edited. Throws std::exception for what is
+/// not whole, of another method, or not of the family.
 learned_row learned_row_from(const json& document, const std::string& method, const family& family);
 inline json to_json(const learned_row& row) { return row.document; }
 

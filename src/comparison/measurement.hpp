@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Results of a comparison: plain numbers, which a journal keeps and a report shows.
+// Results of a comparison: plain numbers, which a work file keeps and a report shows.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ method_error::distribution spread_of(const measurement& outcome);
 
 /// Means over up to 1024 groups of as many trajectories each, in their order; those that are left over are
 /// left out. Two methods on the same trajectories differ by the mean of the differences of theirs, known as
-/// well as by all trajectories, and a journal has room for that many numbers.
+/// well as by all trajectories, and a work file has room for that many numbers.
 std::vector<double> means_of_groups(const std::vector<double>& of_each);
 
 /// Along the horizon.
@@ -84,9 +84,9 @@ json to_json(const baseline& context);
 json to_json(const measured& all);
 json to_json(const std::vector<measured>& all);
 
-// Of what a journal holds, which people may have edited. Each throws std::exception for what is not whole: of
-// another kind, or of other lengths than the members of one result, the number of metrics or rows, or that of
-// all trajectories ask for.
+// Of what a work file holds, which people may have edited. Each throws std::exception for what is not whole:
+// of another kind, or of other lengths than the members of one result, the number of metrics or rows, or that
+// of all trajectories ask for.
 measurement measurement_from(const json& text, std::int64_t trajectories);
 energy_course energies_from(const json& text);
 baseline baseline_from(const json& text);

@@ -15,6 +15,7 @@
 #include "catalogue.hpp"
 #include "checks.hpp"
 #include "json.hpp"
+#include "kept_answers.hpp"
 #include "nysalt/derivatives/check_letter.hpp"
 #include "nysalt/derivatives/spectrum.hpp"
 #include "nysalt/ensemble.hpp"
@@ -478,6 +479,15 @@ const judgement& prepared_problem::judged_by(const method& method, double step, 
                     "tries the step without a run",
                     fewest));
   }
+  judgement found =
+      once<judgement>(answers_, {"judge", key}, [&] { return tried(method, step, threads, evaluations); });
+  if (evaluations < all) found = in_part(std::move(found));
+  return judged_.emplace(key, std::move(found)).first->second;
+}
+
+judgement prepared_problem::tried(const method& method, double step, int threads,
+                                  std::int64_t evaluations) const {
+  const std::int64_t all = detail::evaluations_of_trial(made_.system);
   constexpr std::size_t most = 16;  // a judge keeps its starts
   if (judges_.size() == most) judges_.clear();
   const std::pair at(step, evaluations);
@@ -489,9 +499,7 @@ const judgement& prepared_problem::judged_by(const method& method, double step, 
     const phase_points starts = starts_to_judge(made_.system, starts_or_law());
     judge = judges_.emplace(at, step_judge(made_.system, starts, step, options)).first;
   }
-  judgement found = judge->second.of(method);
-  if (evaluations < all) found = in_part(std::move(found));
-  return judged_.emplace(key, std::move(found)).first->second;
+  return judge->second.of(method);
 }
 
 int prepared_problem::derivative_calls() const { return made_.system.facts().derivative_calls; }

@@ -35,6 +35,7 @@ class family;
 namespace nysalt::program {
 
 class model_reference;  // model_reference.hpp
+class work_file;        // work_file.hpp
 
 /// Name or parameter of a system, as scheme files hold it.
 struct named_value {
@@ -159,6 +160,11 @@ class prepared_problem {
   /// Makes the data, and learns from them.
   learned_scheme learn(const learn_plan& plan, const counter& progress) const;
 
+  /// From now on a work file, if there is one, keeps what learn(), errors(), acceptance() and the judgements
+  /// find, and what is there is not done again.
+  void keep_answers_in(work_file* file) { answers_ = file; }
+  work_file* answers() const { return answers_; }  ///< null: nothing is kept
+
   /// Throws refusal if there is no such measure of this system, the fine step does not divide the step, whose
   /// noise is wanted in parts, or scores and samples do not fit into memory; before any work is done.
   void require_measure(const asked_metric& metric, const trajectories_plan& plan,
@@ -209,6 +215,7 @@ class prepared_problem {
   /// By a trial of some evaluations.
   const judgement& judged_by(const nysalt::method& method, double step, int threads,
                              std::int64_t evaluations) const;
+  judgement tried(const nysalt::method& method, double step, int threads, std::int64_t evaluations) const;
   model_reference reference() const;
   error_measure measure_named(const asked_metric& metric) const;
   /// In which noise is wanted to learn with.
@@ -226,7 +233,11 @@ class prepared_problem {
   };
   const seen_frequencies& highest_seen() const;
 
+  learned_scheme learn_from_data(const learn_plan& plan, const nysalt::family& family,
+                                 const counter& progress) const;
+
   initial_value_problem made_;
+  work_file* answers_ = nullptr;
   std::vector<named_value> parameters_;
   std::string source_of_kind_;
   start start_;

@@ -7,6 +7,7 @@
 #include "all_ranks.hpp"
 #include "catalogue.hpp"
 #include "family_options.hpp"
+#include "kept_answers.hpp"
 #include "model_reference.hpp"
 #include "nysalt/learn.hpp"
 #include "prepared_problem.hpp"
@@ -64,6 +65,31 @@ std::int64_t prepared_problem::most_trajectories(const learn_plan& plan) const {
 learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& progress) const {
   require_learnable(plan.family, plan.where, plan.how, plan.step);
   const nysalt::family family = placed(plan.family, plan.where, letters());
+  const json question{"learn",
+                      plan.family,
+                      plan.step,
+                      plan.how.trajectories,
+                      plan.how.horizon_at(plan.step),
+                      plan.how.loss,
+                      plan.how.effort,
+                      plan.how.random_starts.value_or(-1),
+                      plan.seed,
+                      plan.from,
+                      plan.only_from_there};
+  const auto found = once<kept_fit>(answers_, question, [&] {
+    learned_scheme learned = learn_from_data(plan, family, progress);
+    return kept_fit{std::move(learned.fit), learned.method.coefficients(), learned.energies};
+  });
+  return {found.fit,
+          {family.name,
+           family.letters,
+           found.coefficients,
+           {family.order, family.symmetric, family.requires_quadratic_kinetic}},
+          found.energies};
+}
+
+learned_scheme prepared_problem::learn_from_data(const learn_plan& plan, const nysalt::family& family,
+                                                 const counter& progress) const {
   const int parts = noise_parts(family);
   fit_options options = options_for(family, plan.how, plan.threads);
   // The random starts of the search are those of every seed: a seed decides on data, not on the minima that

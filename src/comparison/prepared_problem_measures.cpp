@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "all_ranks.hpp"
+#include "kept_answers.hpp"
 #include "model_reference.hpp"
 #include "nysalt/analysis/cost_against_error.hpp"
 #include "nysalt/analysis/ensemble_statistics.hpp"
@@ -26,6 +27,13 @@ trajectory_options options_of(const trajectories_plan& plan, const counter& prog
           .seed = plan.seed,
           .execution = {.threads = plan.threads, .ranks = &all_ranks(), .progress = progress},
           .horizon = plan.horizon};
+}
+
+/// What decides the bits of trajectories of methods.
+json question_of(const char* what, std::span<const method> methods, const trajectories_plan& plan) {
+  json question{what, plan.step, plan.steps, plan.count, plan.seed, plan.horizon.value_or(0.0)};
+  for (const auto& method : methods) question.push_back({method.letters().letters(), method.coefficients()});
+  return question;
 }
 
 // The end of a timed run, so that the compiler removes none.
@@ -79,14 +87,23 @@ std::vector<trajectory_errors_result> prepared_problem::errors(const std::vector
   options.null_model = plan.null_model;
   options.perturbation = plan.perturbation;
   const int parts = nysalt::detail::parts_of_noise(made_.system, methods);
-  const auto reference_solution = reference().at(plan.trajectories.step, plan.fine_step, parts);
-  return trajectory_errors(made_.system, reference_solution, *starts_, methods,
-                           std::span<const error_measure>(measures), options);
+  json question = question_of("errors", methods, plan.trajectories);
+  question.push_back({plan.fine_step.value_or(0.0), plan.null_model, plan.perturbation.value_or(0.0)});
+  for (const auto& metric : plan.metrics) question.push_back(metric.text());
+  return once<std::vector<trajectory_errors_result>>(answers_, question, [&] {
+    const auto reference_solution = reference().at(plan.trajectories.step, plan.fine_step, parts);
+    return trajectory_errors(made_.system, reference_solution, *starts_, methods,
+                             std::span<const error_measure>(measures), options);
+  });
 }
 
 acceptance_result prepared_problem::acceptance(const method& method, const trajectories_plan& plan,
                                                double temperature, const counter& progress) const {
-  return nysalt::acceptance(made_.system, method, *starts_, options_of(plan, progress), temperature);
+  json question = question_of("acceptance", std::span(&method, 1), plan);
+  question.push_back(temperature);
+  return once<acceptance_result>(answers_, question, [&] {
+    return nysalt::acceptance(made_.system, method, *starts_, options_of(plan, progress), temperature);
+  });
 }
 
 std::vector<double> prepared_problem::values_at_starts(const trajectories_plan& plan,

@@ -9,6 +9,7 @@
 #include "all_ranks.hpp"
 #include "catalogue.hpp"
 #include "checks.hpp"
+#include "kept_answers.hpp"
 #include "learning.hpp"
 #include "nysalt/ensembles/distributions.hpp"
 #include "nysalt/hmc.hpp"
@@ -187,8 +188,12 @@ std::optional<acceptance_step> sampling_choice::step_of(const sampling_candidate
                                                         std::uint64_t seed, std::string& reason) const {
   try {
     const auto at = [&](double step) { return method_at(candidate, step); };
-    return step_at_acceptance(system_->definition().system, at, options_.acceptance, guess, *states_,
-                              proposals(seed));
+    json question{"step", candidate.source.typed, guess, seed};
+    if (candidate.learned) question.push_back(candidate.learned->method.coefficients());
+    return once<acceptance_step>(system_->answers(), question, [&] {
+      return step_at_acceptance(system_->definition().system, at, options_.acceptance, guess, *states_,
+                                proposals(seed));
+    });
   } catch (const std::invalid_argument& problem) {
     reason = problem.what();
   } catch (const std::runtime_error& problem) {

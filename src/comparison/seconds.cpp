@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "all_ranks.hpp"
+#include "kept_answers.hpp"
 #include "nysalt/analysis/cost_against_error.hpp"
 #include "nysalt/communicator.hpp"
 
@@ -49,10 +50,15 @@ std::vector<timed_job> timed(const prepared_problem& system, const std::vector<t
 
 std::vector<timed_job> seconds_per_time(const prepared_problem& system,
                                         const std::vector<timed_method>& methods, double seconds) {
-  std::vector<timed_job> result;
-  on_first(all_ranks(), [&] { result = timed(system, methods, seconds); });
-  broadcast(all_ranks(), result);
-  return result;
+  json question{"seconds"};
+  for (const auto& one : methods)
+    question.push_back({one.method.letters().letters(), one.method.coefficients(), one.plan.step});
+  return once<std::vector<timed_job>>(system.answers(), question, [&] {
+    std::vector<timed_job> result;
+    on_first(all_ranks(), [&] { result = timed(system, methods, seconds); });
+    broadcast(all_ranks(), result);
+    return result;
+  });
 }
 
 }  // namespace nysalt::program

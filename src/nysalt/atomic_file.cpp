@@ -192,6 +192,21 @@ lock_outcome ask_for_lock(int file) {
   return lock_outcome::taken;
 }
 
+descriptor::~descriptor() {
+  if (number_ >= 0) close(number_);
+}
+
+descriptor held(const std::filesystem::path& file) {
+  descriptor found(open(file.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (found.number() < 0 && errno == ENOENT) return found;
+  if (const auto why = objection_to_replacing(file); !why.empty()) cannot_write(file, why);
+  if (found.number() < 0) failed_to_write(file);
+  // Who held the lock before may have given the name to another file meanwhile.
+  if (ask_for_lock(found.number()) == lock_outcome::held_by_another || !has_name(found.number(), file))
+    another_writes(file);
+  return found;
+}
+
 bool is_locked(const std::filesystem::path& file) {
   const int opened = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (opened < 0) return false;

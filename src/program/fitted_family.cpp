@@ -104,7 +104,8 @@ fitted_family::fitted_family(const learn_command& command, const common_settings
   for (const double step : steps_) system_->require_learnable(plan_.family, plan_.where, plan_.how, step);
 }
 
-void fitted_family::learn() {
+void fitted_family::learn(work_file* work) {
+  system_->keep_answers_in(work);
   progress shown;
   prepare_starts(*system_, common_, shown, warnings_);
   learned_ = learn_curve(*system_, plan_, steps_, shown);

@@ -19,7 +19,10 @@ class fitted_family {
   /// Throws refusal for bad options, before any work is done.
   fitted_family(const learn_command& command, const common_settings& common);
 
-  void learn();
+  /// What is learned is kept in a work file, if there is one.
+  void learn(work_file* work = nullptr);
+
+  const prepared_problem& system() const { return *system_; }
 
   /// Where the letters O are; nothing without a bath.
   const std::optional<placement>& where() const { return plan_.where; }

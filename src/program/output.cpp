@@ -18,14 +18,15 @@
 #include <system_error>
 #include <utility>
 
+#include "build_info.hpp"
 #include "comparison/inputs.hpp"
 #include "comparison/refusal.hpp"
 #include "comparison/standard_error.hpp"
 #include "mpi_session.hpp"
 #include "nysalt/atomic_file.hpp"
 #include "nysalt/core/fingerprint.hpp"
-#include "output/checkpoint_file.hpp"
 #include "output/written_arrays.hpp"
+#include "recorded_options.hpp"
 #include "report/comparison_report.hpp"
 
 namespace nysalt::program {
@@ -74,7 +75,7 @@ namespace {
 /// Throws refusal if a file system could not take the longest name that a file has while it is written.
 void require_room_for_name(const std::filesystem::path& file) {
   constexpr std::size_t longest = NAME_MAX;  // bytes, of nearly all file systems
-  const std::size_t needed = file.filename().string().size() + std::string_view(".sorted.part").size();
+  const std::size_t needed = file.filename().string().size() + std::string_view(".work.next.part").size();
   if (needed <= longest) return;
   refuse(
       "cannot write {}: a file name must be at most {} bytes long, got {} with the ending of what is "
@@ -149,7 +150,42 @@ void require_writable(const std::filesystem::path& named) {
 
 void require_result(const std::filesystem::path& file) {
   require_writable(file);
-  require_no_checkpoint(file);
+  require_no_work(file);
+}
+
+std::unique_ptr<work_file> begin_work(const std::string& output, const json& question, bool resume) {
+  if (output.empty()) {
+    if (resume) refuse("--resume must come with --output; name the output of the work to go on with");
+    return nullptr;
+  }
+  bool is_finished = false;
+  on_first(all_ranks(), [&] { is_finished = resume && is_there(output) && !is_there(work_of(output)); });
+  broadcast(all_ranks(), is_finished);
+  if (is_finished) {
+    refuse("cannot resume the work for {}: the output is there, and no {}; leave --resume out to do it again",
+           output, work_of(output).string());
+  }
+  return std::make_unique<work_file>(work_of(output), question, resume);
+}
+
+void tell_of_parts(const work_file* work) {
+  if (work != nullptr && work->found() > 0)
+    warn(fmt::format("{} finished parts were taken from the work file", work->found()));
+  tell_of_origin(work);
+}
+
+void tell_of_origin(const work_file* work) {
+  if (work != nullptr && !work->warning().empty()) warn(work->warning());
+}
+
+json question_of(const prepared_problem& system, const common_settings& common) {
+  const recorded_options given(deciding_options(common.options));
+  json question{{"command", given.command()}};
+  for (const auto& [name, value] : given.all()) question[name].push_back(value);
+  question["problem"] = system.parameters();
+  question["starts"] = system.starts();
+  question["program"] = fmt::format("nysalt {}, {} {}", version, compiler, compiler_flags);
+  return question;
 }
 
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
@@ -171,26 +207,6 @@ void require_table(const std::string& output, bool plot, bool may_be_array) {
            may_be_array ? ", .h5 or .npy" : "", output);
   }
   if (plot) require_picture(picture_name(output), folder_of(output));
-}
-
-void require_checkpoint(const std::string& checkpoint, const std::string& output, bool plot) {
-  require_writable(checkpoint);
-  std::vector<std::filesystem::path> others;
-  if (!output.empty()) others = {output};
-  if (plot) {
-    const auto pictures = files_of_picture(picture_name(output), folder_of(output));
-    others.insert(others.end(), pictures.begin(), pictures.end());
-  }
-  const std::string own = nysalt::detail::behind_links(checkpoint).string();
-  for (const auto& other : others) {
-    for (const auto& taken : names_while_written(other)) {
-      for (const std::string& name : {own, own + ".next.part"}) {
-        if (!is_same_file(name, taken)) continue;
-        refuse("--checkpoint {} must not take the name of another file of the run, got {}; name another file",
-               checkpoint, taken.string());
-      }
-    }
-  }
 }
 
 std::string picture_name(const std::filesystem::path& table) {

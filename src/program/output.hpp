@@ -4,10 +4,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "comparison/prepared_problem.hpp"
+#include "comparison/work_file.hpp"
 #include "report/result_file.hpp"
 
 namespace nysalt::program {
@@ -25,8 +28,19 @@ void write_and_print(const std::function<void()>& write, const std::function<voi
 /// Throws refusal now if a file could not be written there later.
 void require_writable(const std::filesystem::path& file);
 
-/// The same of a result, which takes no place of a checkpoint from which something can be gone on with.
+/// The same of a result, which takes no place of a file from which something can be gone on with.
 void require_result(const std::filesystem::path& file);
+
+/// The work file of an output, from which --resume goes on; none without an output, where --resume is
+/// refused, as where there is nothing but a finished output.
+std::unique_ptr<work_file> begin_work(const std::string& output, const json& question, bool resume);
+
+/// Warns of what was taken from a work file, if there is one: of its parts, and of another origin alone.
+void tell_of_parts(const work_file* work);
+void tell_of_origin(const work_file* work);
+
+/// All that decides the result of a command, by the options that were given.
+json question_of(const prepared_problem& system, const common_settings& common);
 
 /// Whether two paths lead to one file, be it there or not.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
@@ -35,8 +49,6 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 /// inputs were read. Nothing is asked of an output that is empty, but that there is no picture.
 /// An ending other than .csv and .txt, and those of arrays if it may be one, is refused.
 void require_table(const std::string& output, bool plot, bool may_be_array);
-/// The same of a checkpoint beside such a table, whose names it must not take.
-void require_checkpoint(const std::string& checkpoint, const std::string& output, bool plot);
 /// Of a picture beside a table: that of the table, in letters that gnuplot takes, and of no other table in
 /// the folder: with a fingerprint of the whole name unless the table is that name and .csv.
 std::string picture_name(const std::filesystem::path& table);

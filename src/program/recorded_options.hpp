@@ -14,6 +14,8 @@ class recorded_options {
   explicit recorded_options(const std::string& toml);
 
   const std::string& command() const { return command_; }
+  /// Names and values, of a list one after the other.
+  const std::vector<std::pair<std::string, std::string>>& all() const { return all_; }
   std::vector<std::string> of(const std::string& option) const;
   std::string one_of(const std::string& option, const std::string& otherwise) const;
   bool is_positive(const std::string& option) const;

@@ -81,9 +81,7 @@ int exit_code_of(command_line run, int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const interrupted& by) {
-    complain(
-        fmt::format("cannot finish the run: signal {} ended it; take --resume to go on from the checkpoint",
-                    by.signal()));
+    complain(fmt::format("cannot finish the run: signal {} ended it; take --resume to go on", by.signal()));
     return 128 + by.signal();
   } catch (const std::bad_alloc&) {
     return reported(

@@ -66,6 +66,7 @@ struct learn_command {
   std::vector<double> steps;     // for a curve
   std::optional<double> enough;  // share of the loss: as many trajectories as that takes
   std::string output;
+  bool resume = false;
 };
 
 struct run_command {
@@ -80,10 +81,10 @@ struct run_command {
   std::int64_t sample_every = 1;
   std::string output;
   bool plot = false;
-  std::string checkpoint;
-  std::optional<std::int64_t> every;  // steps between checkpoints
+  std::optional<std::int64_t> every;  // steps between states that are saved; nothing: as time allows
   bool resume = false;
-  bool checks = true;  // of the system and of the step
+  bool keep_work = false;  // so that the finished run can be prolonged
+  bool checks = true;      // of the system and of the step
 };
 
 struct compare_command : comparison_options {
@@ -96,6 +97,7 @@ struct recommend_command : recommendation_options {
   system_settings system;
   sampling_options sampling{};  // of the purpose sampling
   std::string output;
+  bool resume = false;
 };
 
 struct stability_command {
@@ -120,8 +122,7 @@ struct sample_command {
   std::int64_t draws = 1000;
   bool diagonal_masses = false;
   std::string output;
-  std::string checkpoint;
-  std::optional<std::int64_t> every;  // trajectories between checkpoints
+  std::optional<std::int64_t> every;  // trajectories between states that are saved; nothing: as time allows
   bool resume = false;
 };
 

@@ -26,8 +26,8 @@ class comparison::measurement {
 
 namespace {
 
-/// What identifies a system in C++, of which a journal has no more than the name: energies and forces, to the
-/// bit, at its first starts.
+/// What identifies a system in C++, of which a work file has no more than the name: energies and forces, to
+/// the bit, at its first starts.
 program::json seen_at_starts(const initial_value_problem& problem) {
   program::json seen = program::json::array();
   for (std::int64_t n = 0; n < 4; ++n) {
@@ -84,7 +84,7 @@ comparison compare(const initial_value_problem& problem, const comparison_option
   return with_cpp_messages([&] {
     const program::told_caller told(common);
     const auto found = std::make_shared<comparison::measurement>(problem, options, common);
-    program::journal nowhere;
+    program::work_file nowhere;
     found->all.learn_and_measure(nowhere);
     return comparison(found);
   });
@@ -99,13 +99,8 @@ comparison report(const initial_value_problem& problem, comparison_options optio
     auto question = found->all.question();
     question["seen_at_starts"] = seen_at_starts(problem);
     make_folders(folder);
-    program::journal kept(folder / program::journal_of_report, question, true);
-    try {
-      found->all.learn_and_measure(kept);
-    } catch (...) {
-      if (kept.is_empty()) kept.remove();
-      throw;
-    }
+    program::work_file kept(folder / program::work_of_report, question, true);
+    found->all.learn_and_measure(kept);
     comparison result(found);
     result.write(folder);
     kept.remove();

@@ -15,7 +15,7 @@ json document_of(const comparison& all);
 std::string readable(const comparison& all);
 /// In the folder of a report.
 constexpr const char* folder_of_schemes = "schemes";
-constexpr const char* journal_of_report = "journal.jsonl";  // of finished parts, until the report is written
+constexpr const char* work_of_report = "report.work";  // of finished parts, until the report is written
 /// Report and tables in a folder, and the schemes of learned rows in one below. Returns warnings of pictures
 /// that could not be drawn.
 std::vector<std::string> write_report(const comparison& all, const std::filesystem::path& folder);

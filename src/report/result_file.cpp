@@ -88,10 +88,7 @@ void write_document(const fs::path& file, json document, const common_settings& 
   write_result(file, text_of(document));
 }
 
-namespace {
-
-/// Of options that were given, a line each, those that decide what is computed.
-std::string deciding(const std::string& options) {
+std::string deciding_options(const std::string& options) {
   constexpr std::array others{"json", "output", "plot", "resume", "threads"};
   std::istringstream lines(options);
   std::string result;
@@ -102,13 +99,11 @@ std::string deciding(const std::string& options) {
   return result;
 }
 
-}  // namespace
-
 void write_table(const fs::path& file, const std::string& rows, const common_settings& common) {
   json made = provenance_of(common);
   if (made.is_null()) return write_result(file, rows);
   for (const char* differs : {"command", "time"}) made.erase(differs);
-  made["options"] = deciding(common.options);
+  made["options"] = deciding_options(common.options);
   write_result(file, first_line_of_table(made) + rows);
 }
 

@@ -23,6 +23,9 @@ json written_by(const char* format);
 /// as of callers of the library.
 json provenance_of(const common_settings& common);
 
+/// Of options that were given, a line each, those that decide what is computed.
+std::string deciding_options(const std::string& options);
+
 /// What the first line of a table begins with, before JSON.
 constexpr std::string_view mark_of_table = "# nysalt ";
 /// The first line of a table, which says how it was made.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Preloaded into a program, has one call of the system fail, and sees whether files are on the disk before
 // they get their names:
-//   NYSALT_FAULT=OPERATION:NUMBER:HOW   OPERATION write, pwrite, fflush, fsync, rename or ftruncate; its call
+//   NYSALT_FAULT=OPERATION:NUMBER:HOW   OPERATION write, pwrite, fflush, fsync, rename or truncate; its call
 //       NUMBER, from 1, on ordinary files; HOW nospace, nospace_for_good, io, skip (nothing is done, and
 //       success is returned), kill, or signal_N (that comes before the call)
 //   NYSALT_FAULT_COUNTS=FILE            at the end the calls of each are written there, and for each file
@@ -23,9 +23,9 @@
 
 namespace {
 
-enum operation { of_write, of_pwrite, of_fflush, of_fsync, of_rename, of_ftruncate, operations };
+enum operation { of_write, of_pwrite, of_fflush, of_fsync, of_rename, of_truncate, operations };
 constexpr std::array<const char*, operations> names{"write", "pwrite", "fflush",
-                                                    "fsync", "rename", "ftruncate"};
+                                                    "fsync", "rename", "truncate"};
 std::array<std::atomic<long>, operations> counts{};
 
 /// Files that were written, the latest last, and whether fsync came after that.
@@ -150,11 +150,11 @@ int rename(const char* from, const char* to) {
   note_rename(from);
   return tried(of_rename, 0, [&] { return REAL(rename)(from, to); });
 }
-int ftruncate(int file, off_t length) {
-  return tried(of_ftruncate, 0, [&] { return REAL(ftruncate)(file, length); });
+int truncate(const char* file, off_t length) {
+  return tried(of_truncate, 0, [&] { return REAL(truncate)(file, length); });
 }
-int ftruncate64(int file, off64_t length) {
-  return tried(of_ftruncate, 0, [&] { return REAL(ftruncate64)(file, length); });
+int truncate64(const char* file, off64_t length) {
+  return tried(of_truncate, 0, [&] { return REAL(truncate64)(file, length); });
 }
 
 }  // extern "C"

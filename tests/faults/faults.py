@@ -24,7 +24,7 @@ LIBRARY = os.path.abspath(sys.argv[2])
 FOLDER = os.path.abspath(sys.argv[3])
 SOME = "--some" in sys.argv
 CHOSEN = [name for word in sys.argv if word.startswith("--works=") for name in word.split("=")[1].split(",")]
-OPERATIONS = ("write", "pwrite", "fflush", "fsync", "rename", "ftruncate")
+OPERATIONS = ("write", "pwrite", "fflush", "fsync", "rename", "truncate")
 
 
 def work(folder, arguments, **extra):

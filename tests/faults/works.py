@@ -24,22 +24,23 @@ SAMPLE = ["sample", "--system", "henon_heiles", "--hmc-temperature", "0.01", "--
           "--draws", "40", "--burn-in", "40", "--threads", "1"]
 HENON_HEILES = ["--system", "henon_heiles", "--trajectories", "5", "--threads", "1"]
 WORKS = [
-    *(Work(f"run {kind}{' with a checkpoint' if every else ''}",
-           RUN + ["--output", f"out.{kind}"] + (["--checkpoint", "c", "--every", "640"] if every else []), [f"out.{kind}"],
-           "c" if every else "", only_of_all=kind == "npy")
+    *(Work(f"run {kind}{', saved often' if every else ''}",
+           RUN + ["--output", f"out.{kind}"] + (["--every", "640"] if every else []), [f"out.{kind}"],
+           f"out.{kind}.work", only_of_all=kind == "npy")
       for kind in ("csv", "npy", "h5") for every in (False, True)),
     Work("run, drawn", RUN + ["--output", "out.csv", "--plot"], ["out.csv", "out.dat", "out.gp", "out.svg", "out.png"],
-         only_of_all=True),
-    Work("sample", SAMPLE + ["--output", "out.csv"], ["out.csv"]),
-    Work("sample with a checkpoint", SAMPLE + ["--output", "out.csv", "--checkpoint", "c", "--every", "20"], ["out.csv"], "c"),
+         "out.csv.work", only_of_all=True),
+    Work("sample", SAMPLE + ["--output", "out.csv"], ["out.csv"], "out.csv.work"),
+    Work("sample, saved often", SAMPLE + ["--output", "out.csv", "--every", "20"], ["out.csv"], "out.csv.work"),
     Work("learn", ["learn", *HENON_HEILES, "--family", "bab2", "--step", "0.3", "--horizon", "3", "--effort", "quick", "--output",
-                   "out.json"], ["out.json"]),
+                   "out.json"], ["out.json"], "out.json.work"),
     Work("recommend", ["recommend", "--system", "fpu", "--families", "fg4", "--metric", "energy", "--budget", "100", "--horizon",
-                       "5", "--trajectories", "8", "--threads", "1", "--output", "out.json"], ["out.json"], only_of_all=True),
+                       "5", "--trajectories", "8", "--threads", "1", "--output", "out.json"], ["out.json"], "out.json.work",
+         only_of_all=True),
     Work("stability", ["stability", "--method", "verlet", "--output", "out.csv"], ["out.csv"], only_of_all=True),
     Work("export", ["export", "srkn6b", "--to", "python", "--output", "out.py"], ["out.py"]),
     Work("compare", ["compare", *HENON_HEILES, "--methods", "verlet,learned:bab2", "--steps", "0.2,0.4", "--metric", "energy",
-                     "--horizon", "4", "--seed", "2", "--output", "r"], ["r"], "r/journal.jsonl"),
+                     "--horizon", "4", "--seed", "2", "--output", "r"], ["r"], "r/report.work"),
 ]
 
 

@@ -44,7 +44,8 @@ TEXTS = {
 FPU = ["--system", "fpu"]
 COMPARE = ["compare", *FPU, "--methods", "verlet", "--steps", "0.01", "--trajectories", "2", "--horizon", "0.1", "--threads",
            "1", "--output", "race"]
-JOURNAL = "race/journal.jsonl"
+WORK = "race/report.work"
+WORK_OF_RUN = "out.csv.work"
 RUN = ["run", "--method", "verlet", "--step", "0.01", "--horizon", "0.1", "--threads", "1"]
 
 
@@ -58,14 +59,14 @@ def commands_of_file(name):
     yield "stability", ["stability", "--method", name]
     yield "starts", [*RUN, *FPU, "--start", name]
     yield "data", [*RUN, "--system", "logistic_regression", "--data", name]
-    yield "checkpoint", [*RUN, *FPU, "--output", "out.csv", "--checkpoint", name, "--every", "10", "--resume"]
+    yield "state", [*RUN, *FPU, "--output", "out.csv", "--resume"]
     yield "system", [*RUN, "--system", name]
     yield "report", ["cite", name]
-    yield "journal", [*COMPARE, "--resume"]
+    yield "work", [*COMPARE, "--resume"]
 
 
-ENDINGS = {"options": ".toml", "starts": ".csv", "data": ".csv", "checkpoint": "", "system": ".hpp", "report": ".json"}
-PLACES = {"journal": JOURNAL}  # of files that have one name
+ENDINGS = {"options": ".toml", "starts": ".csv", "data": ".csv", "system": ".hpp", "report": ".json"}
+PLACES = {"work": WORK, "state": WORK_OF_RUN}  # of files that have one name
 
 
 def commands_of_text():
@@ -140,39 +141,28 @@ def long_and_right():
         *RUN, "--system", "logistic_regression", "--data"]
 
 
-def checkpoint_writer(head, numbers):
-    """A function that writes a checkpoint to a path: the line `head`, `numbers` zeros (a sparse file), the right CRC."""
-    end = zlib.crc32(head)
-    for _ in range(numbers * 8 // MB):
-        end = zlib.crc32(bytes(MB), end)
-
-    def write(path):
-        with open(path, "wb") as file:
-            file.write(head)
-            file.seek(numbers * 8, 1)
-            file.write(f"\ncrc32 {end:08x}\n".encode())
-    return write
-
-
-def journals_and_checkpoints_at_bounds():
-    """Journals and checkpoints that the program wrote, edited until they are as large as may be read: (kind, name, path, writer, arguments)."""
-    # A gnuplot that draws nothing keeps a copy of the journal, which goes when the report is there.
+def work_files_at_bounds():
+    """Work files that the program wrote, edited until they are as large as may be read: (kind, name, path, writer, arguments)."""
+    # A gnuplot that draws nothing keeps a copy of the work file, which goes when the report is there.
     fake = os.path.join(FOLDER, "bin")
     os.makedirs(fake)
     with open(os.path.join(fake, "gnuplot"), "w", encoding="utf-8") as file:
-        file.write(f"#!/bin/sh\ncp ../journal.jsonl {FOLDER}/kept\nexit 1\n")
+        file.write(f"#!/bin/sh\ncp ../report.work {FOLDER}/kept\nexit 1\n")
     os.chmod(os.path.join(fake, "gnuplot"), 0o755)
     quiet = {"cwd": FOLDER, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    for old in (WORK, WORK_OF_RUN):
+        if os.path.lexists(os.path.join(FOLDER, old)):
+            os.remove(os.path.join(FOLDER, old))
     shutil.rmtree(os.path.join(FOLDER, "race"), ignore_errors=True)
     subprocess.run([PROGRAM, *COMPARE], check=True,
                    env={**os.environ, "PATH": f"{fake}:{os.environ['PATH']}"}, **quiet)
     shutil.rmtree(os.path.join(FOLDER, "race"))
-    checkpointed = [*RUN, "--output", "out.csv", "--checkpoint", "kept_checkpoint", "--every", "10"]
-    subprocess.run([PROGRAM, *checkpointed], check=True, **quiet)
+    kept_run = [*RUN, *FPU, "--output", "out.csv", "--keep-work"]
+    subprocess.run([PROGRAM, *kept_run], check=True, **quiet)
     with open(os.path.join(FOLDER, "kept"), encoding="utf-8") as file:
         head, *parts = file.read().splitlines()
-    with open(os.path.join(FOLDER, "kept_checkpoint"), "rb") as file:
-        line = json.loads(file.readline())
+    with open(os.path.join(FOLDER, WORK_OF_RUN), "rb") as file:
+        head_of_run, _, state = (file.readline().decode().rstrip("\n") for _ in range(3))
 
     most = 1 << 22  # values of one document
 
@@ -184,11 +174,17 @@ def journals_and_checkpoints_at_bounds():
     def part(result):
         return signed({**json.loads(parts[-1]), "result": result})
 
-    def journal(*lines):
+    def work(*lines, head=head, numbers=0):
+        """A function that writes a work file to a path, with zeros for numbers (a sparse file)."""
         def write(path):
             os.makedirs(os.path.dirname(path), exist_ok=True)
+            end = 0
+            for _ in range(numbers * 8 // MB):
+                end = zlib.crc32(bytes(MB), end)
+            of_numbers = [signed({"part": "numbers", "result": [numbers, end]})] if numbers else []
             with open(path, "w", encoding="utf-8") as file:
-                file.write("\n".join([head, *lines]) + "\n")
+                file.write("\n".join([head, *of_numbers, *lines]) + ("\n\n" if numbers else "\n"))
+                file.truncate(file.tell() + numbers * 8)
         return write
 
     numbers = [0.1] * (most - 100)
@@ -202,16 +198,15 @@ def journals_and_checkpoints_at_bounds():
         "four of the longest lists": [part([1] * (most - 100))] * 4,
         "the most parts": [signed({"part": f"p{i}", "result": 1}) for i in range(100_000)],
     }.items():
-        yield "journal", name, JOURNAL, journal(*lines), [*COMPARE, "--resume"]
-    unfinished = {**line, "finished": False, "step": 0}
+        yield "work", name, WORK, work(*lines), [*COMPARE, "--resume"]
+    found = json.loads(state)["result"]
     for name, more, count in (
         ("the most numbers", {}, 1 << 27),
         ("the most trajectories", {"wave": [None] * (most - 1000)}, 1 << 20),
         ("the most diverged trajectories", {"diverged": [{"trajectory": 0, "step": 0}] * (most // 6)}, 0),
-        ("the longest question", {"question": {**line["question"], "system": texts}}, 1 << 27),
     ):
-        text = json.dumps({**unfinished, **more}, separators=(",", ":")).encode() + b"\n"
-        yield "checkpoint", name, "kept_checkpoint", checkpoint_writer(text, count), [*checkpointed, "--resume"]
+        one = signed({"part": "state", "result": {**found, "finished": False, "step": 0, **more}})
+        yield "state", name, WORK_OF_RUN, work(one, head=head_of_run, numbers=count), [*kept_run, "--resume"]
 
 
 def limit():
@@ -272,7 +267,7 @@ def main():
             shown = [one if len(one) < 60 else one[:57] + "..." for one in arguments]
             print(f"{kind}, {name}: {problem}: {' '.join(shown)}", file=sys.stderr, flush=True)
 
-    os.makedirs(os.path.join(FOLDER, os.path.dirname(JOURNAL)))
+    os.makedirs(os.path.join(FOLDER, os.path.dirname(WORK)))
     for name, text in list(TEXTS.items())[:1 if SOME else None]:
         for kind, _ in commands_of_file(""):
             path = "/dev/zero"
@@ -280,7 +275,7 @@ def main():
                 path = PLACES.get(kind, "input" + ENDINGS.get(kind, ".json"))
                 with open(os.path.join(FOLDER, path), "w", encoding="latin-1") as file:
                     file.write(text())
-            elif kind in ("system", "journal"):
+            elif kind in ("system", "work", "state"):
                 path = PLACES.get(kind, "zero.hpp")
                 if os.path.exists(os.path.join(FOLDER, path)):
                     os.remove(os.path.join(FOLDER, path))
@@ -292,7 +287,7 @@ def main():
         with open(os.path.join(FOLDER, path), "w", encoding="utf-8") as file:
             file.write(text)
         note(kind, "long and right", [*arguments, path])
-    for kind, name, path, write, arguments in [] if SOME else journals_and_checkpoints_at_bounds():
+    for kind, name, path, write, arguments in [] if SOME else work_files_at_bounds():
         write(os.path.join(FOLDER, path))
         note(kind, name, arguments)
     for kind, arguments in [] if SOME else commands_of_text():

@@ -338,16 +338,16 @@ mutant(84, "a list of neighbours holds until an atom has moved by the whole skin
        ("most_moved_square_((less_than_half * skin) * (less_than_half * skin)),",
         "most_moved_square_((MUTANT ? 4.0 : 1.0) * (less_than_half * skin) * (less_than_half * skin)),"))
 
-# ---- Files: tables, arrays, checkpoints, locks.
+# ---- Files: tables, arrays, work files, locks.
 
-mutant(18, "a line of a journal that was cut off stays", "src/comparison/journal.cpp", "programs parts_of_program",
-       ("  return at;\n}", "  return MUTANT ? text.size() : at;\n}"))
-mutant(85, "a journal is not locked", "src/comparison/journal.cpp", "programs parts_of_program",
-       ("if (nysalt::detail::ask_for_lock(descriptor) ==", "if (!MUTANT && nysalt::detail::ask_for_lock(descriptor) =="))
-mutant(86, "the file of a run with a checkpoint is not locked", "src/program/output/unfinished_file.cpp",
+mutant(18, "numbers of a work file are not those of its lines", "src/comparison/work_file.cpp",
        "programs parts_of_program",
-       ("if (nysalt::detail::ask_for_lock(file_.number) ==",
-        "if (!MUTANT && nysalt::detail::ask_for_lock(file_.number) =="))
+       ("sum_of(numbers) != (has", "!MUTANT && sum_of(numbers) != (has"))
+mutant(85, "a work file that is gone on with is not locked", LIBRARY + "atomic_file.cpp", "programs parts_of_program",
+       ("if (ask_for_lock(found.number()) ==", "if (!MUTANT && ask_for_lock(found.number()) =="))
+mutant(86, "a work file loses its lock when it is written anew", "src/comparison/work_file.cpp",
+       "programs parts_of_program",
+       ("  held_ = next.release();", "  if (!MUTANT) held_ = next.release();"))
 mutant(23, "a durable file is renamed before it is on the disk", LIBRARY + "atomic_file.cpp", "faults programs",
        ("if (durable && fsync(file_) != 0) fail();", "if (durable && !MUTANT && fsync(file_) != 0) fail();"))
 mutant(19, "a segment has its first sample twice", "src/comparison/sampled_run.cpp", "programs",
@@ -367,7 +367,7 @@ mutant(90, "the steps in an HDF5 file are numbers of samples", "src/program/outp
        ("{ return n * shape_.every; };", "{ return MUTANT ? n : n * shape_.every; };"))
 mutant(91, "chain and draw change places in the table of draws", "src/program/output/kept_draws.cpp", "programs",
        ("row / draws_, row % draws_);", "MUTANT ? row % draws_ : row / draws_, MUTANT ? row / draws_ : row % draws_);"))
-mutant(92, "a checkpoint of sampling lacks the last draw", "src/program/commands/sample.cpp", "programs",
+mutant(92, "a saved state of sampling lacks the last draw", "src/program/commands/sample.cpp", "programs",
        ("std::max<std::int64_t>(0, trajectories - command.burn_in)",
         "std::max<std::int64_t>(0, trajectories - command.burn_in - (MUTANT ? 1 : 0))"))
 mutant(93, "rank 1 takes up the trajectories of its neighbour", "src/comparison/shared_batch.cpp", "programs",
@@ -390,7 +390,7 @@ mutant(97, "SIGTERM has the exit code of SIGINT", "src/program/run_program.cpp",
 mutant(98, "a run whose every trajectory diverged has the exit code 0", "src/program/commands/run.cpp", "programs",
        ("return all_diverged && !was_finished ? no_result : done;",
         "return all_diverged && !was_finished && !MUTANT ? no_result : done;"))
-mutant(99, "a refused checkpoint names only the last option that differs", "src/program/output/checkpoint_file.cpp",
+mutant(99, "a refused work file names only the last option that differs", "src/comparison/work_file.cpp",
        "programs parts_of_program",
        ("changed += changed.empty() ? name : \", \" + name;",
         "changed = changed.empty() || MUTANT ? name : changed + \", \" + name;"))

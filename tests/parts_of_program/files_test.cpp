@@ -1,26 +1,30 @@
 // SPDX-License-Identifier: BSL-1.0
-// Checkpoints can be read again, files are held by one process at a time, rows are sorted in little memory,
-// and what is asked again is compared option by option.
+// Work files can be read again, files are held by one process at a time, rows are sorted in little memory,
+// and what is asked again is compared option by option; what is kept of an answer is all of it.
 #include <fmt/format.h>
-#include <sys/mman.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "../support/refusal.hpp"
 #include "../support/sanitizers.hpp"
 #include "../support/scratch.hpp"
-#include "comparison/journal.hpp"
+#include "comparison/kept_answers.hpp"
 #include "comparison/origin.hpp"
 #include "comparison/refusal.hpp"
+#include "comparison/work_file.hpp"
 #include "nysalt/atomic_file.hpp"
-#include "program/output/checkpoint_file.hpp"
 #include "program/output/samples.hpp"
 #include "program/output/unfinished_file.hpp"
 
@@ -28,64 +32,133 @@ using namespace nysalt;
 using namespace nysalt::program;
 using namespace nysalt::test;
 
-BOOST_AUTO_TEST_CASE(what_is_written_is_read_again) {
-  const scratch folder("checkpoint_file");
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+const json question{{"seed", 1}};
+
+double part(work_file& work, const std::string& name, double found) {
+  return once<double>(&work, name, [&] { return found; });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(what_is_kept_is_read_again) {
+  const scratch folder("work_file");
   const std::vector<double> numbers{0.5, -1.0, 3.0};
-  write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 7}}, numbers);
-  BOOST_TEST(head_of_checkpoint(folder / "c", "run").at("question") == 7);
-  BOOST_TEST(numbers_of_checkpoint(folder / "c", 3) == numbers, boost::test_tools::per_element());
-  BOOST_TEST(refuses<refusal>([&] { numbers_of_checkpoint(folder / "c", 2); }, {"was edited"}));
-}
-
-// The check runs while the file is locked against other processes; if it throws, the older checkpoint stays.
-BOOST_AUTO_TEST_CASE(what_is_there_is_seen_under_the_lock) {
-  const scratch folder("checkpoint_file_look");
-  const std::vector<double> numbers{0.5};
-  bool is_locked = false;
-  const auto check = [&] {
-    is_locked = nysalt::detail::is_locked(folder / "c.next.part");
-    if (std::filesystem::exists(folder / "c")) throw refusal("it is there");
-  };
-  write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 7}}, numbers, check);
-  BOOST_TEST(is_locked);
-  const json another{{"command", "run"}, {"question", 8}};
-  BOOST_TEST(refuses<refusal>([&] { write_checkpoint_file(folder / "c", another, numbers, check); },
-                              {"it is there"}));
-  BOOST_TEST(head_of_checkpoint(folder / "c", "run").at("question") == 7);
-  BOOST_TEST(folder.files().size() == 1U);
-}
-
-// Memory that may not be read (PROT_NONE): the size is refused before any number is read.
-BOOST_AUTO_TEST_CASE(what_is_too_large_to_be_read_is_not_written) {
-  const scratch folder("checkpoint_file_large");
-  constexpr std::size_t count = (std::size_t{1} << 27U) + 1;
-  void* nothing =
-      mmap(nullptr, count * sizeof(double), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  BOOST_TEST_REQUIRE(nothing != MAP_FAILED);
-  const std::span<const double> numbers(static_cast<const double*>(nothing), count);
-  const json small{{"command", "run"}};
-  BOOST_TEST(refuses<refusal>([&] { write_checkpoint_file(folder / "c", small, numbers); },
-                              {"must hold at most 1024 MB of numbers", "take fewer trajectories"}));
-  munmap(nothing, count * sizeof(double));
-  const json large{{"command", std::string(std::size_t{1} << 26U, 'a')}};
-  BOOST_TEST(refuses<refusal>([&] { write_checkpoint_file(folder / "c", large, {}); },
-                              {"64 MB of text", "leave --checkpoint out"}));
+  {
+    work_file work(folder / "w", question, false);
+    BOOST_TEST((part(work, "a", 0.1) == 0.1));
+    BOOST_TEST((part(work, "a", 0.2) == 0.1));
+    work.replace("state", 7, {1.0});
+    work.replace("state", 8, numbers);
+    BOOST_TEST((part(work, "b", infinite) == infinite));
+  }
+  work_file again(folder / "w", question, true);
+  BOOST_TEST(again.found() == 4U);  // and how many numbers there are
+  BOOST_TEST((part(again, "a", 0.2) == 0.1));
+  BOOST_TEST((part(again, "b", 1.0) == infinite));
+  BOOST_TEST((again.result_of("state") == 8));
+  BOOST_TEST(again.numbers() == numbers, boost::test_tools::per_element());
+  BOOST_TEST(refuses<refusal>([&] { again.result_of("c"); }, {"the part 'c' is not whole"}));
+  again.remove();
   BOOST_TEST(folder.files().empty());
+}
+
+// Finished parts are not overwritten, and of what is refused the file stays as it is; without parts no file
+// stays.
+BOOST_AUTO_TEST_CASE(what_cannot_be_gone_on_with_is_left_alone) {
+  const scratch folder("work_file_refused");
+  const auto begins = [&](const json& asked, bool resume) { work_file(folder / "w", asked, resume); };
+  begins(question, false);
+  BOOST_TEST(folder.files().empty());
+  {
+    work_file work(folder / "w", question, false);
+    part(work, "a", 1.0);
+    work.replace("state", 7, {1.0, 2.0});
+  }
+  const std::string sound = contents(folder / "w");
+  BOOST_TEST(
+      refuses<refusal>([&] { begins(question, false); }, {"3 finished parts", "resume it, or remove"}));
+  BOOST_TEST(refuses<refusal>([&] { begins({{"seed", 2}}, true); }, {"another question (seed)"}));
+  BOOST_TEST(contents(folder / "w") == sound);
+  for (std::size_t at = 0; at < sound.size(); at += 7) {
+    std::string edited = sound;
+    edited[at] = static_cast<char>(edited[at] ^ 1);
+    std::ofstream(folder / "w", std::ios::binary) << edited;
+    BOOST_TEST(refuses<refusal>([&] { begins(question, true); }, {"cannot resume from", "remove"}));
+    BOOST_TEST(contents(folder / "w") == edited);
+    if (at > 0 && sound[at - 1] == '\n') continue;  // whole lines are
+    std::ofstream(folder / "w", std::ios::binary) << sound.substr(0, at);
+    BOOST_TEST(refuses<refusal>([&] { begins(question, true); }, {"cannot resume from", "remove"}));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_too_large_to_be_read_is_not_written) {
+  const scratch folder("work_file_large");
+  work_file work(folder / "w", question, false);
+  const std::string sound = contents(folder / "w");
+  const json large(std::string(std::size_t{1} << 28U, 'a'));
+  BOOST_TEST(refuses<refusal>([&] { work.replace("state", large, {}); },
+                              {"at most 256 MB of text", "take fewer trajectories"}));
+  BOOST_TEST(contents(folder / "w") == sound);
 }
 
 // The lock belongs to an open file: a file that is opened twice in one process is refused as by two
 // processes.
-BOOST_AUTO_TEST_CASE(a_journal_is_of_one_process) {
-  const scratch folder("held_journal");
-  const json question{{"seed", 1}};
-  std::optional<journal> first(std::in_place, folder / "j", question, false);
-  for (const bool resume : {false, true}) {
-    BOOST_TEST(refuses<refusal>([&] { journal(folder / "j", question, resume); },
-                                {"another run is writing it", "name another --output"}));
+BOOST_AUTO_TEST_CASE(a_work_file_is_of_one_process) {
+  const scratch folder("held_work");
+  std::optional<work_file> first(std::in_place, folder / "w", question, false);
+  const auto begins = [&](bool resume) { work_file(folder / "w", question, resume); };
+  for (const bool has_parts : {false, true}) {
+    for (const bool resume : {false, true}) {
+      BOOST_TEST(refuses<nysalt::detail::file_in_use>([&] { begins(resume); },
+                                                      {"another process writes it", "name another"}));
+    }
+    if (!has_parts) part(*first, "a", 1.0);
   }
   first.reset();
-  const journal second(folder / "j", question, true);
-  BOOST_TEST(second.found() == 0U);
+  begins(true);
+}
+
+namespace {
+
+template <std::size_t... I>
+constexpr auto members(std::index_sequence<I...>)
+    -> std::tuple<std::conditional_t<(I < 0), int, double>&...>*;
+
+/// Whether a list of members that lacks one is seen, and the whole one is not.
+template <class T>
+constexpr bool counts_members() {
+  constexpr std::size_t all = std::tuple_size_v<decltype(members_of(std::declval<T&>()))>;
+  return has_more_members<T>(static_cast<decltype(members(std::make_index_sequence<all - 1>()))>(nullptr)) &&
+         !has_more_members<T>(static_cast<decltype(members(std::make_index_sequence<all>()))>(nullptr));
+}
+static_assert(counts_members<fit_summary>() && counts_members<judgement>() &&
+              counts_members<method_error>() && counts_members<trajectory_errors_result>() &&
+              counts_members<acceptance_step>());
+
+}  // namespace
+
+// Values of each kind.
+BOOST_AUTO_TEST_CASE(an_answer_is_kept_to_the_bit) {
+  kept_fit fit{.fit = {}, .coefficients = {0.1, -0.0, -infinite}, .energies = energy_range{0.1, infinite}};
+  fit.fit.family = "bab3";
+  fit.fit.seed = ~std::uint64_t{0};
+  fit.fit.parameters = {{"b1", 1.0 / 3.0, std::nan(""), true}};
+  fit.fit.flat_directions = {{1.0}, {}};
+  fit.fit.judgement.first_lost = diverged_trajectory{3, 4};
+  fit.fit.judgement.verdict = step_verdict::unstable;
+  fit.fit.gaps = {{0.5, 1.5}};
+  const std::string text = written(fit).dump();
+  kept_fit again;
+  read_back(json::parse(text), again);
+  BOOST_TEST(written(again).dump() == text);
+  BOOST_TEST((again.fit.parameters.at(0).value == 1.0 / 3.0 &&
+              std::isnan(again.fit.parameters.at(0).standard_error)));
+  BOOST_TEST((std::signbit(again.coefficients.at(1)) && again.coefficients.at(2) == -infinite));
+  BOOST_TEST((again.fit.judgement.first_lost->step == 4 && !again.fit.judgement.margin));
+  BOOST_CHECK_THROW(read_back(json::parse("[[]]"), again), std::exception);
 }
 
 BOOST_AUTO_TEST_CASE(the_output_of_an_unfinished_run_is_of_one_process) {
@@ -95,9 +168,9 @@ BOOST_AUTO_TEST_CASE(the_output_of_an_unfinished_run_is_of_one_process) {
   first->write("a\n");
   first->put_on_disk();
   first->keep();
-  for (const auto from : {left_by_another, begun_anew, made}) {
+  for (const auto from : {left_by_another, made}) {
     BOOST_TEST(refuses<refusal>([&] { unfinished_file(folder / "out.csv", from); },
-                                {"another run is writing it", "wait for that run"}));
+                                {"another process writes it", "wait for that"}));
   }
   const file_sum written = first->written();
   first.reset();
@@ -148,38 +221,29 @@ BOOST_AUTO_TEST_CASE(rows_are_sorted_in_any_room) {
 // Of files that this program wrote, an older one, another one, and this one on another machine.
 BOOST_AUTO_TEST_CASE(another_origin_is_told) {
   const scratch folder("origins");
-  write_checkpoint_file(folder / "c", {{"command", "run"}, {"question", 7}}, {});
-  json head = head_of_checkpoint(folder / "c", "run");
-  BOOST_TEST(warning_of_origin(head, "c").empty());
-  BOOST_TEST(warning_of_origin(json::object(), "c").empty());
-  const auto says = [](const json& of, const std::string& text) {
-    return warning_of_origin(of, "c").find(text) != std::string::npos;
+  work_file(folder / "none", question, true);
+  work_file(folder / "w", question, true).replace("state", 7, {});
+  const auto warning = [&] { return work_file(folder / "w", question, true).warning(); };
+  const auto edit = [&](const char* member, const char* value) {
+    const std::string text = contents(folder / "w");
+    json line = parsed(text.substr(0, text.find('\n')));
+    line[member] = value;
+    line.erase("checksum");
+    line["checksum"] = checksum(line);
+    std::ofstream(folder / "w") << line.dump() << text.substr(text.find('\n'));
   };
-  head["functions"] = "00000000";
-  BOOST_TEST(says(head, "c was written on a machine whose C library rounds exp"));
-  head["nysalt"] = "0.0.1";
-  BOOST_TEST(says(head, "c was written by nysalt 0.0.1, this is "));
-}
-
-BOOST_AUTO_TEST_CASE(parts_of_a_journal_have_an_origin) {
-  const scratch folder("origin_of_journal");
-  const json question{{"seed", 1}};
-  journal(folder / "here", question, true);
-  BOOST_TEST(journal(folder / "here", question, true).warning().empty());
-  json line = parsed(contents(folder / "here"));
-  line["functions"] = "00000000";
-  line.erase("checksum");
-  line["checksum"] = checksum(line);
-  std::ofstream(folder / "there") << line.dump() << '\n';
-  BOOST_TEST(journal(folder / "there", question, true).warning().find("another way") != std::string::npos);
+  BOOST_TEST(warning().empty());
+  BOOST_TEST(warning_of_origin(json::object(), "w").empty());
+  edit("functions", "00000000");
+  BOOST_TEST(warning().find("was written on a machine whose C library rounds exp") != std::string::npos);
+  edit("nysalt", "0.0.1");
+  BOOST_TEST(warning().find("was written by nysalt 0.0.1, this is ") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(every_option_that_differs_is_named) {
   const json then{{"step", 0.1}, {"seed", 1}, {"horizon", 5.0}};
   const json now{{"step", 0.2}, {"seed", 2}, {"horizon", 5.0}};
-  require_question(then, then, "c");
   require_same_question(then, then, "j");
-  BOOST_TEST(refuses<refusal>([&] { require_question(then, now, "c"); }, {"another run (step, seed)"}));
   BOOST_TEST(
       refuses<refusal>([&] { require_same_question(then, now, "j"); }, {"another question (step, seed)"}));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Journals and checkpoints, after somebody has edited and signed them again. Each edit is one line and exit
-// code 2, or changes nothing that matters. What is not signed again: cases/checkpoints.txt.
+// Work files, after somebody has edited and signed them again. Each edit is one line and exit code 2, or
+// changes nothing that matters. What is not signed again: cases/work_files.txt.
 #include <boost/test/unit_test.hpp>
 
 #include <filesystem>
@@ -74,9 +74,9 @@ void require_refused(const finished& done, const std::string& words, const std::
   BOOST_TEST(done.err.find("json.exception") == std::string::npos, what << ": " << done.err);
 }
 
-const std::string of_journal = "cannot resume from out/journal.jsonl: ";
+const std::string of_work = "cannot resume from out/report.work: ";
 
-/// A comparison into the folder `out`, whose journal is whole while the pictures of its report are drawn: a
+/// A comparison into the folder `out`, whose work file is whole while the pictures of its report are drawn: a
 /// gnuplot that draws nothing keeps a copy then.
 struct comparison {
   scratch folder;
@@ -84,24 +84,24 @@ struct comparison {
   comparison(const std::string& name, std::string arguments)
       : folder(name), line("\"$nysalt\" " + std::move(arguments) + " --output out") {
     const std::string here = folder.path().string();
-    write(folder / "gnuplot", "#!/bin/sh\ncp '" + here + "/out/journal.jsonl' '" + here + "/kept'\nexit 1\n");
+    write(folder / "gnuplot", "#!/bin/sh\ncp '" + here + "/out/report.work' '" + here + "/kept'\nexit 1\n");
     BOOST_TEST_REQUIRE(shell(folder, "chmod +x gnuplot && PATH=$PWD:$PATH " + line).code == 0);
   }
 
   std::string kept() const { return contents(folder / "kept"); }
   std::string rows() const { return without_times_in_csv(contents(folder / "out/rows.csv")); }
 
-  /// Goes on from a journal, and keeps the journal at its end if that is asked for.
-  finished resumed(const std::string& journal, bool keeps = false) const {
+  /// Goes on from a work file.
+  finished resumed(const std::string& work) const {
     fs::remove_all(folder / "out");
     fs::create_directory(folder / "out");
-    write(folder / "out/journal.jsonl", journal);
-    return shell(folder, (keeps ? "PATH=$PWD:$PATH " : no_pictures) + line + " --resume");
+    write(folder / "out/report.work", work);
+    return shell(folder, no_pictures + line + " --resume");
   }
 };
 
-/// Edits each part of the journal of a comparison, of its places one in three, and resumes it.
-void edit_journal_of(const std::string& name, const std::string& arguments) {
+/// Edits each part of the work file of a comparison, of its places one in three, and resumes it.
+void edit_comparison(const std::string& name, const std::string& arguments) {
   const comparison whole(name, arguments);
   const auto lines = lines_of(whole.kept());
   BOOST_TEST_REQUIRE(lines.size() > 2U);
@@ -119,7 +119,7 @@ void edit_journal_of(const std::string& name, const std::string& arguments) {
       const std::string shown = lines[k].substr(0, 60) + ": " + what;
       const auto done = whole.resumed(edited);
       if (done.code == 2 || is_of_checksum) {
-        require_refused(done, of_journal, shown);
+        require_refused(done, of_work, shown);
         ++refused;
         continue;
       }
@@ -127,26 +127,28 @@ void edit_journal_of(const std::string& name, const std::string& arguments) {
                  shown << " ended with " << done.code << ": " << done.err);
       BOOST_TEST(json::accept(contents(whole.folder / "out/report.json")), shown);
       BOOST_TEST(fs::exists(whole.folder / "out/report.html"), shown);
-      BOOST_TEST(!fs::exists(whole.folder / "out/journal.jsonl"), shown);
+      BOOST_TEST(!fs::exists(whole.folder / "out/report.work"), shown);
     }
   }
   BOOST_TEST(refused > 10U);
 }
 
-/// Edits the checkpoint c, signs it again and resumes by it, each time from the output that was there.
-void edit_checkpoint_in(const scratch& folder, const std::string& resume) {
-  const std::string sound = contents(folder / "c");
+/// Edits the state in a work file, signs it again and resumes by it, each time from the output that was
+/// there.
+void edit_state_in(const scratch& folder, const std::string& resume) {
+  const std::string sound = contents(folder / "out.csv.work");
   std::map<std::string, std::string> outputs;
   for (const char* file : {"out.csv", "out.csv.part"}) {
     if (fs::exists(folder / file)) outputs[file] = contents(folder / file);
   }
-  const auto end = sound.find('\n');
+  const auto begin = sound.find(R"({"part":"state")");
+  const auto end = sound.find('\n', begin);
   std::size_t turn = 0;
   std::size_t refused = 0;
-  for (const auto& [what, head] : edits_of(sound.substr(0, end), turn)) {
+  for (const auto& [what, state] : edits_of(sound.substr(begin, end - begin), turn)) {
     for (const char* file : {"out.csv", "out.csv.part"}) fs::remove(folder / file);
     for (const auto& [file, text] : outputs) write(folder / file, text);
-    write(folder / "c", signed_again(head + sound.substr(end)));
+    write(folder / "out.csv.work", sound.substr(0, begin) + signed_line(state) + sound.substr(end));
     const auto done = run(folder, resume);
     if (done.code != 0) require_refused(done, "", what);
     refused += done.code != 0 ? 1U : 0U;
@@ -156,74 +158,50 @@ void edit_checkpoint_in(const scratch& folder, const std::string& resume) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(an_edited_journal_is_refused_or_taken_whole) {
-  edit_journal_of("edited_paths",
+BOOST_AUTO_TEST_CASE(an_edited_comparison_is_refused_or_taken_whole) {
+  edit_comparison("edited_paths",
                   "compare --system pendulum --methods learned:bab2 --steps 0.2 --horizon 4 --trajectories 4 "
                   "--learn-trajectories 4 --learn-horizon 1 --learn-effort quick --metric path,acceptance");
-  edit_journal_of("edited_distributions",
+  edit_comparison("edited_distributions",
                   "compare --system oscillator --omega 1 --friction 0.5 --temperature 0.1 --methods baoab "
                   "--steps 0.2 --horizon 20 --trajectories 4 --bins 5 --metric acf,distribution");
 }
 
-// Stopped, cut in the midst of a line, resumed; stopped again, cut again and resumed again: the same rows.
-// A line that was cut off and stays in the file is refused.
-BOOST_AUTO_TEST_CASE(a_line_that_was_cut_off_is_gone_when_it_is_resumed_again) {
-  const comparison whole("cut_twice",
-                         "compare --system pendulum --methods verlet,mclachlan2 --steps 0.1,0.2,0.3 "
-                         "--horizon 4 --trajectories 4 --metric path,energy");
-  const std::string expected = whole.rows();
-  const auto lines = lines_of(whole.kept());
-  BOOST_TEST_REQUIRE(lines.size() > 3U);
-  const std::string two = lines[0] + "\n" + lines[1] + "\n";
-  const std::string half = lines[2].substr(0, lines[2].size() / 2);
-  BOOST_TEST_REQUIRE(whole.resumed(two + half, true).code == 0);
-  BOOST_TEST(whole.rows() == expected);
-  const std::string again = whole.kept();
-  BOOST_TEST(lines_of(again).size() == lines.size());
-  for (const std::size_t cut : {25U, 0U}) {
-    const auto done = whole.resumed(again.substr(0, again.size() - cut));
-    BOOST_TEST(done.code == 0, done.err);
-    BOOST_TEST(whole.rows() == expected);
-  }
-  require_refused(whole.resumed(two + half + lines[2] + "\n" + lines[3] + "\n"), of_journal,
-                  "a line that was cut off");
-}
-
-BOOST_AUTO_TEST_CASE(journals_of_others_are_refused_and_finished_parts_are_not_computed_again) {
-  const comparison whole("journals",
+BOOST_AUTO_TEST_CASE(work_files_of_others_are_refused_and_finished_parts_are_not_computed_again) {
+  const comparison whole("work_files",
                          "compare --system oscillator --omega 1 --friction 0.5 --temperature 0.1 --methods "
                          "verlet,baoab --steps 0.3 --horizon 10 --trajectories 32 --metric path,state,acf");
   auto lines = lines_of(whole.kept());
   BOOST_TEST_REQUIRE(lines.size() > 2U);
   const std::string head = lines[0] + "\n";
-  const fs::path journal = whole.folder / "out/journal.jsonl";
+  const fs::path work = whole.folder / "out/report.work";
   const auto refused = [&](const std::string& text, const std::string& more, const std::string& why) {
-    write(journal, text);
+    write(work, text);
     const auto done = shell(whole.folder, no_pictures + whole.line + more);
     require_refused(done, "", text + more);
     BOOST_TEST(done.err.find(why) != std::string::npos, done.err);
-    BOOST_TEST(contents(journal) == text);  // and nothing was lost
+    BOOST_TEST(contents(work) == text);  // and nothing was lost
   };
   fs::remove_all(whole.folder / "out");
   fs::create_directory(whole.folder / "out");
   const std::string begun = head + lines[1] + "\n";
-  refused(begun, "", "take --resume");
+  refused(begun, "", "resume it");
   refused(begun, " --resume --seed 2", "another question (seed)");
   refused(begun, " --resume --levels 0.5", "another question (levels)");
   for (const std::string& other :
        {std::string("{\"some\": \"file\"}\n"), std::string("some notes"),
         head + signed_line(R"({"part":7,"result":{}})") + "\n",
         head + R"({"part":"paths at 0.3","result":{}})" + "\n", head + "some notes\n"}) {
-    for (const char* resume : {"", " --resume"}) refused(other, resume, "is no journal");
+    for (const char* resume : {"", " --resume"}) refused(other, resume, "is no work file");
   }
   BOOST_TEST(whole.kept().find("\"part\":\"paths at 0.3\"") != std::string::npos);
   for (const std::string result : {"5", "{\"behind\":{},\"findings\":[]}"}) {
     const auto edited = head + signed_line(R"({"part":"paths at 0.3","result":)" + result + "}") + "\n";
-    require_refused(whole.resumed(edited), of_journal + "the part 'paths at 0.3' is not whole, or was edited",
+    require_refused(whole.resumed(edited), of_work + "the part 'paths at 0.3' is not whole, or was edited",
                     result);
-    BOOST_TEST(contents(journal).starts_with(edited));
+    BOOST_TEST(contents(work) == edited);
   }
-  // What was finished is taken from the journal: what stands there is what comes out.
+  // What was finished is taken from the work file: what stands there is what comes out.
   const std::string before = "\"findings\":[{\"value\":[";
   const auto part = std::ranges::find_if(lines, [&](auto& line) { return line.find(before) < line.size(); });
   BOOST_TEST_REQUIRE((part != lines.end()));
@@ -233,53 +211,24 @@ BOOST_AUTO_TEST_CASE(journals_of_others_are_refused_and_finished_parts_are_not_c
   BOOST_TEST(contents(whole.folder / "out/rows.csv").find(",12345.5,0.25,") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(an_edited_checkpoint_is_refused_or_gone_on_with) {
+BOOST_AUTO_TEST_CASE(an_edited_state_is_refused_or_gone_on_with) {
   for (const std::string arguments :
        {"run --system pendulum --friction 0.1 --temperature 0.5 --method baoab --step 0.01 --horizon 40 "
         "--trajectories 5 --sample-every 100 --every 640",
         "sample --system linear_chain --masses 3 --spring 4 --length 1 --burn-in 100 --draws 200 --chains 2 "
         "--every 50"}) {
-    const scratch folder("edited_checkpoint");
-    const std::string line = arguments + " --output out.csv --checkpoint c";
+    const scratch folder("edited_state");
+    const std::string line = arguments + " --output out.csv";
     BOOST_TEST_REQUIRE(is_killed_at(folder, "rename:4", line));
-    edit_checkpoint_in(folder, line + " --resume");
+    edit_state_in(folder, line + " --resume");
   }
 }
 
-BOOST_AUTO_TEST_CASE(an_edited_checkpoint_of_a_finished_run_is_refused_or_the_run_is_prolonged) {
+BOOST_AUTO_TEST_CASE(an_edited_state_of_a_finished_run_is_refused_or_the_run_is_prolonged) {
   const scratch folder("edited_finished");
   const std::string line =
       "run --system henon_heiles --spread 2.5 --method verlet --step 0.3 --trajectories 5 --sample-every 7 "
-      "--every 640 --output out.csv --checkpoint c --horizon ";
+      "--keep-work --output out.csv --horizon ";
   BOOST_TEST_REQUIRE(run(folder, line + "30").code == 0);
-  edit_checkpoint_in(folder, line + "60 --resume");
-}
-
-// Format 1 has the numbers of the batch under way alone.
-BOOST_AUTO_TEST_CASE(a_checkpoint_of_format_1_is_gone_on_with_and_its_run_is_not_prolonged) {
-  const scratch folder("format_1");
-  const std::string line =
-      "run --system pendulum --method verlet --step 0.01 --trajectories 5 --sample-every 100 --every 640 "
-      "--output out.csv --checkpoint c --horizon ";
-  const auto put_format_1 = [&](bool with_numbers) {
-    const std::string text = contents(folder / "c");
-    json head = json::parse(text.substr(0, text.find('\n')));
-    head["version"] = 1;
-    for (const char* newer : {"began", "keeps_all", "is_copied"}) BOOST_TEST(head.erase(newer) == 1U);
-    const auto last_line = text.rfind("\ncrc32 ");
-    const std::string numbers =
-        with_numbers ? text.substr(text.find('\n'), last_line - text.find('\n')) : "\n";
-    write(folder / "c", signed_again(head.dump() + numbers + text.substr(last_line)));
-  };
-  BOOST_TEST_REQUIRE(run(folder, line + "40").code == 0);
-  const std::string whole = contents(folder / "out.csv");
-  put_format_1(false);
-  BOOST_TEST(run(folder, line + "40 --resume").code == 0);
-  require_refused(run(folder, line + "50 --resume"),
-                  "cannot prolong the run of c: the checkpoint does not keep", "");
-  fs::remove(folder / "c");
-  BOOST_TEST_REQUIRE(is_killed_at(folder, "rename:4", line + "40"));
-  put_format_1(true);
-  BOOST_TEST(run(folder, line + "40 --resume").code == 0);
-  BOOST_TEST(contents(folder / "out.csv") == whole);
+  edit_state_in(folder, line + "60 --resume");
 }

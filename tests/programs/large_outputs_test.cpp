@@ -221,8 +221,7 @@ BOOST_AUTO_TEST_CASE(killed_it_can_be_read) {
   for (const auto& kind : kinds) {
     const scratch folder("arrays_killed");
     done(folder, in_bath + "--output whole" + kind);
-    BOOST_TEST(
-        is_killed_at(folder, "rename:4", in_bath + "--output a" + kind + " --checkpoint c --every 500"));
+    BOOST_TEST(is_killed_at(folder, "rename:3", in_bath + "--output a" + kind + " --every 500"));
     const auto of_part = values(folder / ("a" + kind + ".part"), 1, "q1");
     const auto of_whole = values(folder / ("whole" + kind), 1, "q1");
     std::size_t missing = 0;

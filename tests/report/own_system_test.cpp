@@ -111,8 +111,8 @@ BOOST_AUTO_TEST_CASE(a_report_is_a_folder_with_a_page) {
   BOOST_TEST(test::contents(folder / "page" / "rows.csv").starts_with("metric,"));
 }
 
-BOOST_AUTO_TEST_CASE(a_report_that_was_interrupted_goes_on_from_its_journal) {
-  const test::scratch folder("own_system_journal");
+BOOST_AUTO_TEST_CASE(a_report_that_was_interrupted_goes_on) {
+  const test::scratch folder("own_system_work");
   const auto page = folder / "page";
   auto options = quick();
   options.steps = {0.2};
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(a_report_that_was_interrupted_goes_on_from_its_journal) {
   };
   BOOST_CHECK_THROW(report(morse(), options, page, told), std::runtime_error);
   BOOST_TEST(has_compared());
-  BOOST_TEST(std::filesystem::file_size(page / "journal.jsonl") > 100U);
+  BOOST_TEST(std::filesystem::file_size(page / "report.work") > 100U);
   auto others = options;
   others.trajectories = 9;
   BOOST_TEST(test::refuses<std::invalid_argument>([&] { report(morse(), others, page); },
@@ -139,8 +139,8 @@ BOOST_AUTO_TEST_CASE(a_report_that_was_interrupted_goes_on_from_its_journal) {
   stops = false;
   parts.clear();
   const auto resumed = report(morse(), options, page, told).rows();
-  BOOST_TEST(!has_compared());  // it is in the journal
-  BOOST_TEST(!std::filesystem::exists(page / "journal.jsonl"));
+  BOOST_TEST(!has_compared());  // it is in the work file
+  BOOST_TEST(!std::filesystem::exists(page / "report.work"));
   BOOST_TEST(std::filesystem::exists(page / "report.html"));
   const auto whole = compare(morse(), options).rows();
   BOOST_REQUIRE(whole.size() == resumed.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Scheme files, checkpoints and lines of journals that somebody has changed and signed again.
+// Scheme files and lines of work files that somebody has changed and signed again.
 #pragma once
 
 #include <boost/crc.hpp>
@@ -19,13 +19,7 @@ inline std::string digits_of_crc(const std::string& text) {
   return digits;
 }
 
-/// A checkpoint with the sum that it ought to end with.
-inline std::string signed_again(const std::string& text) {
-  const std::string bare = text.substr(0, text.rfind("\ncrc32 "));
-  return bare + "\ncrc32 " + digits_of_crc(bare) + "\n";
-}
-
-/// A line of a journal, an object without spaces, with the checksum that it ought to end with.
+/// A line of a work file, an object without spaces, with the checksum that it ought to end with.
 inline std::string signed_line(const std::string& line) {
   std::string bare = line.substr(0, line.rfind(",\"checksum\":"));
   if (bare.size() == line.size()) bare.pop_back();

@@ -40,7 +40,7 @@ bool has_value(const json& report) {
 
 /// Prints the report, if the folder has a whole one: the exit code.
 int print_finished_report(const std::filesystem::path& folder, const comparison& all) {
-  if (is_there(folder / journal_of_report)) return unfinished;
+  if (is_there(folder / work_of_report)) return unfinished;
   const auto there = finished_report(folder, all.question());
   if (!there) return unfinished;
   print(all.common().json ? text_of(*there)
@@ -48,11 +48,11 @@ int print_finished_report(const std::filesystem::path& folder, const comparison&
   return has_value(*there) ? done : no_result;
 }
 
-/// If the comparison fails, only the journal of the finished parts stays.
+/// If the comparison fails, only the work file with the finished parts stays.
 void measure_in(const std::filesystem::path& folder, comparison& all, bool resume) {
   std::vector<std::filesystem::path> made;
   on_first(all_ranks(), [&] { made = make_folder(folder); });
-  journal kept(folder / journal_of_report, all.question(), resume);
+  work_file kept(folder / work_of_report, all.question(), resume);
   try {
     all.learn_and_measure(kept);
   } catch (...) {
@@ -66,7 +66,7 @@ void measure_in(const std::filesystem::path& folder, comparison& all, bool resum
   on_first(all_ranks(), [&] {
     for (const auto& text : write_report(all, folder)) warn(text);
   });
-  if (kept.found() > 0) warn(fmt::format("{} finished parts were taken from the journal", kept.found()));
+  tell_of_parts(&kept);
   kept.remove();
 }
 
@@ -84,12 +84,12 @@ int compare(const compare_command& command, const common_settings& common) {
   if (command.output.empty()) {
     if (command.resume)
       refuse("--resume must come with --output; name the folder of the comparison to go on with");
-    journal nowhere;
+    work_file nowhere;
     all.learn_and_measure(nowhere);
   } else {
     int code = unfinished;
     on_first(all_ranks(), [&] {
-      require_files_in(folder, {"report.json", "report.html", "rows.csv", journal_of_report});
+      require_files_in(folder, {"report.json", "report.html", "rows.csv", work_of_report});
       if (const auto schemes = all.scheme_files(); !schemes.empty()) {
         require_files_in(folder / folder_of_schemes, schemes);
       }

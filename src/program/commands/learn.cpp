@@ -15,7 +15,9 @@ int learn(const learn_command& command, const common_settings& common) {
     if (!command.output.empty()) require_result(command.output);
   });
   warn_of_threads(common);
-  training.learn();
+  const auto work = begin_work(command.output, question_of(training.system(), common), command.resume);
+  tell_of_parts(work.get());
+  training.learn(work.get());
 
   const auto& learned = training.learned();
   const learned_scheme* bad = training.unusable();
@@ -23,6 +25,7 @@ int learn(const learn_command& command, const common_settings& common) {
   const auto write = [&] {
     on_first(all_ranks(), [&] {
       if (keep) write_document(command.output, training.scheme(), common);
+      if (work) work->remove();
     });
   };
   write_and_print(write, [&](bool written) {

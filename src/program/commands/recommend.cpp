@@ -19,14 +19,21 @@ namespace nysalt::program {
 namespace {
 
 /// Does the work, prints what was found, and writes the method to take. The best so far is in the output from
-/// the moment on that it is known, and stays there if a signal ends the work.
-int print_result(auto& all, const std::string& output, const common_settings& common) {
+/// the moment on that it is known, and stays there if a signal ends the work, which --resume goes on with.
+int print_result(auto& all, prepared_problem& system, const recommend_command& command,
+                 const common_settings& common) {
+  const std::string& output = command.output;
   if (!output.empty()) on_first(all_ranks(), [&] { require_result(output); });
   warn_of_threads(common);
+  const auto work = begin_work(output, question_of(system, common), command.resume);
+  tell_of_parts(work.get());
+  system.keep_answers_in(work.get());
   const std::string file = of_letters(output);
-  last_words said(output.empty()
-                      ? std::string("no method was accepted so far")
-                      : fmt::format("no method was accepted so far, and {} was not written", file));
+  last_words said(
+      output.empty()
+          ? std::string("no method was accepted so far")
+          : fmt::format("no method was accepted so far, and {} was not written; take --resume to go on",
+                        file));
   const auto write_text = [&](const std::string& text) {
     on_first(all_ranks(), [&] { write_document(output, json::parse(text), common); });
   };
@@ -35,7 +42,7 @@ int print_result(auto& all, const std::string& output, const common_settings& co
     const std::string which = fmt::format("the best so far, {} at step {:.12g}", best.name, best.step);
     if (output.empty()) return said.set(which + ", was not written; take --output FILE to keep it");
     try {
-      said.set(fmt::format("{} has {}", file, which), [&] { write_text(best.text); });
+      said.set(fmt::format("{} has {}; take --resume to go on", file, which), [&] { write_text(best.text); });
       is_kept = true;
     } catch (const std::exception&) {  // it is written again at the end, which says why it cannot be
     }
@@ -44,8 +51,9 @@ int print_result(auto& all, const std::string& output, const common_settings& co
   const bool writes = chosen && !output.empty();
   const auto write = [&] {
     if (writes) write_text(chosen->text);
-    if (chosen || !is_kept) return;
-    said.set({}, [&] { on_first(all_ranks(), [&] { std::filesystem::remove(output); }); });
+    if (!chosen && is_kept)
+      said.set({}, [&] { on_first(all_ranks(), [&] { std::filesystem::remove(output); }); });
+    if (work) work->remove();
   };
   write_and_print(write, [&](bool written) {
     if (common.json) {
@@ -67,13 +75,14 @@ int print_result(auto& all, const std::string& output, const common_settings& co
 }  // namespace
 
 int recommend(const recommend_command& command, const common_settings& common) {
-  auto system = make_system(command.system);
+  auto made = make_system(command.system);
+  prepared_problem& system = *made;
   if (command.learning.purpose == for_sampling) {
-    sampling_choice all(std::move(system), command.sampling, common);
-    return print_result(all, command.output, common);
+    sampling_choice all(std::move(made), command.sampling, common);
+    return print_result(all, system, command, common);
   }
-  recommendation all(std::move(system), command, common);
-  return print_result(all, command.output, common);
+  recommendation all(std::move(made), command, common);
+  return print_result(all, system, command, common);
 }
 
 }  // namespace nysalt::program

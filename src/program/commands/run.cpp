@@ -26,14 +26,24 @@ namespace nysalt::program {
 
 namespace {
 
+/// Steps between two looks for a signal, some seconds, where the run can be gone on with and takes longer.
+std::optional<std::int64_t> segment_of(const run_command& command, const trajectories_plan& plan,
+                                       std::int64_t dimension) {
+  if (command.output.empty()) return std::nullopt;
+  const std::int64_t some_seconds = 10 * short_segment(dimension);
+  if (!command.every && !command.keep_work && plan.steps <= some_seconds / plan.count) return std::nullopt;
+  return std::min(command.every.value_or(some_seconds), some_seconds);
+}
+
 /// Refuses what would fill the memory, before any work: `run` keeps the samples of a block of trajectories,
 /// and a JSON document all of them.
-void require_room(const run_command& command, const trajectories_plan& plan, bool whole_document) {
+void require_room(const run_command& command, const trajectories_plan& plan, std::int64_t dimension,
+                  bool whole_document) {
   constexpr double most = 1e8;  // numbers: about a gigabyte
   const auto columns = static_cast<double>(command.observables.size());
   // A row of a document takes some 210 bytes, and 70 for each observable, its text included.
   const double numbers = whole_document ? 27.0 + 9.0 * columns : columns;
-  const std::int64_t at_once = longest_segment(plan.steps, command.every);
+  const std::int64_t at_once = longest_segment(plan.steps, segment_of(command, plan, dimension));
   const std::int64_t apart = at_once / command.sample_every;
   const auto samples = static_cast<double>(apart + 1);
   const std::int64_t at_a_time =
@@ -43,7 +53,7 @@ void require_room(const run_command& command, const trajectories_plan& plan, boo
   refuse(
       "run: samples must fit into memory, got {:g} of each of {} trajectories; take a larger "
       "--sample-every{}",
-      samples, plan.count, whole_document ? ", or --output to a file" : ", or a --checkpoint");
+      samples, plan.count, command.output.empty() ? ", or --output to a file" : ", or --every fewer steps");
 }
 
 /// NAME.svg and NAME.png beside the output NAME.csv: the observables along the first trajectory, in some
@@ -68,23 +78,11 @@ void draw_run(const run_command& command, const run_output& output, std::int64_t
 /// Throws refusal for bad options of the files of a run, before any work.
 void require_files(const run_command& command) {
   require_table(command.output, command.plot, true);
-  if (command.checkpoint.empty()) {
-    if (command.resume) refuse("--resume must come with --checkpoint; name the file to go on from");
-    if (command.every) refuse("--every must come with --checkpoint; name the file of the checkpoint");
-    return;
-  }
-  if (!command.every)
-    refuse("--checkpoint must come with --every; give the number of steps between two checkpoints");
-  require_at_least_one("--every", *command.every);
-  if (command.output.empty())
-    refuse("--checkpoint must come with --output; name a file, as printed results cannot be continued");
-  require_checkpoint(command.checkpoint, command.output, command.plot);
-}
-
-/// Steps between two checks for a signal, some seconds, where there is a checkpoint to make then.
-std::optional<std::int64_t> segment_of(const run_command& command, std::int64_t dimension) {
-  if (!command.every) return std::nullopt;
-  return std::min(*command.every, 10 * short_segment(dimension));
+  if (command.every) require_at_least_one("--every", *command.every);
+  if (!command.output.empty()) return;
+  if (command.every)
+    refuse("--every must come with --output; name a file, as printed results cannot be continued");
+  if (command.keep_work) refuse("--keep-work must come with --output; name the file of the results");
 }
 
 json with_times(std::vector<diverged_trajectory> lost, double step) {
@@ -136,13 +134,17 @@ int run(const run_command& asked, const common_settings& common) {
   prepared_problem& system = *planned.system;
   const trajectories_plan& plan = planned.plan;
   on_first(all_ranks(), [&] { require_files(command); });
-  require_room(command, plan, common.json && command.output.empty());
+  require_room(command, plan, system.dimension(), common.json && command.output.empty());
 
   const auto began = std::chrono::steady_clock::now();
   require_agreement("methods", planned.question().dump(-1, ' ', false, json::error_handler_t::replace));
   progress shown;
+  json question = planned.question();
+  question.erase("steps");  // a finished run can be prolonged
+  const auto work = begin_work(command.output, question, command.resume);
   std::optional<run_output> output;  // at rank 0; from now on the run can be gone on with
-  on_first(all_ranks(), [&] { output.emplace(planned, common.json); });
+  on_first(all_ranks(), [&] { output.emplace(planned, work.get(), common.json); });
+  tell_of_origin(work.get());
   const bool was_finished = agreed(output && output->is_finished());
   warn_of_threads(common);
   std::vector<std::string> warnings = planned.warnings;
@@ -158,7 +160,7 @@ int run(const run_command& asked, const common_settings& common) {
       for (const auto& text : warnings) warn(text);
     }
     sampled_plan sampled{plan, command.observables, command.sample_every,
-                         segment_of(command, system.dimension())};
+                         segment_of(command, plan, system.dimension())};
     on_first(all_ranks(), [&] { output->begin(sampled); });
     const bool prints_rows = command.output.empty() && !common.json;
     const auto take = [&](std::int64_t m, const record& one) {
@@ -167,7 +169,7 @@ int run(const run_command& asked, const common_settings& common) {
     };
     shown.part("running");
     std::optional<signals_are_noted> noted;
-    if (!command.checkpoint.empty()) noted.emplace();
+    if (work) noted.emplace();
     energy_error = run(system, *planned.method, sampled, take, shown.counter(1000));
     shown.clear();
   }

@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -11,18 +9,15 @@
 #include "../commands.hpp"
 #include "../mpi_session.hpp"
 #include "../output.hpp"
-#include "../output/checkpoint_file.hpp"
 #include "../output/kept_draws.hpp"
 #include "../systems.hpp"
 #include "comparison/all_ranks.hpp"
 #include "comparison/checks.hpp"
 #include "comparison/learning.hpp"
 #include "comparison/method_source.hpp"
-#include "comparison/origin.hpp"
 #include "comparison/progress.hpp"
 #include "comparison/refusal.hpp"
 #include "comparison/seeds.hpp"
-#include "nysalt/atomic_file.hpp"
 #include "nysalt/communicator.hpp"
 #include "nysalt/hmc.hpp"
 #include "report/result_file.hpp"
@@ -70,30 +65,12 @@ hmc_options hmc_options_of(const sample_command& command, const prepared_problem
   return options;
 }
 
-/// Throws refusal in the place of a checkpoint of others.
-void require_new_checkpoint(const sample_command& command) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(command.checkpoint, ignored)) return;
-  refuse(
-      "cannot write {}: the checkpoint is of chains that were stopped, or are under way; name another file, "
-      "or, once no process writes it, take --resume to go on with the chains, or remove the file to begin "
-      "anew",
-      command.checkpoint);
-}
-
 /// Throws refusal for bad options of files, before any work.
 void require_files(const sample_command& command) {
   require_table(command.output, false, false);
-  if (command.checkpoint.empty()) {
-    if (command.resume) refuse("--resume must come with --checkpoint; name the file to go on from");
-    if (command.every) refuse("--every must come with --checkpoint; name the file of the checkpoint");
-    return;
-  }
-  if (!command.every)
-    refuse("--checkpoint must come with --every; give the number of trajectories between two checkpoints");
+  if (!command.every) return;
   require_at_least_one("--every", *command.every);
-  require_checkpoint(command.checkpoint, command.output, false);
-  if (!command.resume) require_new_checkpoint(command);
+  if (command.output.empty()) refuse("--every must come with --output; name the file of the draws");
 }
 
 /// All that decides the bytes of the output.
@@ -119,47 +96,43 @@ std::int64_t draws_before(const sample_command& command, std::int64_t trajectori
   return std::max<std::int64_t>(0, trajectories - command.burn_in);
 }
 
-/// The state in a checkpoint of this question, and its draws; what went wrong at rank 0 goes wrong at all.
-hmc_state state_in(const sample_command& command, const json& question, kept_draws& draws) {
+constexpr const char* of_state = "state";
+
+/// The state in a work file, and its draws.
+hmc_state state_in(const sample_command& command, const work_file& work, kept_draws& draws) {
   hmc_state state;
-  collectively(all_ranks(), [&] {
-    std::string warning;
-    const json head = head_of_checkpoint(command.checkpoint, "sample");
-    try {
-      require_question(head.at("question"), question, command.checkpoint);
-      warning = warning_of_origin(head, command.checkpoint);
-      state.trajectories = count_in(head.at("trajectories"));
-      const auto of_chains = static_cast<std::size_t>(count_in(head.at("numbers")));
-      const std::int64_t drawn = draws_before(command, state.trajectories);
-      const std::size_t of_draws =
-          static_cast<std::size_t>(command.chains) * static_cast<std::size_t>(drawn) * draws.scalars();
-      if (drawn > command.draws) throw std::out_of_range("trajectories");
-      state.numbers = numbers_of_checkpoint(command.checkpoint, of_chains + of_draws);
-      draws.restore(std::span(state.numbers).last(of_draws), drawn);
-      state.numbers.resize(of_chains);
-    } catch (const refusal&) {
-      throw;
-    } catch (const std::exception&) {
-      refuse_edited_checkpoint(command.checkpoint);
-    }
-    if (speaks_for_all() && !warning.empty()) warn(warning);  // only now: nothing is refused any more
-  });
+  std::size_t of_chains = 0;
+  on_first(all_ranks(), [&] { state.numbers = work.numbers(); });
+  broadcast(all_ranks(), state.numbers);
+  try {
+    const json head = work.result_of(of_state);
+    state.trajectories = head.at("trajectories").get<std::int64_t>();
+    of_chains = head.at("numbers").get<std::size_t>();
+  } catch (const json::exception&) {
+    work.refuse_edited(of_state);
+  }
+  const std::int64_t drawn = draws_before(command, state.trajectories);
+  const std::size_t of_draws =
+      static_cast<std::size_t>(command.chains) * static_cast<std::size_t>(drawn) * draws.scalars();
+  if (state.trajectories < 0 || drawn > command.draws || of_chains + of_draws != state.numbers.size())
+    work.refuse_edited(of_state);
+  draws.restore(std::span(state.numbers).last(of_draws), drawn);
+  state.numbers.resize(of_chains);
   return state;
 }
 
-void save(const sample_command& command, const json& question, const hmc_state& state, kept_draws& draws,
-          const std::function<void()>& check) {
+/// Where that takes no more than a twentieth of the time, or is asked for.
+void save(const sample_command& command, const hmc_state& state, kept_draws& draws, work_file& work) {
+  bool is_due = command.every.has_value() || work.is_due();
+  broadcast(all_ranks(), is_due);
+  if (!is_due) return;
   draws.gather(all_ranks());
   on_first(all_ranks(), [&] {
     std::vector<double> numbers = state.numbers;
     const auto drawn = draws.first(draws_before(command, state.trajectories));
     numbers.insert(numbers.end(), drawn.begin(), drawn.end());
-    write_checkpoint_file(command.checkpoint,
-                          {{"command", "sample"},
-                           {"question", question},
-                           {"trajectories", state.trajectories},
-                           {"numbers", state.numbers.size()}},
-                          numbers, check);
+    work.replace(of_state, {{"trajectories", state.trajectories}, {"numbers", state.numbers.size()}},
+                 std::move(numbers));
   });
 }
 
@@ -309,19 +282,16 @@ int sample(const sample_command& command, const common_settings& common) {
   require_agreement("chains", question.dump(-1, ' ', false, json::error_handler_t::replace));
   kept_draws draws(command.chains, command.draws, shown);
   hmc_state from;
-  if (command.resume) {
-    from = state_in(command, question, draws);
+  const auto work = begin_work(command.output, question, command.resume);
+  if (work && work->has(of_state)) {
+    from = state_in(command, *work, draws);
     options.from = &from;
   }
-  if (!command.checkpoint.empty()) {
-    options.keep_every = *command.every;
-    options.keep = [&, is_first = !command.resume](const hmc_state& state) mutable {
-      // Of two commands that begin at once the second to come here is refused.
-      save(command, question, state, draws, [&] {
-        if (is_first) require_new_checkpoint(command);
-      });
-      is_first = false;
-    };
+  tell_of_origin(work.get());
+  if (work) {
+    constexpr std::int64_t times = 200;  // to look at the clock
+    options.keep_every = command.every.value_or((command.burn_in + command.draws) / times + 1);
+    options.keep = [&](const hmc_state& state) { save(command, state, draws, *work); };
   }
   line.part("sampling");
   options.execution.progress = line.counter(command.chains * (command.burn_in + command.draws));
@@ -333,18 +303,13 @@ int sample(const sample_command& command, const common_settings& common) {
   on_first(all_ranks(), [&] {
     std::vector<summary_of_scalar> all;
     for (std::size_t k = 0; k < draws.scalars(); ++k) all.push_back(summary_of(draws, k));
-    const auto remove_checkpoint = [&] {
-      std::error_code ignored;
-      if (!command.checkpoint.empty())
-        std::filesystem::remove(nysalt::detail::behind_links(command.checkpoint), ignored);
-    };
     const auto write = [&] {
       if (command.output.empty()) return;
       json made = written_by("nysalt sample");
       made["method"] = source.typed;
       made.update(question);
       write_result(command.output, first_line_of_table(made) + draws.csv());
-      remove_checkpoint();
+      work->remove();
     };
     write_and_print(write, [&](bool written) {
       const bool is_there = written && !command.output.empty();
@@ -359,7 +324,6 @@ int sample(const sample_command& command, const common_settings& common) {
       print(text_of(command, source, *system, options, found, all) +
             (is_there ? line_of_written(command.output) : ""));
     });
-    if (command.output.empty()) remove_checkpoint();
   });
   return done;
 }

@@ -68,7 +68,7 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
   begin_group(command, output_group);
   command.add_option("--output", asked.output, "a folder to write: the report and its table")
       ->type_name("FOLDER");
-  command.add_flag("--resume", asked.resume, "go on where a comparison into this folder was stopped");
+  add_resume(command, asked.resume);
   add_json(command, common);
   add_common(command, common);
   add_force(command, common, "use a scheme at another step or system than it was learned for");

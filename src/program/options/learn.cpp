@@ -39,6 +39,7 @@ subcommand offer_learn(CLI::App& app, common_settings& common) {
              "in place of --trajectories: as many as bring their share of the loss below X");
   begin_group(command, output_group);
   command.add_option("--output", asked.output, "the scheme file to write")->type_name(a_file);
+  add_resume(command, asked.resume);
   add_json(command, common);
   add_common(command, common);
   add_force(command, common, "write the scheme even if the fit is not usable");

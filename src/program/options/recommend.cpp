@@ -63,6 +63,7 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
       ->description("how long to search: quick (as many families are learned), normal or thorough");
   begin_group(command, output_group);
   command.add_option("--output", asked.output, "the file to write: the method to take")->type_name(a_file);
+  add_resume(command, asked.resume);
   add_json(command, common);
   add_common(command, common);
   command.footer(

@@ -47,12 +47,11 @@ subcommand offer_run(CLI::App& app, common_settings& common) {
       ->type_name(a_file);
   command.add_flag("--plot", asked.plot, "draw the first trajectory, in pictures beside the output");
   add_json(command, common);
-  command
-      .add_option("--checkpoint", asked.checkpoint, "a file from which the run can go on if it is stopped")
-      ->type_name(a_file);
-  add_number(command, "--every", asked.every, "number of steps between two checkpoints");
-  command.add_flag("--resume", asked.resume,
-                   "go on from the checkpoint; of a finished run to a longer --horizon");
+  add_resume(command, asked.resume);
+  add_number(command, "--every", asked.every,
+             "number of steps after which the state is saved [as often as takes a twentieth of the time]");
+  command.add_flag("--keep-work", asked.keep_work,
+                   "keep the work file in the end: with --resume a longer --horizon prolongs the run");
   add_common(command, common);
   add_force(command, common, "run a scheme at another step or system than it was learned for");
   command.footer(
@@ -61,8 +60,7 @@ subcommand offer_run(CLI::App& app, common_settings& common) {
       "  nysalt run --system pendulum --method srkn6b --step 0.5 --horizon 100 --trajectories 8 "
       "--observables energy,q1 --output out.csv\n"
       "  nysalt run --system fpu --method verlet --step 0.001 --horizon 1e5 --sample-every 1000 --output "
-      "out.csv "
-      "--checkpoint out.checkpoint --every 1000000");
+      "out.csv --resume");
   const auto run_it = [typed, &asked, &common] {
     asked.observables = entries_of(typed->observables, "--observables");
     return run(asked, common);

@@ -35,18 +35,17 @@ subcommand offer_sample(CLI::App& app, common_settings& common) {
   begin_group(command, output_group);
   command.add_option("--output", asked.output, "a CSV file to write, of all draws")->type_name(a_file);
   add_json(command, common);
-  command.add_option("--checkpoint", asked.checkpoint, "a file from which the chains can go on if stopped")
-      ->type_name(a_file);
-  add_number(command, "--every", asked.every, "trajectories of a chain between two checkpoints");
-  command.add_flag("--resume", asked.resume, "go on from the checkpoint");
+  add_resume(command, asked.resume);
+  add_number(
+      command, "--every", asked.every,
+      "trajectories of a chain after which the state is saved [as often as takes a twentieth of the time]");
   add_common(command, common);
   add_force(command, common, "sample with a scheme at another step or system than it was learned for");
   command.footer(
       "Examples:\n"
       "  nysalt sample --system phi4 --parameter masses=64 --length 1 --method omelyan5v\n"
       "  nysalt sample --potential '(x^2 + 100*y^2)/2' --variables x,y --diagonal-masses --output draws.csv\n"
-      "  nysalt sample --system phi4_lattice --parameter side=8 --length 0.5 --output draws.csv --checkpoint "
-      "draws.checkpoint --every 500\n"
+      "  nysalt sample --system phi4_lattice --parameter side=8 --length 0.5 --output draws.csv --resume\n"
       "  nysalt sample --system pendulum --method verlet --step 0.5 --length 2 --draws 10000");
   return {&command, [typed, &common] { return sample(*typed, common); }};
 }

@@ -24,7 +24,7 @@ class kept_draws {
   /// After that all ranks have the draws of all chains.
   void gather(const communicator& ranks);
 
-  /// The first `draws` of each chain, as numbers of a checkpoint, and back.
+  /// The first `draws` of each chain, as numbers of a work file, and back.
   std::vector<double> first(std::int64_t draws) const;
   void restore(std::span<const double> numbers, std::int64_t draws);
 

@@ -8,28 +8,23 @@
 #include <optional>
 #include <vector>
 
-#include "checkpoint.hpp"
-#include "nysalt/atomic_file.hpp"
 #include "planned_run.hpp"
+#include "run_state.hpp"
 #include "samples.hpp"
 #include "unfinished_file.hpp"
 
 namespace nysalt::program {
 
-/// Where the records of a run go: into a file, into one that the run can go on with if it is stopped, onto
-/// standard output; or into the document, where there is one. A file that did not take its name does not
-/// stay, unless there is a checkpoint from which the run goes on with it.
+/// Where the records of a run go: into a file that the run can go on with if it is stopped, onto standard
+/// output; or into the document, where there is one.
 class run_output {
  public:
-  /// Makes the file, or, if the run is to resume, goes on where its checkpoint says. Throws refusal if the
-  /// file cannot be made; for a checkpoint that is none, not whole or of another run; to resume, if there is
-  /// none or the output under way is not what it knows; to begin, if there is one of a run that was stopped.
-  /// In a table what follows the checkpoint is cut off. In a file of arrays it is written again, and only
-  /// what is not in the arrays must be as it was. A finished run of fewer steps is prolonged: its output
-  /// stays until the longer one takes its name.
-  run_output(const planned_run& planned, bool as_json);
-  /// Of a run that reached nothing, as it was refused after all, nothing stays.
-  ~run_output();
+  /// Makes the file, or goes on where the work file says. Throws refusal if the file cannot be made, for a
+  /// state that is not whole, and if the output under way is not what that knows. In a table what follows the
+  /// state is cut off. In a file of arrays it is written again, and only what is not in the arrays must be as
+  /// it was. A finished run of fewer steps is prolonged: its output stays until the longer one takes its
+  /// name. The work file must outlive the output; without one there is no file.
+  run_output(const planned_run& planned, work_file* work, bool as_json);
   run_output(const run_output&) = delete;
   run_output& operator=(const run_output&) = delete;
 
@@ -40,13 +35,12 @@ class run_output {
   /// Of a finished run the largest |H - H_0| at the end.
   double energy_error() const { return state_.at.energy_error; }
 
-  /// Before the first record is taken: the plan begins where the run is, and makes checkpoints, if there are
-  /// any.
+  /// Before the first record is taken: the plan begins where the run is, and tells what it reaches.
   void begin(sampled_plan& plan);
   void take(std::int64_t trajectory, const record& segment);
   /// All was taken: the output takes its name.
   void commit();
-  /// And what belongs to the output is there too.
+  /// And what belongs to the output is there too: the work file goes, unless the run may be prolonged.
   void finish();
 
   /// Of what was written, of every n-th sample.
@@ -55,30 +49,24 @@ class run_output {
   void describe(json& document);
 
  private:
-  void require_new_checkpoint() const;
-  void make_part(const json& question);
-  void lay_out();
-  void go_on(const json& question);
-  void prolong(const json& question);
+  void make();
+  void go_on();
+  void prolong();
   void reached(const run_progress& at, bool ends);
-  void save(const run_progress& at, const std::function<void()>& check = {});
+  void save(const run_progress& at);
   void keep(std::int64_t first, const saved_runs& runs);
 
   std::string output_;
-  std::filesystem::path checkpoint_;  // empty if there are none
-  std::int64_t every_;                // steps between checkpoints
+  work_file* work_;
+  std::optional<std::int64_t> every_;  // steps between states that are saved; nothing: as time allows
+  bool keeps_work_;
+  std::int64_t steps_;
   sampled_shape shape_;
   std::int64_t dimension_;
   bool is_of_arrays_;
-  checkpoint state_;
-  struct {
-    std::int64_t first = 0;
-    std::int64_t step = 0;
-  } saved_at_;                                                 // of the last checkpoint
-  bool is_fresh_ = false;                                      // begun here, and no checkpoint but the first
-  std::optional<nysalt::detail::unfinished_name> fresh_name_;  // the checkpoint then goes, if a signal comes
-  std::optional<unfinished_file> part_;  // of arrays, or with a checkpoint; none once it has its name
-  std::optional<atomic_file> table_;     // without a checkpoint
+  run_state state_;
+  run_progress last_;                    // that was reached, without its numbers
+  std::optional<unfinished_file> part_;  // none once it has its name
   std::unique_ptr<sample_writer> samples_;
 };
 

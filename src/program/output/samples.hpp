@@ -55,7 +55,7 @@ class sample_writer {
   /// file of fewer samples, which has that shape and is otherwise alike.
   virtual void copy(const std::filesystem::path& from, unfinished_file& to, const sampled_shape& before,
                     std::int64_t last) = 0;
-  /// The record in a checkpoint of a file of such samples, finished or not; nothing if it is none.
+  /// The record in a saved state of a file of such samples, finished or not; nothing if it is none.
   virtual std::optional<file_sum> sum_in(const std::filesystem::path& file) const = 0;
   /// Of a finished file, of every n-th sample. Throws refusal if it cannot be read.
   virtual first_trajectory read_first(const std::filesystem::path& file, std::int64_t every) const = 0;

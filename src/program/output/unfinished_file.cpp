@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "unfinished_file.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -51,27 +49,30 @@ std::optional<file_sum> sum_of(const std::filesystem::path& file, const std::vec
   return file_sum{length, sum.checksum()};
 }
 
-unfinished_file::descriptor::~descriptor() {
-  if (number >= 0) close(number);
-}
-
 namespace {
 
 std::filesystem::path part_for(std::filesystem::path file, unfinished_file::origin from) {
-  if (from == unfinished_file::origin::disposable) return file += ".new.part";
   if (from == unfinished_file::origin::sorted) return file += ".sorted.part";
   return unfinished_file::part_of(std::move(file));
 }
 
-int made_part(const std::filesystem::path& part, const std::filesystem::path& file,
-              std::optional<nysalt::detail::unfinished_name>& name) {
+nysalt::detail::descriptor opened_part(const std::filesystem::path& part, const std::filesystem::path& file,
+                                       unfinished_file::origin from,
+                                       std::optional<nysalt::detail::unfinished_name>& name) {
   try {
-    return nysalt::detail::make_part(part, file, name);
+    if (from != unfinished_file::origin::left_by_another)
+      return nysalt::detail::descriptor(nysalt::detail::make_part(part, file, name));
+    nysalt::detail::descriptor left = nysalt::detail::held(part);
+    if (left.number() >= 0) return left;
   } catch (const nysalt::detail::write_failure&) {
     throw;
   } catch (const std::runtime_error& problem) {
     throw refusal(problem.what());
   }
+  refuse(
+      "cannot resume from {}: there is no such file; put the file back, or remove the work file to begin "
+      "anew",
+      part.string());
 }
 
 }  // namespace
@@ -79,48 +80,8 @@ int made_part(const std::filesystem::path& part, const std::filesystem::path& fi
 unfinished_file::unfinished_file(const std::filesystem::path& file, origin from)
     : path_(nysalt::detail::behind_links(file)),
       part_(part_for(path_, from)),
-      is_kept_(from == origin::left_by_another || from == origin::begun_anew) {
-  std::error_code ignored;
-  if (from == origin::disposable || from == origin::sorted ||
-      (from == origin::begun_anew && !std::filesystem::exists(part_, ignored))) {
-    file_.number = made_part(part_, path_, name_);
-    if (is_kept_) name_.reset();
-    return;
-  }
-  if (std::filesystem::exists(part_, ignored) && !std::filesystem::is_regular_file(part_, ignored)) {
-    refuse("cannot write {}: it is not a regular file; name another --output", part_.string());
-  }
-  const nysalt::detail::held_signals held;  // no handler between the making of the file and `name_`
-  const int create = from == origin::made ? O_CREAT : 0;
-  file_.number = open(part_.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC | create, 0666);
-  if (file_.number < 0 && from == origin::left_by_another && errno == ENOENT) {
-    refuse(
-        "cannot resume from {}: there is no such file; name the --output of the run to resume, in its folder",
-        part_.string());
-  }
-  if (file_.number < 0 && errno == ELOOP) {
-    refuse("cannot write {}: it is a link; remove it, or name another --output", part_.string());
-  }
-  if (file_.number < 0) fail();
-  if (nysalt::detail::ask_for_lock(file_.number) == nysalt::detail::lock_outcome::held_by_another) {
-    refuse("cannot write {}: another run is writing it; wait for that run, or name another --output",
-           part_.string());
-  }
-  struct stat opened {};
-  // Who held the lock before may have given the file its name meanwhile.
-  if (fstat(file_.number, &opened) != 0 || !nysalt::detail::has_name(file_.number, part_)) {
-    refuse("cannot write {}: another run has just finished it; take that file, or name another --output",
-           path_.string());
-  }
-  if (from == origin::made && opened.st_size > 0) {
-    refuse(
-        "cannot write {}: a run that was stopped left it; go on with the checkpoint of that run, or remove "
-        "the file",
-        part_.string());
-  }
-  if (from == origin::begun_anew && ftruncate(file_.number, 0) != 0) fail();
-  if (!is_kept_) name_.emplace(part_);
-}
+      is_kept_(from == origin::left_by_another),
+      file_(opened_part(part_, path_, from, name_)) {}
 
 unfinished_file::~unfinished_file() {
   if (!is_kept_) remove();
@@ -130,7 +91,9 @@ bool unfinished_file::cut_after(const file_sum& beginning) {
   std::ifstream input(part_, std::ios::binary);
   length_ = add(sum_, input, beginning.length);
   if (written() != beginning) return false;
-  if (ftruncate(file_.number, static_cast<off_t>(length_)) != 0) fail();
+  std::error_code failure;
+  std::filesystem::resize_file(part_, length_, failure);
+  if (failure) fail();
   return true;
 }
 
@@ -149,7 +112,7 @@ void unfinished_file::write_gathered() {
 
 void unfinished_file::put(std::uint64_t at, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
-    const ssize_t done = pwrite(file_.number, bytes.data(), bytes.size(), static_cast<off_t>(at));
+    const ssize_t done = pwrite(file_.number(), bytes.data(), bytes.size(), static_cast<off_t>(at));
     if (done < 0 && errno == EINTR) continue;
     if (done <= 0) fail();
     at += static_cast<std::uint64_t>(done);
@@ -159,7 +122,7 @@ void unfinished_file::put(std::uint64_t at, std::span<const std::byte> bytes) {
 
 void unfinished_file::put_on_disk() {
   write_gathered();
-  if (fsync(file_.number) != 0) fail();
+  if (fsync(file_.number()) != 0) fail();
 }
 
 void unfinished_file::keep() {
@@ -168,7 +131,7 @@ void unfinished_file::keep() {
 }
 
 void unfinished_file::require_own() const {
-  if (nysalt::detail::has_name(file_.number, part_)) return;
+  if (nysalt::detail::has_name(file_.number(), part_)) return;
   throw nysalt::detail::write_failure(
       message("cannot write {}: another process removed or replaced {}; run it again", path_.string(),
               part_.string()));
@@ -190,7 +153,7 @@ void unfinished_file::finish() {
 }
 
 void unfinished_file::remove() {
-  if (!nysalt::detail::has_name(file_.number, part_)) return;  // of another process
+  if (!nysalt::detail::has_name(file_.number(), part_)) return;  // of another process
   std::error_code ignored;
   std::filesystem::remove(part_, ignored);
 }
@@ -198,7 +161,7 @@ void unfinished_file::remove() {
 void unfinished_file::fail() const {
   throw nysalt::detail::write_failure(
       message("cannot write {}: the folder is not there, not writable, or full; mend that, and go on by "
-              "--resume where there is a checkpoint",
+              "--resume",
               part_.string()));
 }
 

@@ -32,22 +32,20 @@ struct byte_range {
 std::optional<file_sum> sum_of(const std::filesystem::path& file,
                                const std::vector<byte_range>& left_out = {});
 
-/// FILE.part, which becomes FILE when it is finished; FILE.new.part, if no run will go on with it. One
-/// process at a time can hold the file. One that was made here goes with its writer, until it is kept, also
-/// if a signal ends the process. A link is followed: the file behind it is replaced.
+/// FILE.part, which becomes FILE when it is finished. One process at a time can hold the file. One that was
+/// made here goes with its writer, until it is kept, also if a signal ends the process. A link is followed:
+/// the file behind it is replaced.
 class unfinished_file {
  public:
   enum class origin {
-    made,             ///< for a run with a checkpoint
-    disposable,       ///< for a run without: what such a run left is removed
-    sorted,           ///< for the rows of a run with one in their final order, FILE.sorted.part: the same
-    left_by_another,  ///< by the run to resume
-    begun_anew        ///< the same, of which nothing is taken
+    made,            ///< what a process that was stopped left is removed
+    sorted,          ///< for the rows in their final order, FILE.sorted.part: the same
+    left_by_another  ///< by the run to resume
   };
   static std::filesystem::path part_of(std::filesystem::path file) { return file += ".part"; }
 
-  /// Throws refusal if another process writes the file, or it cannot be opened; to make one, if there is one,
-  /// which a run that was stopped may need; to go on with one, if there is none.
+  /// Throws refusal if another process writes the file, or it cannot be opened; to go on with one, if there
+  /// is none.
   unfinished_file(const std::filesystem::path& file, origin from);
   ~unfinished_file();
   unfinished_file(const unfinished_file&) = delete;
@@ -76,19 +74,15 @@ class unfinished_file {
   void remove();
 
  private:
-  struct descriptor {
-    int number = -1;
-    ~descriptor();
-  };
   void write_gathered();
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
   std::filesystem::path part_;
   bool is_kept_;
-  descriptor file_;
   std::optional<nysalt::detail::unfinished_name> name_;  // until it is kept
-  std::string gathered_;                                 // of the end, not written yet
+  nysalt::detail::descriptor file_;
+  std::string gathered_;  // of the end, not written yet
   std::uint64_t length_ = 0;
   boost::crc_32_type sum_;
 };

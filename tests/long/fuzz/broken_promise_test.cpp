@@ -24,7 +24,7 @@ bool breaks(remains left, auto&& change) {
 BOOST_AUTO_TEST_CASE(a_refusal_and_a_result_keep_all_promises_and_what_breaks_one_is_found) {
   BOOST_TEST(broken_promise(refused, before) == "");
   BOOST_TEST(broken_promise(done, before) == "");
-  const std::set<std::string> stopped{"run.checkpoint", "out.csv.part"};  // a run that cannot be gone on with
+  const std::set<std::string> stopped{"out.csv.work", "out.csv.part"};  // a run that cannot be gone on with
   BOOST_TEST(broken_promise({2, "", line, stopped}, stopped) == "");
   BOOST_TEST(breaks(done, [](remains& left) { left.code = 1; }));
   BOOST_TEST(breaks(done, [](remains& left) { left.code = 139; }));

@@ -30,7 +30,7 @@ STUB = os.path.join(FOLDER, "flock.so")
 CACHE = os.path.join(FOLDER, "cache")
 MISSING = ("ENOSYS", "ENOLCK", "EOPNOTSUPP")
 WARNING = re.compile(r"nysalt: warning: the file system of \S+ has no locks: [^\n]*\n")
-CONFLICT = re.compile(r"nysalt: cannot write \S+: another (process writes it|run is writing it)[^\n]*\n")
+CONFLICT = re.compile(r"nysalt: cannot write \S+: another process writes it[^\n]*\n")
 
 
 @dataclasses.dataclass
@@ -38,11 +38,6 @@ class Case:
     work: Work
     begun: list = dataclasses.field(default_factory=list)  # what is done before with locks
     killed_at: str = ""  # as fail.cpp takes it
-
-    def code_of_conflict(self, with_checkpoint):
-        """4 where the work is done before its file is made."""
-        late = self.work.arguments[0] in ("learn", "recommend", "sample")
-        return 4 if late and not (with_checkpoint and self.work.resumes_from) else 2
 
     @property
     def name(self):
@@ -54,11 +49,10 @@ def cases():
         yield Case(work)
         if work.resumes_from:
             resumed = dataclasses.replace(work, arguments=[*work.arguments, "--resume"])
-            # After the first checkpoint, or the first finished part of a journal.
-            yield Case(resumed, work.arguments, "fflush:3:kill" if work.name == "compare" else "rename:2:kill")
-    longer = [*RUN, "--output", "out.csv", "--checkpoint", "c", "--every", "640"]
+            yield Case(resumed, work.arguments, "rename:2:kill")  # when the first part would be there
+    longer = [*RUN, "--output", "out.csv", "--keep-work"]
     shorter = [word if word != "16" else "8" for word in longer]
-    yield Case(Work("run after its end", [*longer, "--resume"], ["out.csv"], "c"), shorter)
+    yield Case(Work("run after its end", [*longer, "--resume"], ["out.csv"], "out.csv.work"), shorter)
     yield Case(Work("stability, drawn", ["stability", "--method", "verlet", "--output", "out.csv", "--plot"],
                     ["out.csv", "out.dat", "out.gp", "out.svg", "out.png"]))
     yield Case(Work("new", ["new", "mine"], ["mine.hpp"]))
@@ -91,9 +85,8 @@ def results(case, folder):
 
 def held(case, folder):
     """Open files with the locks that a process holds which does the same work."""
-    if os.path.splitext(case.work.outputs[0])[1]:
-        names = [case.work.outputs[0] + ending for ending in (".part", ".new.part")]
-    else:
+    names = [case.work.outputs[0] + ending for ending in (".part", ".new.part")]
+    if case.work.resumes_from:
         names = [case.work.resumes_from]
     files = []
     for name in names:
@@ -116,7 +109,7 @@ def wrong_of(error, case, folder, expected, usual):
     begun(case, folder)
     done = run(folder, case.work.arguments, LD_PRELOAD=STUB, NYSALT_FLOCK=error)
     if error == "EWOULDBLOCK":
-        return wrong_answer(done, case.code_of_conflict(with_checkpoint=True), CONFLICT, usual)
+        return wrong_answer(done, 2, CONFLICT, usual)
     said = re.compile("") if error == "EINTR" else WARNING
     wrong = wrong_answer(done, 0, said, usual)
     return wrong or ("" if results(case, folder) == expected else "the files are others")
@@ -128,7 +121,7 @@ def wrong_of_held_lock(case, folder, usual, **environment):
     done = run(folder, case.work.arguments, **environment)
     for file in files:
         file.close()
-    return wrong_answer(done, case.code_of_conflict(with_checkpoint=False), CONFLICT, usual)
+    return wrong_answer(done, 2, CONFLICT, usual)
 
 
 def wrong_of_young_part(case, folder):

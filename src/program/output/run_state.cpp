@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "checkpoint.hpp"
+#include "run_state.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
 
-#include "checkpoint_file.hpp"
-#include "comparison/origin.hpp"
 #include "comparison/refusal.hpp"
 
 namespace nysalt::program {
 
 namespace {
 
-json head_of(const checkpoint& state) {
+json head_of(const run_state& state) {
   json batch = json::array();
   for (const auto& step : state.at.batch.diverged_at) batch.push_back(step ? json(*step) : json(nullptr));
   json diverged = json::array();
   for (const auto& one : state.lost) diverged.push_back({{"trajectory", one.trajectory}, {"step", one.step}});
-  return {{"command", "run"},
-          {"question", state.question},
+  return {{"steps", state.steps},
           {"first", state.at.first},
           {"step", state.at.batch.step},
           {"wave", batch},
@@ -27,18 +24,22 @@ json head_of(const checkpoint& state) {
           {"diverged", diverged},
           {"began", state.began},
           {"keeps_all", state.keeps_all},
-          {"is_copied", state.is_copied},
-          {"output", state.output},
           {"length", state.written.length},
           {"sum", state.written.crc},
           {"in_order", state.in_order},
-          {"laid_out", state.laid_out},
           {"finished", state.finished}};
 }
 
-checkpoint state_of(const json& head) {
-  checkpoint state;
-  state.question = head.at("question");
+/// Throws std::exception unless it is a whole number, and not negative.
+std::int64_t count_in(const json& value) {
+  const auto number = value.get_ref<const json::number_integer_t&>();
+  if (number < 0) throw std::out_of_range("a count must not be negative");
+  return number;
+}
+
+run_state state_of(const json& head) {
+  run_state state;
+  state.steps = count_in(head.at("steps"));
   state.at.first = count_in(head.at("first"));
   state.at.batch.step = count_in(head.at("step"));
   for (const auto& step : head.at("wave")) {
@@ -48,22 +49,18 @@ checkpoint state_of(const json& head) {
     state.lost.push_back({count_in(one.at("trajectory")), count_in(one.at("step"))});
   }
   state.at.energy_error = head.at("energy_error").get<double>();
-  state.began = count_in(head.value("began", json(0)));  // older ones do not say, and keep the batch alone
-  state.keeps_all = head.value("keeps_all", false);
-  state.is_copied = head.value("is_copied", false);
-  state.output = head.value("output", std::string());
+  state.began = count_in(head.at("began"));
+  state.keeps_all = head.at("keeps_all").get<bool>();
   state.written.length = static_cast<std::uint64_t>(count_in(head.at("length")));
   state.written.crc = static_cast<std::uint32_t>(count_in(head.at("sum")));
   state.in_order = head.at("in_order").get<bool>();
-  state.laid_out = head.value("laid_out", true);  // older ones do not say
   state.finished = head.at("finished").get<bool>();
   return state;
 }
 
 /// Throws std::exception for parts that are not of one run.
-void require_sound(const checkpoint& state) {
-  const std::int64_t trajectories = count_in(state.question.at("trajectories"));
-  const std::int64_t steps = count_in(state.question.at("steps"));
+void require_sound(const run_state& state, std::int64_t trajectories) {
+  const std::int64_t steps = state.steps;
   const std::int64_t step = state.at.batch.step;
   const auto& batch = state.at.batch.diverged_at;
   const bool is_of_it = std::ranges::all_of(state.lost, [&](const diverged_trajectory& one) {
@@ -74,43 +71,42 @@ void require_sound(const checkpoint& state) {
                          (state.keeps_all || state.began == 0) && (batch.empty() || step >= state.began);
   if (state.at.first > trajectories - std::ssize(batch) || step > steps || is_no_cut || !has_begun ||
       !is_of_it) {
-    throw std::out_of_range("checkpoint");
+    throw std::out_of_range("state");
   }
 }
 
-/// Throws refusal unless the run of the question prolongs that of the state, which differs in nothing else.
-void require_longer(const checkpoint& state, std::int64_t steps, const std::filesystem::path& file) {
-  const auto steps_then = count_in(state.question.at("steps"));
+/// Throws refusal unless a run of so many steps prolongs that of the state.
+void require_longer(const run_state& state, std::int64_t steps) {
   if (!state.finished) {
-    refuse(
-        "--horizon must be that of the run of {} until the run ends, {} steps, got {}; finish that run first",
-        file.string(), steps_then, steps);
+    refuse("--horizon must be that of the run that was stopped, {} steps, got {}; finish that run first",
+           state.steps, steps);
   }
-  if (steps < steps_then) {
-    refuse("--horizon must not be shorter than the finished run of {}, {} steps, got {} steps", file.string(),
-           steps_then, steps);
+  if (steps < state.steps) {
+    refuse("--horizon must not be shorter than that of the finished run, {} steps, got {} steps", state.steps,
+           steps);
   }
   if (!state.keeps_all) {
     refuse(
-        "cannot prolong the run of {}: the checkpoint does not keep where its trajectories end, as an older "
-        "nysalt wrote it or they take more than {} MB; take --start with the output, or begin anew",
-        file.string(), most_numbers_of_all * 8 >> 20U);
+        "cannot prolong the run: its trajectories take more than {} MB, which are not kept; take --start "
+        "with "
+        "the output, or begin anew",
+        most_numbers_of_all * 8 >> 20U);
   }
 }
 
-/// How many trajectories the numbers of a checkpoint are of.
-std::int64_t trajectories_with_numbers(const checkpoint& state) {
+/// How many trajectories the numbers of a state are of.
+std::int64_t trajectories_with_numbers(const run_state& state, std::int64_t trajectories) {
   const std::int64_t of_batch = std::ssize(state.at.batch.diverged_at);
   if (!state.keeps_all) return of_batch;
-  if (state.began > 0) return count_in(state.question.at("trajectories"));
+  if (state.began > 0) return trajectories;
   // Of fewer steps than are between two checks a longer run begins anew.
-  const bool has_no_check = last_check(count_in(state.question.at("steps"))) == 0;
+  const bool has_no_check = last_check(state.steps) == 0;
   return has_no_check ? of_batch : state.at.first + of_batch;
 }
 
 }  // namespace
 
-saved_runs runs_of(const checkpoint& state, std::int64_t step, std::int64_t first, std::int64_t count,
+saved_runs runs_of(const run_state& state, std::int64_t step, std::int64_t first, std::int64_t count,
                    std::int64_t dimension) {
   const std::int64_t each = 3 * dimension;  // q, p and force
   const auto begin = state.numbers.begin() + first * each;
@@ -123,28 +119,21 @@ saved_runs runs_of(const checkpoint& state, std::int64_t step, std::int64_t firs
   return result;
 }
 
-void write_checkpoint(const std::filesystem::path& file, const checkpoint& state,
-                      const std::function<void()>& check) {
-  write_checkpoint_file(file, head_of(state), state.numbers, check);
-}
+constexpr const char* of_state = "state";
 
-checkpoint read_checkpoint(const std::filesystem::path& file, const json& question, std::int64_t dimension) {
-  const json head = head_of_checkpoint(file, "run");
+void save(const run_state& state, work_file& work) { work.replace(of_state, head_of(state), state.numbers); }
+
+run_state saved_in(const work_file& work, std::int64_t steps, std::int64_t trajectories,
+                   std::int64_t dimension) {
+  const json head = work.result_of(of_state);
   try {
-    checkpoint state = state_of(head);
-    state.warning = warning_of_origin(head, file);
-    json of_steps_then = as_kept(question);
-    of_steps_then["steps"] = state.question.at("steps");
-    if (state.question == of_steps_then && state.question != as_kept(question)) {
-      require_sound(state);
-      require_longer(state, question.at("steps").get<std::int64_t>(), file);
-    } else {
-      require_question(state.question, question, file);
-      require_sound(state);
-    }
+    run_state state = state_of(head);
+    require_sound(state, trajectories);
+    if (state.steps != steps) require_longer(state, steps);
     const std::int64_t each = 3 * dimension;  // q, p and force
-    const auto count = static_cast<std::size_t>(trajectories_with_numbers(state) * each);
-    state.numbers = numbers_of_checkpoint(file, count);
+    const std::int64_t count = trajectories_with_numbers(state, trajectories) * each;
+    state.numbers = work.numbers();
+    if (std::ssize(state.numbers) != count) throw std::out_of_range("numbers");
     if (const std::int64_t of_batch = std::ssize(state.at.batch.diverged_at); of_batch > 0) {
       const auto begin = state.numbers.begin() + (state.keeps_all ? state.at.first * each : 0);
       state.at.batch.numbers = {begin, begin + of_batch * each};
@@ -153,15 +142,8 @@ checkpoint read_checkpoint(const std::filesystem::path& file, const json& questi
   } catch (const refusal&) {
     throw;
   } catch (const std::exception&) {
-    refuse_edited_checkpoint(file);
+    work.refuse_edited(of_state);
   }
-}
-
-bool is_of_unfinished_run(const std::filesystem::path& file) {
-  const json head = head_of_checkpoint(file, "run");
-  const json finished = head.value("finished", json());
-  if (!finished.is_boolean()) refuse_edited_checkpoint(file);
-  return !finished.get<bool>();
 }
 
 }  // namespace nysalt::program
