@@ -172,6 +172,7 @@ json recommendation::row_json(const contest& among, const candidate& contender) 
            {"error_of_95_percent",
             has_error && contender.is_eligible() ? json(quantile_of(contender.error)) : json(nullptr)},
            {"diverged", contender.error.diverged},
+           {"trajectories", contender.error.trajectories},
            {"reference_error", contender.reference_error ? json(*contender.reference_error) : json(nullptr)},
            {"confirmed", nullptr}};
   if (contender.confirmed && contender.reason.empty()) {
@@ -269,20 +270,31 @@ std::string recommendation::readable() const {
   for (const auto& contender : among.all) {
     const bool has_quantile = contender.is_eligible();
     const double quantile = has_quantile ? quantile_of(contender.error) : std::nan("");
-    ranking.add(
-        {contender.source.typed, fmt::format("{}", contender.order), number("{:.4g}", contender.step),
-         number("{:.1f}", contender.evaluations_per_time), number("{:.0f}", 1e9 * contender.seconds_per_time),
-         number("{:.2e}", contender.error.mean.mean),
-         contender.error.is_heavy ? "tail" : number("{:.1e}", contender.error.mean.standard_error),
-         number("{:.2e}", quantile), fmt::format("{}/{}", contender.error.diverged, options_.trajectories)});
+    ranking.add({contender.source.typed, fmt::format("{}", contender.order), number("{:.4g}", contender.step),
+                 number("{:.1f}", contender.evaluations_per_time),
+                 number("{:.0f}", 1e9 * contender.seconds_per_time),
+                 number("{:.2e}", contender.error.mean.mean),
+                 contender.error.is_heavy ? "tail" : number("{:.1e}", contender.error.mean.standard_error),
+                 number("{:.2e}", quantile),
+                 fmt::format("{}/{}", contender.error.diverged, contender.error.trajectories)});
   }
   text += ranking.text();
   if (among.statistic.is_quantile) {
     text +=
         "tail: this mean rests on few trajectories; ranked by what 95 of 100 trajectories err less than\n";
   }
+  if (std::ranges::any_of(among.all, &candidate::is_left_behind)) {
+    text += options_.error
+                ? fmt::format("Below {0} trajectories: left behind, for costs too far above the least\n",
+                              options_.trajectories)
+                : fmt::format(
+                      "Below {0} trajectories: left behind, for errors larger than the least by "
+                      "more than chance or further data change\n",
+                      options_.trajectories);
+  }
   for (const auto& contender : among.all) {
-    if (!contender.reason.empty()) text += fmt::format("{}: {}\n", contender.source.typed, contender.reason);
+    if (!contender.reason.empty() && !contender.is_left_behind)
+      text += fmt::format("{}: {}\n", contender.source.typed, contender.reason);
   }
   std::map<std::string, std::string> by_reason;
   for (const auto& [name, reason] : left_out_) {
