@@ -151,7 +151,7 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
   const argument_reader asked(arguments);
   const auto common = common_of(asked, system.calls_python());
   const auto command = run_of(asked, system.settings);
-  program::require_positive("--step", command.step);
+  program::require_positive("step", command.step);
   std::int64_t steps = 0;
   asked.take("steps", steps);
   if (steps < 0) refuse("steps must not be negative, got {}", steps);
@@ -200,7 +200,7 @@ py::tuple judge(const held_system& system, const py::dict& arguments) {
   const argument_reader asked(arguments);
   const auto common = common_of(asked, system.calls_python());
   const auto command = run_of(asked, system.settings);
-  program::require_positive("--step", command.step);
+  program::require_positive("step", command.step);
   std::string document;
   std::vector<std::string> warnings;
   compute(system.calls_python(), [&] {

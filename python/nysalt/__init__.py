@@ -380,7 +380,7 @@ def _held_by_name(given: Iterable[Method]) -> Tuple[List[Any], Dict[str, str]]:
 
 def _warn(texts: Sequence[str], stacklevel: int = 3) -> None:
     for text in texts:
-        _warnings.warn(_nysalt.in_words_of_python(text), stacklevel=stacklevel)
+        _warnings.warn(text, stacklevel=stacklevel)
 
 
 def _chosen(found: Tuple[str, Optional[str], Optional[str]]) -> Tuple[Dict[str, Any], Union[Scheme, Table, None]]:

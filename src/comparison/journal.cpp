@@ -45,13 +45,15 @@ journal::journal(const std::filesystem::path& file, const json& question, bool r
   const std::size_t whole = read(text, question, head);
   if (!resume && !found_.empty()) {
     refuse(
-        "cannot write {}: the file holds {} finished parts of a run that was stopped; take --resume, or "
-        "remove the file",
-        path_.string(), found_.size());
+        "cannot write {}: the file holds {} finished parts of a run that was stopped; take {}, or remove the "
+        "file",
+        path_.string(), found_.size(), switched_on("resume"));
   }
   on_first(all_ranks(), [&] {
     if (ftruncate(fileno(file_.get()), static_cast<off_t>(whole)) != 0) {
-      fail_to_write("cannot write {}: the system does not shorten the file; name another --output");
+      throw nysalt::detail::write_failure(
+          fmt::format("cannot write {}: the system does not shorten the file; name another {}",
+                      path_.string(), spelled("output")));
     }
     std::fseek(file_.get(), 0, SEEK_END);
     if (whole == 0) write(head);
@@ -62,18 +64,18 @@ journal::journal(const std::filesystem::path& file, const json& question, bool r
 std::string journal::open_file() {
   std::error_code ignored;
   if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
-    refuse("cannot write {}: it is not a regular file; name another --output", path_.string());
+    refuse("cannot write {}: it is not a regular file; name another {}", path_.string(), spelled("output"));
   }
   const int descriptor = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor < 0) {
-    fail_to_write(
-        "cannot write {}: the folder or the file is not writable, or the disk is full; name another "
-        "--output");
+    throw nysalt::detail::write_failure(fmt::format(
+        "cannot write {}: the folder or the file is not writable, or the disk is full; name another {}",
+        path_.string(), spelled("output")));
   }
   file_.reset(fdopen(descriptor, "r+"));
   if (nysalt::detail::ask_for_lock(descriptor) == nysalt::detail::lock_outcome::held_by_another) {
-    refuse("cannot write {}: another run is writing it; wait for that run, or name another --output",
-           path_.string());
+    refuse("cannot write {}: another run is writing it; wait for that run, or name another {}",
+           path_.string(), spelled("output"));
   }
   constexpr std::uintmax_t most = std::uintmax_t{1} << 28U;  // bytes
   const auto size = std::filesystem::file_size(path_, ignored);
@@ -153,17 +155,13 @@ void journal::keep(const std::string& part, const json& result) {
   has_written_ = true;
 }
 
-void journal::fail_to_write(fmt::format_string<std::string> text) const {
-  throw nysalt::detail::write_failure(fmt::format(text, path_.string()));
-}
-
 void journal::write(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size();
   if (!written || std::fflush(file_.get()) != 0) {
-    fail_to_write(
-        "cannot write {}: the disk may be full; free space on it, then take --resume, which keeps the "
-        "finished "
-        "parts");
+    throw nysalt::detail::write_failure(
+        fmt::format("cannot write {}: the disk may be full; free space on it, then take {}, which keeps the "
+                    "finished parts",
+                    path_.string(), switched_on("resume")));
   }
 }
 

@@ -72,7 +72,6 @@ class journal {
   [[noreturn]] void refuse_edited(const std::string& part) const;
   void keep(const std::string& part, const json& result);
   void write(const std::string& text);
-  [[noreturn]] void fail_to_write(fmt::format_string<std::string> text) const;
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, close> file_;

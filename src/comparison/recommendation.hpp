@@ -123,7 +123,7 @@ class recommendation {
   std::string advice_on_seconds() const;
   std::string advice_on_observations() const;
   std::string costs(const candidate& contender, const candidate& other) const;
-  std::string as_options(const candidate& contender) const;
+  std::string as_settings(const candidate& contender) const;
   std::string bound_of(const contest& among, const candidate& contender) const;
   std::string quantity() const;
   double quantile_of(const measured_error& error) const;

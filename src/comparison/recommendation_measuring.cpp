@@ -13,10 +13,10 @@
 namespace nysalt::program {
 
 trajectories_plan recommendation::plan_at(double step, std::int64_t count, std::uint64_t seed) const {
-  trajectories_plan plan{step, steps_within("--horizon", options_.horizon, step), count, seed,
+  trajectories_plan plan{step, steps_within("horizon", options_.horizon, step), count, seed,
                          common_.execution.threads};
   if (!metric().is_along_paths()) return plan;
-  plan.steps = steps_beyond("--horizon", options_.horizon, step);  // errors are means over all of the horizon
+  plan.steps = steps_beyond("horizon", options_.horizon, step);  // errors are means over all of the horizon
   plan.horizon = options_.horizon;
   return plan;
 }
@@ -27,9 +27,8 @@ void recommendation::prepare(candidate& contender, std::int64_t trajectories, co
   const double samples = options_.horizon / contender.step;
   if (metric().is_along_paths() && samples < fewest_samples - 1e-9) {
     contender.reason = fmt::format(
-        "--horizon {:g} holds {:.3g} of its steps of {:g}, fewer than the {:g} that a mean "
-        "over time takes",
-        options_.horizon, samples, contender.step, fewest_samples);
+        "{} {:g} holds {:.3g} of its steps of {:g}, fewer than the {:g} that a mean over time takes",
+        spelled("horizon"), options_.horizon, samples, contender.step, fewest_samples);
     return;
   }
   try {

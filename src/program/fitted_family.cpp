@@ -22,15 +22,16 @@ constexpr std::int64_t first_trajectories = 50;
 
 std::vector<double> steps_of(const learn_command& command) {
   if (command.step.has_value() == !command.steps.empty()) {
-    refuse("learn: --step or --steps must be given, and not both; give --steps for a curve");
+    refuse("learn: {} or {} must be given, and not both; give {} for a curve", spelled("step"),
+           spelled("steps"), spelled("steps"));
   }
   std::vector<double> steps = command.steps;
   if (command.step) steps.push_back(*command.step);
   for (const double step : steps) {
-    require_positive(command.step ? "--step" : "--steps", step);
-    steps_within("--horizon", command.learning.horizon_at(step), step);
+    require_positive(command.step ? "step" : "steps", step);
+    steps_within("horizon", command.learning.horizon_at(step), step);
   }
-  require_different("--steps", steps, [](double one, double next) { return next - one <= 1e-8 * one; });
+  require_different("steps", steps, [](double one, double next) { return next - one <= 1e-8 * one; });
   return steps;
 }
 
@@ -82,15 +83,15 @@ json document_of(const learned_scheme& learned, const prepared_problem& system,
 
 fitted_family::fitted_family(const learn_command& command, const common_settings& common)
     : command_(command), common_(common), system_(make_system(command.system)) {
-  settle_purpose(command_.learning, system_->heat_bath(), "--");
-  require_sound(command_.learning, "--");
+  settle_purpose(command_.learning, system_->heat_bath(), "");
+  require_sound(command_.learning, "");
   steps_ = steps_of(command_);
   if (command.enough) {
-    require_positive("--enough", *command.enough);
+    require_positive("enough", *command.enough);
     const loss_kind& loss = *loss_named(command_.learning.loss).kind;
     if (!loss.asks_data()) {
-      refuse("--enough must come with a loss that learns from trajectories, got {}; leave --enough out",
-             loss.name);
+      refuse_value("enough", "must come with a loss that learns from trajectories, got {}; leave {} out",
+                   loss.name, spelled("enough"));
     }
   }
   method_source source;

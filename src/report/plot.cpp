@@ -49,9 +49,9 @@ bool draw(const figure& f, const std::filesystem::path& folder, const std::vecto
   write_file(folder / (f.name + ".gp"), detail::plot_script(f));
   for (const std::string& kind : kinds) {
     const std::filesystem::path picture = folder / (f.name + "." + kind);
-    const program::child_result made = program::run_child(
-        {"gnuplot", "--default-settings", "-e", fmt::format("kind='{}'", kind), "./" + f.name + ".gp"},
-        folder, program::error_output::dropped);
+    const program::child_result made =
+        program::run_child({"gnuplot", "-d", "-e", fmt::format("kind='{}'", kind), "./" + f.name + ".gp"},
+                           folder, program::error_output::dropped);
     if (!made.succeeded() || !is_whole_picture(made.output, kind)) {
       remove_picture(picture);
       drawn = false;

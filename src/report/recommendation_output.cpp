@@ -28,9 +28,11 @@ std::string multiple_of(double ratio, double tolerance, const char* what, const 
 
 }  // namespace
 
-std::string recommendation::as_options(const candidate& contender) const {
-  const std::string where = options_.placement.empty() ? "" : " --placement " + options_.placement;
-  return fmt::format("--method {} --step {:.12g}{}", contender.source.typed, contender.step, where);
+std::string recommendation::as_settings(const candidate& contender) const {
+  std::vector<std::string> settings{spelled("method", contender.source.typed),
+                                    spelled("step", contender.step)};
+  if (!options_.placement.empty()) settings.push_back(spelled("placement", options_.placement));
+  return spelled_together(settings);
 }
 
 /// The cost of one relative to the other: "as many evaluations and 1.3 times the seconds".
@@ -61,7 +63,7 @@ std::string recommendation::advice_of(const contest& among) const {
   }
   if (learned == nullptr) {
     return fmt::format("A classical method wins: {}{}. No learned method is accepted.",
-                       as_options(*classical), bound_of(among, *classical));
+                       as_settings(*classical), bound_of(among, *classical));
   }
   if (classical == nullptr) {
     return fmt::format("Take {} at step {:.12g}{}: no classical method is accepted.", learned->source.typed,
@@ -76,7 +78,7 @@ std::string recommendation::advice_of(const contest& among) const {
             : fmt::format(" (the ratio of their errors is {:.3g}, 95 %: {:.3g} to {:.3g})", ratio.value,
                           ratio.low, ratio.high);
     return fmt::format("A tie: {} and {} do not differ significantly{}. The latter needs no learning: {}{}.",
-                       learned->source.typed, classical->source.typed, within, as_options(*classical),
+                       learned->source.typed, classical->source.typed, within, as_settings(*classical),
                        bound_of(among, *classical));
   }
   const bool is_learned = best == learned;
@@ -88,7 +90,7 @@ std::string recommendation::advice_of(const contest& among) const {
                                  in_words(is_learned ? ratio : ratio.inverse()), rival, costs(*best, other))
                    : fmt::format("it takes {} of {}{}", costs(*best, other), rival, bound_of(among, *best));
   if (is_learned) return fmt::format("Take {} at step {:.12g}: {}.", best->source.typed, best->step, why);
-  return fmt::format("A classical method wins: {}; {}.", as_options(*best), why);
+  return fmt::format("A classical method wins: {}; {}.", as_settings(*best), why);
 }
 
 /// Whether seconds say the same as evaluations, and if not, who wins by them.
@@ -116,9 +118,10 @@ std::string recommendation::advice_on_seconds() const {
   }
   return fmt::format(
       " By seconds another wins: in the same {:.0f} ns per unit time the error of {} is {}, at {:.2g} "
-      "times the evaluations (--budget-seconds {:.3g}).",
+      "times the evaluations ({} {:.3g}).",
       1e9 * first->seconds_per_time, method_at_step, in_words(ratio),
-      fast->evaluations_per_time / first->evaluations_per_time, first->seconds_per_time);
+      fast->evaluations_per_time / first->evaluations_per_time, spelled("budget_seconds"),
+      first->seconds_per_time);
 }
 
 /// The cost of observations of a processed method, where one is advised.
@@ -126,9 +129,9 @@ std::string recommendation::advice_on_observations() const {
   const candidate* best = asked().taken();
   if (best == nullptr || best->source.evaluations_to_observe == 0) return {};
   return fmt::format(
-      " {} is counted with {} observation{} of each trajectory (--looks): every further one takes {} "
+      " {} is counted with {} observation{} of each trajectory ({}): every further one takes {} "
       "evaluations.",
-      best->source.typed, options_.looks, options_.looks == 1 ? "" : "s",
+      best->source.typed, options_.looks, options_.looks == 1 ? "" : "s", spelled("looks"),
       best->source.evaluations_to_observe);
 }
 

@@ -44,8 +44,8 @@ std::string sampling_choice::advice() const {
   if (best->found->is_longest) {
     return fmt::format(
         "Take {}: even trajectories of one step are accepted more often than asked; a longer "
-        "--length costs nothing.",
-        what);
+        "{} costs nothing.",
+        what, spelled("length"));
   }
   const auto* learned = best_of(true);
   const auto* classical = best_of(false);

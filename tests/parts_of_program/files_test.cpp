@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(a_journal_is_of_one_process) {
   std::optional<journal> first(std::in_place, folder / "j", question, false);
   for (const bool resume : {false, true}) {
     BOOST_TEST(refuses<refusal>([&] { journal(folder / "j", question, resume); },
-                                {"another run is writing it", "name another --output"}));
+                                {"another run is writing it", "name another output"}));
   }
   first.reset();
   const journal second(folder / "j", question, true);

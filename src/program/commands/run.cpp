@@ -75,7 +75,7 @@ void require_files(const run_command& command) {
   }
   if (!command.every)
     refuse("--checkpoint must come with --every; give the number of steps between two checkpoints");
-  require_at_least_one("--every", *command.every);
+  require_at_least_one("every", *command.every);
   if (command.output.empty())
     refuse("--checkpoint must come with --output; name a file, as printed results cannot be continued");
   require_checkpoint(command.checkpoint, command.output, command.plot);

@@ -91,7 +91,7 @@ void require_files(const sample_command& command) {
   }
   if (!command.every)
     refuse("--checkpoint must come with --every; give the number of trajectories between two checkpoints");
-  require_at_least_one("--every", *command.every);
+  require_at_least_one("every", *command.every);
   require_checkpoint(command.checkpoint, command.output, false);
   if (!command.resume) require_new_checkpoint(command);
 }
@@ -258,11 +258,11 @@ method method_for(const method_source& source, const prepared_problem& system, c
 }
 
 void require_numbers(const sample_command& command) {
-  if (command.step) require_positive("--step", *command.step);
-  if (command.length) require_positive("--length", *command.length);
-  require_positive("--hmc-temperature", command.temperature);
-  require_at_least_one("--chains", command.chains);
-  require_at_least_one("--draws", command.draws);
+  if (command.step) require_positive("step", *command.step);
+  if (command.length) require_positive("length", *command.length);
+  require_positive("hmc_temperature", command.temperature);
+  require_at_least_one("chains", command.chains);
+  require_at_least_one("draws", command.draws);
   constexpr std::int64_t most = std::int64_t{1} << 48U;  // trajectories with noise of their own
   const auto of_chain = static_cast<double>(command.burn_in) + static_cast<double>(command.draws);
   if (static_cast<double>(command.chains) * of_chain > static_cast<double>(most)) {

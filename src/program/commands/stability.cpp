@@ -228,7 +228,7 @@ void write_curve(const stability_command& command, const subject& target, const 
 }  // namespace
 
 int stability(const stability_command& command, const common_settings& common) {
-  if (command.step) require_positive("--step", *command.step);
+  if (command.step) require_positive("step", *command.step);
   if (command.system && !command.step) {
     refuse("--system must come with --step; give the step at which its frequencies must be stable");
   }
