@@ -35,15 +35,17 @@ const candidate* least_of(const std::vector<const candidate*>& all, const error_
 
 }  // namespace
 
-/// Each time three times as many, up to all.
+/// Each time three times as many, up to all. To judge costs less than to learn, and tails of errors show on
+/// many trajectories only: so all are judged on more than they are learned from.
 std::vector<recommendation::stage> recommendation::stages() const {
   constexpr std::int64_t fewest = 16;  // a pass over fewer costs as much: they are the lanes of a processor
-  const auto part = [&](std::int64_t all, std::int64_t divisor) {
-    return std::min(all, std::max(fewest, all / divisor));
+  const auto part = [](std::int64_t all, std::int64_t divisor, std::int64_t at_least) {
+    return std::min(all, std::max(at_least, all / divisor));
   };
   std::vector<stage> result;
   for (const std::int64_t divisor : {9, 3, 1}) {
-    const stage next{part(options_.learning.trajectories, divisor), part(options_.trajectories, divisor)};
+    const stage next{part(options_.learning.trajectories, divisor, fewest),
+                     part(options_.trajectories, std::max<std::int64_t>(divisor / 3, 1), 2 * fewest)};
     const bool is_new = result.empty() || next.learned_from > result.back().learned_from ||
                         next.judged_on > result.back().judged_on;
     if (is_new) result.push_back(next);
@@ -60,8 +62,8 @@ void recommendation::race(const contest& among, std::vector<candidate*> racing) 
   }
 }
 
-/// What was learned from fewer trajectories, or in the other contest, is where the search goes on. What
-/// could not be used is searched for again.
+/// What was learned from fewer trajectories, or in the other contest, is where the search goes on; the last
+/// few are searched for once more from everywhere, on all trajectories. So is what could not be used.
 void recommendation::advance(const contest& among, candidate& contender, const stage& at) {
   if (!contender.is_learned()) {
     if (!contender.method && contender.reason.empty()) prepare(contender, 0);
@@ -78,7 +80,8 @@ void recommendation::advance(const contest& among, candidate& contender, const s
   if (known == nullptr || !known->learned->fit.usable) return prepare(contender, at.learned_from);
   constexpr double nearby = 1.5;  // at steps further apart other minima may be the best
   const double apart = std::abs(std::log(contender.step / known->step));
-  const bool is_near = known->learned->fit.follows_to_the_end() && apart <= std::log(nearby);
+  const bool is_last = at.learned_from == options_.learning.trajectories;
+  const bool is_near = !is_last && known->learned->fit.follows_to_the_end() && apart <= std::log(nearby);
   prepare(contender, at.learned_from, theta_of(known->learned->fit), is_near);
 }
 
@@ -108,12 +111,15 @@ void recommendation::leave_behind(const contest& among, std::vector<candidate*>&
   for (std::size_t n = 0; n < in_order.size(); ++n) {
     candidate& one = *in_order[n];
     const ratio_estimate ratio = ratio_on_common(one, *best, among.statistic);
-    // Of a fit to n trajectories p parameters add at most p / n to the mean square, each trajectory counted
-    // as one residual.
+    // A fit to n trajectories that count alike adds at most the share p / n to the mean square of an error, p
+    // the number of parameters: each trajectory counted as one residual.
     double more_data = 1.0;
     if (one.is_learned()) {
-      const auto parameters = static_cast<double>(one.learned->fit.parameters.size());
-      more_data = std::sqrt(1.0 + parameters / static_cast<double>(one.learned_from));
+      const fit_summary& fit = one.learned->fit;
+      const double alike = std::isfinite(fit.deciding_trajectories)
+                               ? std::min(fit.deciding_trajectories, static_cast<double>(one.learned_from))
+                               : 1.0;
+      more_data = std::sqrt(1.0 + static_cast<double>(fit.parameters.size()) / std::max(alike, 1.0));
     }
     const bool is_beyond = one.is_learned() && n >= most;
     if (n == 0 || !(ratio.low > more_data || is_beyond)) {
