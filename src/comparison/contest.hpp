@@ -59,7 +59,10 @@ struct candidate {
 
   bool is_learned() const { return source.family.has_value(); }
   /// The candidate was measured, and stayed with the reference on every trajectory.
-  bool is_eligible() const { return reason.empty() && !error.scores.empty() && error.diverged == 0; }
+  bool is_eligible() const { return reason.empty() && has_error(); }
+  /// That, or it was so on the trajectories on which it was left behind.
+  bool is_ranked() const { return (reason.empty() || is_left_behind) && has_error(); }
+  bool has_error() const { return !error.scores.empty() && error.diverged == 0; }
 };
 
 enum class cost_unit { evaluations, seconds };

@@ -20,10 +20,6 @@ ratio_estimate ratio_on_common(const candidate& one, const candidate& other, con
   return paired_ratio({of_one.data(), common}, {of_other.data(), common}, by);
 }
 
-bool has_error(const candidate& contender) {
-  return !contender.error.scores.empty() && contender.error.diverged == 0;
-}
-
 /// The least error on common trajectories; null of none.
 const candidate* least_of(const std::vector<const candidate*>& all, const error_statistic& by) {
   const candidate* best = nullptr;
@@ -91,12 +87,12 @@ void recommendation::advance(const contest& among, candidate& contender, const s
 void recommendation::leave_behind(const contest& among, std::vector<candidate*>& racing) const {
   std::erase_if(racing, [](const candidate* one) {
     const bool is_hopeless =
-        one->reason.empty() ? !has_error(*one) : !one->learned || one->learned->fit.usable;
+        one->reason.empty() ? !one->has_error() : !one->learned || one->learned->fit.usable;
     return is_hopeless;
   });
   // Not std::ranges::stable_partition: clang++ 14 does not compile what it returns.
   const auto measured = std::stable_partition(racing.begin(), racing.end(),
-                                              [](const candidate* one) { return !has_error(*one); });
+                                              [](const candidate* one) { return !one->has_error(); });
   std::vector<candidate*> in_order(measured, racing.end());
   racing.erase(measured, racing.end());
   if (in_order.empty()) return;

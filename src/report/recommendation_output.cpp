@@ -159,25 +159,24 @@ std::string recommendation::quantity() const {
 }
 
 json recommendation::row_json(const contest& among, const candidate& contender) const {
-  const bool has_error = contender.reason.empty() && !contender.error.scores.empty();
-  json row{{"method", contender.source.typed},
-           {"learned", contender.is_learned()},
-           {"order", contender.order},
-           {"reversible", contender.symmetric},
-           {"rotation", contender.rotates},
-           {"evaluations_per_step", contender.source.evaluations_per_step},
-           {"step_size", contender.step},
-           {"evaluations_per_time", contender.evaluations_per_time},
-           {"seconds_per_time", contender.seconds_per_time},
-           {"error", contender.error.mean.mean},
-           {"standard_error", contender.error.mean.standard_error},
-           {"tail", contender.error.is_heavy},
-           {"error_of_95_percent",
-            has_error && contender.is_eligible() ? json(quantile_of(contender.error)) : json(nullptr)},
-           {"diverged", contender.error.diverged},
-           {"trajectories", contender.error.trajectories},
-           {"reference_error", contender.reference_error ? json(*contender.reference_error) : json(nullptr)},
-           {"confirmed", nullptr}};
+  json row{
+      {"method", contender.source.typed},
+      {"learned", contender.is_learned()},
+      {"order", contender.order},
+      {"reversible", contender.symmetric},
+      {"rotation", contender.rotates},
+      {"evaluations_per_step", contender.source.evaluations_per_step},
+      {"step_size", contender.step},
+      {"evaluations_per_time", contender.evaluations_per_time},
+      {"seconds_per_time", contender.seconds_per_time},
+      {"error", contender.error.mean.mean},
+      {"standard_error", contender.error.mean.standard_error},
+      {"tail", contender.error.is_heavy},
+      {"error_of_95_percent", contender.is_ranked() ? json(quantile_of(contender.error)) : json(nullptr)},
+      {"diverged", contender.error.diverged},
+      {"trajectories", contender.error.trajectories},
+      {"reference_error", contender.reference_error ? json(*contender.reference_error) : json(nullptr)},
+      {"confirmed", nullptr}};
   if (contender.confirmed && contender.reason.empty()) {
     row["confirmed"] = {{"error", among.statistic(contender.confirmed->scores)},
                         {"upper_bound", among.statistic.upper_bound(contender.confirmed->scores)}};
@@ -271,7 +270,7 @@ std::string recommendation::readable() const {
     return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : std::string("-");
   };
   for (const auto& contender : among.all) {
-    const bool has_quantile = contender.is_eligible();
+    const bool has_quantile = contender.is_ranked();
     const double quantile = has_quantile ? quantile_of(contender.error) : std::nan("");
     ranking.add({contender.source.typed, fmt::format("{}", contender.order), number("{:.4g}", contender.step),
                  number("{:.1f}", contender.evaluations_per_time),
