@@ -26,7 +26,7 @@ nysalt run --system lennard_jones --parameter atoms=13 --method pair.json --step
 #
 # state error
 #
-# Nothing beats small.json at 67.77 force evaluations per unit time: the error of phase_fitted_mclachlan5 is 2.83 ± 0.05 times larger.
+# small.json is best: at 67.77 evaluations a unit of time its error is 2.83 ± 0.05 times smaller than that of the next, phase_fitted_mclachlan5.
 #
 # step sizes  reference                           its own error, at most  null model, at least  predictable until
 # ----------  ----------------------------------  ----------------------  --------------------  -----------------

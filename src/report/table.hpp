@@ -16,10 +16,12 @@ class table {
   /// Adds a row. Throws std::invalid_argument unless there is a cell for each column.
   void add(std::vector<std::string> cells);
 
-  bool empty() const { return rows_.empty(); }  ///< whether there is no row
+  bool empty() const { return rows_.empty(); }       ///< whether there is no row
+  std::size_t size() const { return rows_.size(); }  ///< number of rows
 
-  /// Columns aligned by blanks, with a rule below their names.
-  std::string text() const;
+  /// Columns aligned by blanks, with a rule below their names. Where that is wider than `width`, the middle
+  /// of the longest words on the left is left out.
+  std::string text(std::size_t width = std::string::npos) const;
   /// GitHub's Markdown, aligned too; cells are escaped.
   std::string markdown() const;
 

@@ -64,6 +64,7 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
   begin_group(command, output_group);
   command.add_option("--output", asked.output, "the file to write: the method to take")->type_name(a_file);
   add_json(command, common);
+  add_verbose(command, common);
   add_common(command, common);
   command.footer(
       "Examples:\n"
