@@ -188,7 +188,6 @@ std::string words_of(const range_of_costs& range) {
 }
 
 std::string leaders_of(const range_of_costs& range) {
-  if (range.best.empty()) return "none is ranked";
   return named(range.best) + (range.best.size() > 1 ? " (which error bars do not separate)" : "");
 }
 
@@ -227,9 +226,7 @@ std::string lead_of(const std::vector<best_at_cost>& found, const std::string& u
   std::string text = fmt::format("{} is best: at {:.4g}", leader, costs.front());
   if (costs.size() > 1) text += fmt::format(" to {:.4g}", costs.back());
   text += fmt::format(" {} its {} is {} times smaller than that of the next", unit, error,
-                      ratios.size() == 1 ? with_error(ratios.front())
-                      : low == high      ? low
-                                         : low + " to " + high);
+                      low == high ? with_error(*least) : low + " to " + high);
   if (seconds.size() == 1) text += ", `" + *seconds.begin() + "`";
   if (!found.front().next)
     text += fmt::format("; at less, from {:.4g} on, no other is ranked", found.front().cost);
@@ -238,10 +235,13 @@ std::string lead_of(const std::vector<best_at_cost>& found, const std::string& u
 
 }  // namespace
 
-std::string verdict_of(const std::vector<best_at_cost>& found, const std::string& unit,
+std::string verdict_of(const std::vector<best_at_cost>& at_all_costs, const std::string& unit,
                        const std::string& error) {
-  if (std::ranges::all_of(found, [](const best_at_cost& one) { return one.best.empty(); }))
-    return "No method is ranked: there is nothing to say on who is best.";
+  // What can be afforded at a cost can be at a larger one: where none is ranked are the least costs.
+  const auto first =
+      std::ranges::find_if(at_all_costs, [](const best_at_cost& one) { return !one.best.empty(); });
+  if (first == at_all_costs.end()) return "No method is ranked: there is nothing to say on who is best.";
+  const std::vector<best_at_cost> found(first, at_all_costs.end());
   const auto ranges = ranges_of(found);
   std::set<std::string> ranked;
   for (const auto& one : found) {
@@ -274,6 +274,9 @@ std::string verdict_of(const std::vector<best_at_cost>& found, const std::string
     text = fmt::format("The best are {} {} {}: error bars do not separate them.", named(ranges.front().best),
                        words_of(ranges.front()), unit);
   }
+  if (first != at_all_costs.begin())
+    text +=
+        fmt::format(" None is ranked {}.", words_of({at_all_costs.front().cost, std::prev(first)->cost, {}}));
   const bool has_error_bars = std::ranges::all_of(found, &best_at_cost::has_error_bars);
   if (!has_error_bars && !is_only_row)
     text += " Some errors have no error bar, and differences may be chance.";

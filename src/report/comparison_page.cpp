@@ -142,9 +142,12 @@ void add_verdict(page& report, const comparison& all) {
   table best(names, is_one ? 2 : 3);
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
     const auto found = best_by(all, m, evaluations_of);
-    const std::string sentence =
-        verdict_of_both(found, best_by(all, m, seconds_of), errors_compared(all, m)) + left_out(all, m);
-    report.text(is_one ? sentence : fmt::format("**{}**: {}", quantity(all, m), sentence));
+    // What stays in view is short.
+    const std::string sentence = verdict_by_evaluations(all, m);
+    const std::string both = verdict_of_both(found, best_by(all, m, seconds_of), errors_compared(all, m));
+    report.verdict(is_one ? sentence : fmt::format("**{}**: {}", quantity(all, m), sentence));
+    const std::string further = both.substr(sentence.size()) + left_out(all, m);
+    if (!further.empty()) report.text(further.substr(1));
     for (const best_at_cost& one : some_of(found, is_one ? 4 : 3)) {
       if (one.best.empty()) continue;  // the sentence says so
       const ranked_method& first = one.best.front();
@@ -192,8 +195,7 @@ void add_metric(page& report, const comparison& all, std::size_t m) {
   report.heading(with_capital(quantity(all, m)));
   for (auto& picture : pictures_of_errors(all, m)) {
     const std::string caption = (is_by_median(all, m) ? "median " : "") + quantity(all, m) + " against " +
-                                picture.panels.front().x_label +
-                                "; bars are standard errors, hollow points are not ranked";
+                                picture.panels.front().x_label + "; bars are standard errors";
     report.picture(std::move(picture), caption);
   }
   if (const auto drawn = drawn_methods(all, m).size(); drawn < all.options().methods.size()) {

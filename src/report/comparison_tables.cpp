@@ -271,7 +271,10 @@ std::vector<placed_row> rows_by_rank(const comparison& all, std::size_t m) {
   const auto found = best_by(all, m, evaluations_of);
   std::vector<placed_row> result;
   for (const row& line : all.rows()) result.push_back(place_of(all, m, line, found));
-  const auto group = [](const placed_row& one) { return one.is_best ? 0 : std::isnan(one.ratio) ? 2 : 1; };
+  const auto group = [&](const placed_row& one) {
+    const bool is_there = one.line->measurements[m].reason.empty();
+    return one.is_best ? 0 : !std::isnan(one.ratio) ? 1 : is_there ? 2 : 3;
+  };
   std::ranges::stable_sort(result, [&](const placed_row& a, const placed_row& b) {
     if (group(a) != group(b)) return group(a) < group(b);
     if (group(a) == 1) return a.ratio < b.ratio;
@@ -296,7 +299,7 @@ table ranking_of(const comparison& all, std::size_t m) {
     const bool is_there = line->measurements[m].reason.empty();
     result.add({is_best             ? "1"
                 : std::isnan(ratio) ? "-"
-                                    : fmt::format("{}", ahead.size() + 1),
+                                    : fmt::format("{}", ahead.size() + 1 - ahead.count(line->method)),
                 line->method, fmt::format("{:g}", line->nominal),
                 fmt::format("{:.1f}", line->evaluations_per_time), shown,
                 std::isnan(ratio) || std::isinf(ratio) ? "-" : fmt::format("{:.3g}", ratio),
@@ -310,7 +313,7 @@ table ranking_of(const comparison& all, std::size_t m) {
 std::string short_meanings_of_marks(const comparison& all, std::size_t m) {
   std::string text;
   for (const std::string& one : meanings_of_marks(all, m)) {
-    text += (text.empty() ? "" : "; ") + one.substr(0, one.find_first_of(",;:", one.find(':') + 1));
+    text += (text.empty() ? "" : "; ") + one.substr(0, one.find_first_of(";:", one.find(':') + 1));
   }
   return text;
 }

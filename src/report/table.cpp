@@ -84,23 +84,6 @@ std::string table::markdown() const {
   return safe.lay_out("| ", " | ", " |", '-');
 }
 
-std::string table::html() const {
-  std::string result = "<table>\n<thead>\n";
-  const auto line = [&](const std::vector<std::string>& cells, const char* tag) {
-    result += "<tr>";
-    for (std::size_t j = 0; j < cells.size(); ++j) {
-      constexpr std::size_t on_a_line = 30;  // bytes: what is longer is a list
-      const char* kind = j < left_ ? "" : cells[j].size() > on_a_line ? " class=\"n long\"" : " class=\"n\"";
-      result += fmt::format("<{0}{1}>{2}</{0}>", tag, kind, html_escaped(cells[j]));
-    }
-    result += "</tr>\n";
-  };
-  line(columns_, "th");
-  result += "</thead>\n<tbody>\n";
-  for (const auto& row : rows_) line(row, "td");
-  return result + "</tbody>\n</table>\n";
-}
-
 std::string table::csv() const {
   std::string result;
   const auto line = [&](const std::vector<std::string>& cells) {
