@@ -127,15 +127,6 @@ std::vector<double> without_start_up(const std::vector<double>& costs, double to
   return result;
 }
 
-std::vector<best_at_cost> some_of(const std::vector<best_at_cost>& found, std::size_t most) {
-  if (found.size() <= most) return found;
-  std::vector<best_at_cost> chosen;
-  for (std::size_t i = 0; i < most; ++i) {
-    chosen.push_back(found[i * (found.size() - 1) / (most - 1)]);
-  }
-  return chosen;
-}
-
 std::string named(const std::vector<ranked_method>& methods) {
   constexpr std::size_t enough = 3;
   const std::size_t shown = methods.size() > enough ? enough - 1 : methods.size();

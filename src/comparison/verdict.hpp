@@ -46,9 +46,6 @@ std::vector<best_at_cost> best_at_costs(const std::vector<ranked_method>& all, d
 /// that exceed it by no more than that evaluation, within the factor `tolerance`.
 std::vector<double> without_start_up(const std::vector<double>& costs, double tolerance, double evaluation);
 
-/// Up to `most` of them, the first and the last among these.
-std::vector<best_at_cost> some_of(const std::vector<best_at_cost>& found, std::size_t most);
-
 /// The unit of costs in force evaluations, in words.
 constexpr const char* evaluations_per_time = "evaluations a unit of time";
 

@@ -283,7 +283,8 @@ std::vector<placed_row> rows_by_rank(const comparison& all, std::size_t m) {
   return result;
 }
 
-/// What matters of the rows, by rank.
+}  // namespace
+
 table ranking_of(const comparison& all, std::size_t m) {
   const bool accepts = all.metrics()[m].is_acceptance();
   table result(
@@ -308,6 +309,8 @@ table ranking_of(const comparison& all, std::size_t m) {
   }
   return result;
 }
+
+namespace {
 
 /// "null: no better than the null model; tail: few trajectories decide the mean"
 std::string short_meanings_of_marks(const comparison& all, std::size_t m) {

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "curve_drawing.hpp"
-#include "plot_range.hpp"
-#include "plot_ticks.hpp"
+#include "page_files.hpp"
 #include "quoted.hpp"
 
 namespace nysalt::detail {
@@ -74,40 +73,42 @@ std::string shading(const panel& plot) {
   return text;
 }
 
-std::string axes(const panel& axis_pair) {
-  std::string text =
-      fmt::format("set title {}\nset xlabel {} offset 0,0.6\nset ylabel {}\n", quoted(axis_pair.title),
-                  quoted(axis_pair.x_label), quoted(axis_pair.y_label));
-  const bool log_y = axis_pair.log_log && !axis_pair.linear_y;
-  text += fmt::format("unset logscale\nset format x '%g'\nset format y '{}'\n", log_y ? "%.0te%T" : "%g");
-  const bool log_x = axis_pair.log_log && !axis_pair.linear_x;
-  if (log_x || log_y) text += fmt::format("set logscale {}{}\n", log_x ? "x" : "", log_y ? "y" : "");
-  // Whole decades would leave much of a logarithmic axis empty.
-  const log_range costs = log_x ? range_of_costs(axis_pair) : log_range();
-  if (costs.is_empty()) {
-    text += "set autoscale x\nset xtics autofreq\n";
-  } else {
-    text += fmt::format("set xrange [{:.6g}:{:.6g}]\n{}", costs.low, costs.high,
-                        ticks_command('x', {costs.low, costs.high}));
+/// What share/report/axes.gp takes; an axis is logarithmic if it has a positive point.
+std::string axes_in_question(const panel& plot, const std::string& data, std::size_t first) {
+  const auto has_positive = [&](std::vector<double> curve::*field) {
+    return std::ranges::any_of(plot.curves, [&](const curve& one) {
+      return std::ranges::any_of(one.*field, [](double x) { return std::isfinite(x) && x > 0.0; });
+    });
+  };
+  const bool log_x = plot.log_log && !plot.linear_x && has_positive(&curve::x) && has_positive(&curve::y);
+  const bool log_y = plot.log_log && !plot.linear_y && has_positive(&curve::y);
+  constexpr double none = -999.0;  // below the logarithm of any number
+  double lowest = -none;
+  double highest = none;
+  for (const auto& level : plot.levels) {
+    if (!(level.y > 0.0)) continue;
+    lowest = std::min(lowest, std::log10(level.y));
+    highest = std::max(highest, std::log10(level.y));
   }
-  text += "set key outside bottom center horizontal Left reverse samplen 3\n";
-  text += "unset label\nunset arrow\n" + shading(axis_pair);
+  return fmt::format(
+             "data = '{}'\nfirst = {}\nlast = {}\nlog_x = {}\nlog_y = {}\nlowest = {}\nhighest = {}\n", data,
+             first, first + plot.curves.size() - 1, log_x ? 1 : 0, log_y ? 1 : 0, lowest, highest) +
+         std::string(page_files::axes);
+}
+
+std::string axes(const panel& axis_pair, const std::string& data, std::size_t first) {
+  const bool log_y = axis_pair.log_log && !axis_pair.linear_y;
+  std::string text = fmt::format(
+      "set title {}\nset xlabel {} offset 0,1\nset ylabel {}\nset format x '%g'\nset format y '{}'\n"
+      "set key outside bottom center horizontal Left reverse samplen 3\nunset label\nunset arrow\n",
+      quoted(axis_pair.title), quoted(axis_pair.x_label), quoted(axis_pair.y_label),
+      log_y ? "%.0te%T" : "%g");
+  text += shading(axis_pair) + axes_in_question(axis_pair, data, first) + "\n";
   for (const auto& level : axis_pair.levels) {
     text += fmt::format("set arrow from graph 0, first {0:.10g} to graph 1, first {0:.10g} nohead back {1}\n",
                         level.y, style_of_levels);
   }
-  text += "set ytics autofreq\n";
-  if (!log_y || axis_pair.y_range != "[*:*]") return text + fmt::format("set yrange {}\n", axis_pair.y_range);
-  const log_range range = range_of_logarithms(axis_pair);
-  if (!range.is_empty()) text += ticks_command('y', {range.low, range.high});
-  if (range.outside > 0) {
-    text += fmt::format(
-        "set label '{} beyond the frame' at graph 0.01, graph 0.03 left tc '#555555' font ',10'\n",
-        range.outside);
-  }
-  return text + fmt::format("set yrange {}\n", range.is_empty()
-                                                   ? "[*:*]"
-                                                   : fmt::format("[{:.3g}:{:.3g}]", range.low, range.high));
+  return axis_pair.y_range == "[*:*]" ? text : text + fmt::format("set yrange {}\n", axis_pair.y_range);
 }
 
 }  // namespace
@@ -145,7 +146,7 @@ std::string plot_script(const figure& f) {
   if (f.panels.size() > 1) text += fmt::format("set multiplot layout 1,{}\n", f.panels.size());
   std::size_t block = 0;
   for (const auto& panel : f.panels) {
-    text += axes(panel) + plot_command(panel, f.name, block);
+    text += axes(panel, f.name + ".dat", block) + plot_command(panel, f.name, block);
     block += panel.curves.size();
   }
   return text + (f.panels.size() > 1 ? "unset multiplot\n" : "");

@@ -259,15 +259,6 @@ BOOST_AUTO_TEST_CASE(a_row_has_a_cell_for_each_column) {
   BOOST_TEST(t.csv() == cells().csv());
 }
 
-BOOST_AUTO_TEST_CASE(the_table_has_cost_and_error_side_by_side) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto csv = work_precision_table({at_cost("a", 200, 0.0123), at_cost("b", 50, nan, 40)}).csv();
-  BOOST_TEST(csv ==
-             "method,step,evaluations/time,ns/time,error,standard error,diverged\n"
-             "a,0.01,200.0,200,1.23e-02,1.23e-03,0/40\n"
-             "b,0.04,50.0,50,-,-,40/40\n");
-}
-
 BOOST_AUTO_TEST_CASE(the_panel_has_a_curve_for_each_method) {
   auto rows = power_law();
   const auto plot = [&](const std::string& ours, auto cost) {
