@@ -35,8 +35,12 @@ void comparison::learn_and_measure(journal& kept) {
     if (of_energies) warnings_.push_back(*of_energies);
   }
   expect_work();
+  const auto is_learned = [&](const row& line) { return families_.contains(line.method); };
+  shown_.count(static_cast<std::size_t>(std::ranges::count_if(rows_, is_learned)), "fits");
   for (auto& line : rows_) {
-    if (families_.contains(line.method)) learn(line, kept);
+    if (!is_learned(line)) continue;
+    shown_.next();
+    learn(line, kept);
   }
   std::map<double, group> by_step;  // rows at one step share the reference
   for (auto& line : rows_) {
@@ -48,7 +52,9 @@ void comparison::learn_and_measure(journal& kept) {
     if (line.reason.empty()) continue;
     for (measurement& one : line.measurements) one.reason = line.reason;
   }
+  shown_.count(by_step.size(), "steps");
   for (const auto& [step, all] : by_step) {
+    shown_.next();
     const auto has_samples = [this, at = step](const asked_metric& metric) {
       return too_few_samples(metric, at).empty();
     };
@@ -59,6 +65,7 @@ void comparison::learn_and_measure(journal& kept) {
       if (metrics_[m].is_of_law()) measure_law(m, step, usable(all), kept);
     }
   }
+  shown_.count(0, {});
   judge_steps();
   if (options_.energies && !system_->heat_bath().acts()) follow_energies(kept);
   measure_seconds();

@@ -32,7 +32,7 @@ class recommendation {
   bool has_result() const { return asked().has_result(); }
   const std::vector<std::string>& warnings() const { return warnings_; }
   json document() const;
-  std::string readable() const;
+  std::string readable(const text_form& form = {}) const;
   /// The method to take; nothing if none is accepted.
   std::optional<chosen_method> chosen() const;
 

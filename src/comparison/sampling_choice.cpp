@@ -266,11 +266,14 @@ void sampling_choice::learn_and_rank(const choice_observer& keep) {
     if (candidate.is_learned()) to_learn.push_back(candidate.source.typed);
   }
   tell_of_best();
+  shown_.count(to_learn.size(), "families");
   for (const auto& name : to_learn) {
+    shown_.next();
     auto& candidate = *std::ranges::find_if(all_, [&](const auto& one) { return one.source.typed == name; });
     learn(candidate, farther * best * candidate.source.evaluations_per_step);
     tell_of_best();
   }
+  shown_.count(0, {});
   shown_.part("steps of all words");
   for (auto& candidate : all_) {
     if (!candidate.found) continue;

@@ -48,7 +48,8 @@ std::vector<level> levels_of(const comparison& all, std::size_t m) {
   std::vector<level> result;
   if (is_by_median(all, m)) return result;
   for (const auto& [name, value] : free_of_cost(all, m)) {
-    if (value > 0.0) result.push_back({name, value});
+    const bool is_null = name == "null model";
+    if (value > 0.0) result.push_back({is_null ? name + ": stays as at the start" : name, value});
   }
   return result;
 }

@@ -12,7 +12,6 @@
 
 #include "comparison/child_process.hpp"
 #include "plot_script.hpp"
-#include "svg.hpp"
 
 namespace nysalt {
 
@@ -58,7 +57,7 @@ bool draw(const figure& f, const std::filesystem::path& folder, const std::vecto
       continue;
     }
     try {
-      write_file(picture, kind == "svg" ? finished_svg(made.output, f) : made.output);
+      write_file(picture, made.output);
     } catch (...) {
       remove_picture(picture);
       throw;

@@ -8,6 +8,7 @@
 #include "comparison/purpose.hpp"
 #include "comparison/recommendation.hpp"
 #include "table.hpp"
+#include "terminal.hpp"
 
 namespace nysalt::program {
 
@@ -251,49 +252,80 @@ json recommendation::document() const {
   return result;
 }
 
-std::string recommendation::readable() const {
+namespace {
+
+std::string in_short(const char* format, double x) {
+  return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : std::string("-");
+}
+
+}  // namespace
+
+std::string recommendation::readable(const text_form& form) const {
   const contest& among = asked();
-  std::string text = fmt::format("{}, {} fresh trajectories over {:g}, {}", system_->description(),
-                                 options_.trajectories, options_.horizon, quantity());
-  if (options_.budget) text += fmt::format(", {:g} evaluations per unit time", *options_.budget);
-  if (options_.budget_seconds) text += fmt::format(", {:g} ns per unit time", 1e9 * *options_.budget_seconds);
-  if (options_.error) text += fmt::format(" below {:g}", *options_.error);
-  text += fmt::format("\nstarts: {}\n{}\n", system_->starts(), report_of_purpose(options_.learning));
+  std::string question = fmt::format("{}, {} fresh trajectories over {:g}, {}", system_->description(),
+                                     options_.trajectories, options_.horizon, quantity());
+  if (options_.budget) question += fmt::format(", {:g} evaluations per unit time", *options_.budget);
+  if (options_.budget_seconds)
+    question += fmt::format(", {:g} ns per unit time", 1e9 * *options_.budget_seconds);
+  if (options_.error) question += fmt::format(" below {:g}", *options_.error);
+  question += fmt::format("; starts: {}\n{}\n", system_->starts(), report_of_purpose(options_.learning));
   const asked_metric judged_by = metric();
-  if (const auto note = advice_on_purpose({&judged_by, 1}, options_.learning.purpose); !note.empty()) {
-    text += note + "\n";
-  }
-  text += "\n";
-  table ranking({"method", "order", "step", "evaluations/time", "ns/time", "error", "standard error",
-                 "95 % err below", "diverged"});
-  const auto number = [](const char* format, double x) {
-    return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : std::string("-");
-  };
+  question += advice_on_purpose({&judged_by, 1}, options_.learning.purpose);
+
+  constexpr std::size_t shown = 12;  // of the candidates by rank: the others are details
+  const candidate* best = among.best();
+  table ranking({"rank", "method", "step", "evaluations/time", "ns/time",
+                 among.statistic.is_quantile ? "95 % err below" : "error", "times the best", "marks"},
+                2);
   for (const auto& contender : among.all) {
-    const bool has_quantile = contender.is_ranked();
-    const double quantile = has_quantile ? quantile_of(contender.error) : std::nan("");
-    ranking.add({contender.source.typed, fmt::format("{}", contender.order), number("{:.4g}", contender.step),
-                 number("{:.1f}", contender.evaluations_per_time),
-                 number("{:.0f}", 1e9 * contender.seconds_per_time),
-                 number("{:.2e}", contender.error.mean.mean),
-                 contender.error.is_heavy ? "tail" : number("{:.1e}", contender.error.mean.standard_error),
-                 number("{:.2e}", quantile),
-                 fmt::format("{}/{}", contender.error.diverged, contender.error.trajectories)});
+    const std::size_t k = ranking.size();
+    if (!form.is_verbose && k == shown) break;
+    const bool is_ranked = contender.is_eligible();
+    const bool has_error = contender.is_ranked();
+    std::string error = in_short("{:.2e}", has_error ? among.error_of(contender) : contender.error.mean.mean);
+    if (!among.statistic.is_quantile && std::isfinite(contender.error.mean.standard_error))
+      error += fmt::format(" ± {:.0e}", contender.error.mean.standard_error);
+    const double ratio = !has_error     ? std::nan("")
+                         : among.budget ? among.error_of(contender) / among.error_of(*best)
+                                        : among.cost_of(contender) / among.cost_of(*best);
+    std::string marks = contender.is_learned() ? "learned" : "";
+    const auto add = [&](bool is_there, const char* mark) {
+      if (is_there) marks += (marks.empty() ? "" : " ") + std::string(mark);
+    };
+    add(contender.error.is_heavy, "tail");
+    add(contender.error.diverged > 0, "diverged");
+    add(contender.is_left_behind, "left behind");
+    add(!contender.reason.empty() && !contender.is_left_behind, "refused");
+    ranking.add({is_ranked ? fmt::format("{}", k + 1) : "-", contender.source.typed,
+                 in_short("{:.4g}", contender.step), in_short("{:.1f}", contender.evaluations_per_time),
+                 in_short("{:.0f}", 1e9 * contender.seconds_per_time), error, in_short("{:.3g}", ratio),
+                 marks});
   }
-  text += ranking.text();
+  std::string text = wrapped(advice() + "\n\n" + question, form.width) + "\n" + ranking.text(form.width);
+  if (ranking.size() < among.all.size())
+    text += fmt::format("and {} more, in the details\n", among.all.size() - ranking.size());
   if (among.statistic.is_quantile) {
-    text +=
-        "tail: this mean rests on few trajectories; ranked by what 95 of 100 trajectories err less than\n";
+    text += wrapped(
+        "tail: the mean error rests on few trajectories; ranked by what 95 of 100 trajectories err less than",
+        form.width);
   }
   if (std::ranges::any_of(among.all, &candidate::is_left_behind)) {
-    text += options_.error
-                ? fmt::format("Below {0} trajectories: left behind, for costs too far above the least\n",
-                              options_.trajectories)
-                : fmt::format(
-                      "Below {0} trajectories: left behind, for errors larger than the least by "
-                      "more than chance or further data change\n",
-                      options_.trajectories);
+    text += wrapped(
+        fmt::format("left behind: judged on fewer than {} trajectories, on which {}", options_.trajectories,
+                    options_.error ? "the cost was too far above the least"
+                                   : "the error was larger than the least by more than chance"),
+        form.width);
   }
+  if (!form.is_verbose) return text;
+  table all({"method", "order", "mean error", "standard error", "95 % err below", "diverged"});
+  for (const auto& contender : among.all) {
+    all.add({contender.source.typed, fmt::format("{}", contender.order),
+             in_short("{:.2e}", contender.error.mean.mean),
+             in_short("{:.1e}", contender.error.mean.standard_error),
+             in_short("{:.2e}", contender.is_eligible() ? quantile_of(contender.error) : std::nan("")),
+             fmt::format("{}/{}", contender.error.diverged, options_.trajectories)});
+  }
+  text += "\n" + all.text();
   for (const auto& contender : among.all) {
     if (!contender.reason.empty() && !contender.is_left_behind)
       text += fmt::format("{}: {}\n", contender.source.typed, contender.reason);
@@ -304,7 +336,7 @@ std::string recommendation::readable() const {
     names += names.empty() ? name : ", " + name;
   }
   for (const auto& [reason, names] : by_reason) text += fmt::format("left out: {}: {}\n", names, reason);
-  return text + "\n" + advice() + "\n";
+  return text;
 }
 
 }  // namespace nysalt::program

@@ -92,7 +92,7 @@ namespace {
 
 /// Of options that were given, a line each, those that decide what is computed.
 std::string deciding(const std::string& options) {
-  constexpr std::array others{"json", "output", "plot", "resume", "threads"};
+  constexpr std::array others{"json", "output", "plot", "resume", "threads", "verbose"};
   std::istringstream lines(options);
   std::string result;
   for (std::string line; std::getline(lines, line);) {

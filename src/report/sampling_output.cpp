@@ -6,6 +6,7 @@
 #include "comparison/method_file.hpp"
 #include "comparison/sampling_choice.hpp"
 #include "table.hpp"
+#include "terminal.hpp"
 
 namespace nysalt::program {
 
@@ -144,29 +145,31 @@ json sampling_choice::document() const {
   return result;
 }
 
-std::string sampling_choice::readable() const {
-  std::string text =
+std::string sampling_choice::readable(const text_form& form) const {
+  std::string question =
       fmt::format("{}: Hybrid Monte Carlo at kT = {:g}, trajectories of mean length {:g}, acceptance {:g}",
                   system_->description(), options_.temperature, options_.length, options_.acceptance);
   if (options_.times_larger != 1.0)
-    text += fmt::format(", a system {:g} times larger", options_.times_larger);
-  text += fmt::format("\n{} states of {}\n{}\n\n", options_.trajectories,
-                      states_ ? states_->description() : std::string(), diagnostic());
-  table rows({"method", "evaluations", "step", "step/evaluation", "standard error", "over verlet"});
+    question += fmt::format(", a system {:g} times larger", options_.times_larger);
+  question += fmt::format("; {} states of {}\n{}", options_.trajectories,
+                          states_ ? states_->description() : std::string(), diagnostic());
+  table rows({"rank", "method", "evaluations", "step", "step/evaluation", "over verlet", "marks"}, 2);
   const auto* verlet = named("verlet");
   for (const auto& one : all_) {
     if (!one.is_eligible()) continue;
-    rows.add({one.source.typed, fmt::format("{}", one.source.evaluations_per_step),
-              fmt::format("{:.4g}", one.found->step), fmt::format("{:.4g}", one.step_of_evaluation()),
-              fmt::format("{:.1e}", one.step_of_evaluation() * one.found->log_step.standard_error),
-              verlet == nullptr ? "-" : in_words(ratio_of(one, *verlet))});
+    const double step = one.step_of_evaluation();
+    rows.add({fmt::format("{}", rows.size() + 1), one.source.typed,
+              fmt::format("{}", one.source.evaluations_per_step), fmt::format("{:.4g}", one.found->step),
+              fmt::format("{:.4g} ± {:.0e}", step, step * one.found->log_step.standard_error),
+              verlet == nullptr ? "-" : in_words(ratio_of(one, *verlet)), one.is_learned() ? "learned" : ""});
   }
-  text += rows.text();
+  std::string text = wrapped(advice() + "\n\n" + question, form.width) + "\n" + rows.text(form.width);
+  if (!form.is_verbose) return text;
   for (const auto& one : all_) {
     if (!one.reason.empty()) text += fmt::format("{}: {}\n", one.source.typed, one.reason);
   }
   for (const auto& [name, reason] : left_out_) text += fmt::format("left out: {}: {}\n", name, reason);
-  return text + "\n" + advice() + "\n";
+  return text;
 }
 
 }  // namespace nysalt::program

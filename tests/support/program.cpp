@@ -348,6 +348,13 @@ class table {
       must(plain(now) != plain(labels_.at(check)));
     } else if (takes(check, "out: ")) {
       must(has(now.done.out, unescaped(check)));
+    } else if (takes(check, "first: ")) {
+      must(now.done.out.starts_with(unescaped(check)));
+    } else if (takes(check, "width: ")) {
+      for (const std::string& line : split(now.done.out, "\n")) {
+        const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; };
+        must(std::count_if(line.begin(), line.end(), begins) <= std::stol(check));
+      }
     } else if (takes(check, "not out: ")) {
       must(!has(now.done.out, unescaped(check)));
     } else if (takes(check, "not: ")) {

@@ -102,7 +102,7 @@ int compare(const compare_command& command, const common_settings& common) {
   if (common.json) {
     print(text_of(document_of(all)));
   } else {
-    print(readable(all));
+    print(readable(all, form_of(common)));
     for (const auto& text : all.warnings()) warn(text);
     if (!command.output.empty()) print(line_of_written(command.output));
   }

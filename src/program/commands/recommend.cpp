@@ -54,7 +54,7 @@ int print_result(auto& all, const std::string& output, const common_settings& co
       print(text_of(result));
       return;
     }
-    print(all.readable());
+    print(all.readable(form_of(common)));
     for (const auto& text : all.warnings()) warn(text);
     if (writes && written) print(line_of_written(output));
   });

@@ -17,6 +17,7 @@
 #include "comparison/progress.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "report/stability_picture.hpp"
+#include "report/table.hpp"
 
 namespace nysalt::program {
 
@@ -60,10 +61,25 @@ subject subject_of(const stability_command& command, const prepared_problem* sys
       source.typed, *source.family);
 }
 
-/// The findings, as JSON and as text.
+/// The findings, as JSON and as text: what matters most, ranges of z, steps and frequencies, all else, and
+/// what only details have.
 struct answer {
   json document;
+  std::string sentence;
+  table ranges{{"range", "from", "to", "margin"}};
   std::string text;
+  std::string details;
+
+  void add_range(const char* what, double low, double high, const std::string& margin = "-") {
+    ranges.add({what, fmt::format("{:.10g}", low), fmt::format("{:.10g}", high), margin});
+  }
+
+  std::string readable(const text_form& form) const {
+    std::string shown = wrapped(sentence, form.width);
+    if (!ranges.empty()) shown += fmt::format("\n{}", ranges.text(form.width));
+    if (!text.empty()) shown += fmt::format("\n{}", wrapped(text, form.width));
+    return form.is_verbose ? shown + details : shown;
+  }
 };
 
 json pairs(const auto& ranges) {
@@ -83,13 +99,14 @@ answer about(const subject& target, const stability_chart& chart) {
                      {"coefficients", target.method.coefficients()},
                      {"order", target.method.order},
                      {"evaluations_per_step", evaluations}};
-  result.text = fmt::format("{}: {}, order {}, {} evaluations a step\n", target.name, word.letters(),
-                            target.method.order, evaluations);
+  result.details =
+      fmt::format("{}, order {}, {} evaluations a step\n", word.letters(), target.method.order, evaluations);
   if (word.has_own_letters()) {
     for (const char* name : {"limit", "limit_per_evaluation"}) result.document[name] = nullptr;
     for (const char* name : {"windows", "touching"}) result.document[name] = json::array();
-    result.text +=
-        "it has letters of one's own: it has no windows of z = h omega, and is tried on its system\n";
+    result.sentence =
+        target.name +
+        " has letters of one's own: it has no windows of z = h omega, and is tried on its system";
     return result;
   }
   const bool rotates = word.reads_modes;
@@ -100,36 +117,38 @@ answer about(const subject& target, const stability_chart& chart) {
   result.document["windows"] = pairs(chart.windows);
   result.document["touching"] = chart.touching;
   if (rotates) {
-    result.text +=
-        "it rotates: stable on the quadratic part at any step; what soft forces make of that depends on the "
-        "system\n";
+    result.sentence =
+        target.name +
+        " rotates: it is stable on the quadratic part at any step; what soft forces make of that "
+        "depends on the system";
     return result;
   }
-  result.text += fmt::format("stable up to z = h omega = {:.10g}, {:.10g} for each evaluation\n", limit,
-                             limit / evaluations);
-  for (const auto& [low, high] : chart.windows)
-    result.text += fmt::format("  window {:.10g} .. {:.10g}\n", low, high);
-  for (const double z : chart.touching) result.text += fmt::format("  where two touch: {:.10g}\n", z);
+  result.sentence = fmt::format("{} is stable up to z = h omega = {:.10g}, {:.10g} for each evaluation",
+                                target.name, limit, limit / evaluations);
+  for (const auto& [low, high] : chart.windows) result.add_range("stable z = h omega", low, high);
+  for (const double z : chart.touching) result.details += fmt::format("where two touch: {:.10g}\n", z);
   return result;
 }
 
-/// The judgement in full.
-void add_judgement(answer& result, const judgement& found) {
+/// The judgement in full. It comes first.
+void add_judgement(answer& result, const std::string& method, const std::string& system,
+                   const judgement& found) {
   json& document = result.document;
   document["judgement"] = to_json(found);
-  result.text += fmt::format("  {}\n  trial: {}\n", found.in_words(), found.report());
+  result.text = fmt::format("{}\n{}trial: {}\n", result.sentence, result.text, found.report());
+  result.sentence = fmt::format("{} at step {:g} for {}: {}", method, found.step, system, found.in_words());
   if (found.highest_frequency > 0.0) {
     result.text +=
-        fmt::format("  highest frequency along the motion {:.6g}, z = {:.6g} ({})\n", found.highest_frequency,
+        fmt::format("highest frequency along the motion {:.6g}, z = {:.6g} ({})\n", found.highest_frequency,
                     found.step * found.highest_frequency, found.frequencies);
   } else {
-    result.text += fmt::format("  {}\n", found.frequencies);
+    result.text += fmt::format("{}\n", found.frequencies);
   }
-  if (found.margin) result.text += fmt::format("  linear margin {}\n", percent(*found.margin));
+  if (found.margin) result.text += fmt::format("linear margin {}\n", percent(*found.margin));
   const bool is_reason = found.linear_objection == found.reason;
   if (!found.linear_objection.empty() && !is_reason)
-    result.text += fmt::format("  linear criterion: {}\n", found.linear_objection);
-  if (!found.resonance.empty()) result.text += fmt::format("  resonance: {}\n", found.resonance);
+    result.text += fmt::format("linear criterion: {}\n", found.linear_objection);
+  if (!found.resonance.empty()) result.text += fmt::format("resonance: {}\n", found.resonance);
 }
 
 /// Where the step lies among the windows, and which steps are stable and safe.
@@ -147,26 +166,24 @@ void add_steps(answer& result, const method& method, const stability_chart& char
   for (const auto& band : bands) {
     const double margin = stability_margin(chart.windows, found.step * band.low, found.step * band.high);
     document["bands"].push_back({{"low", band.low}, {"high", band.high}, {"margin", finite(margin)}});
-    result.text += fmt::format("  frequencies {:g} .. {:g} of {} at step {:g}: margin {}\n", band.low,
-                               band.high, system.description(), found.step, percent(margin));
+    result.add_range("frequencies at this step", band.low, band.high, percent(margin));
   }
   const auto steps = stable_steps(chart.windows, bands);
   document["stable_steps"] = pairs(steps);
-  for (const auto& [low, high] : steps)
-    result.text += fmt::format("  linearly stable steps {:.6g} .. {:.6g}\n", low, high);
+  for (const auto& [low, high] : steps) result.add_range("linearly stable steps", low, high);
   const double linear = linear_step(method, chart, found.highest_frequency);
   document["linear_step"] = linear > 0.0 ? json(linear) : json();
-  result.text += fmt::format("  {} to the first end, and turn by less than a quarter\n", advice(linear));
+  result.text += fmt::format("{} to the first end, and turn by less than a quarter\n", advice(linear));
   const auto safe = safe_step(method, system, linear, threads);
   document["safe_step"] = safe ? json(*safe) : json();
   if (safe) {
-    result.text += fmt::format(
-        "  safe step {:g}: trials lost nothing there, at {:g}, {:g} % more, and at shorter steps\n", *safe,
-        *safe / (1.0 - tried_margin), 100.0 * (1.0 / (1.0 - tried_margin) - 1.0));
+    result.text +=
+        fmt::format("safe step {:g}: trials lost nothing there, at {:g}, {:g} % more, and at shorter steps\n",
+                    *safe, *safe / (1.0 - tried_margin), 100.0 * (1.0 / (1.0 - tried_margin) - 1.0));
   } else if (system.frequency_bands().empty()) {
-    result.text += "  no step is called safe: the frequencies of the system have no bound\n";
+    result.text += "no step is called safe: the frequencies of the system have no bound\n";
   } else {
-    result.text += "  no step is called safe: trials lost trajectories\n";
+    result.text += "no step is called safe: trials lost trajectories\n";
   }
 }
 
@@ -194,23 +211,23 @@ void add_rotation(answer& result, const method& method, const prepared_problem& 
   json& document = result.document;
   document["magnification"] = {{"mode", worst.frequency}, {"factor", worst.factor}, {"steps", guard.steps()}};
   if (worst.frequency > 0.0) {
-    result.text += fmt::format("  the mode {:.6g} is magnified most, {:.4g}-fold in {} steps\n",
-                               worst.frequency, worst.factor, guard.steps());
+    result.details += fmt::format("the mode {:.6g} is magnified most, {:.4g}-fold in {} steps\n",
+                                  worst.frequency, worst.factor, guard.steps());
   }
   const auto pair = guard.most_resonant(method.letters(), method.coefficients(), step);
   document["resonant_pair"] = nullptr;
   if (pair.growth > 0.0) {
     document["resonant_pair"] = {{"first", pair.first}, {"second", pair.second}, {"growth", pair.growth}};
-    result.text +=
-        fmt::format("  the pair of modes {:.6g} and {:.6g} grows by the factor exp({:.3g}) in {} steps\n",
+    result.details +=
+        fmt::format("the pair of modes {:.6g} and {:.6g} grows by the factor exp({:.3g}) in {} steps\n",
                     pair.first, pair.second, pair.growth, guard.steps());
   }
   document["resonance"] = nullptr;
   if (const auto nearest = nearest_resonance(guard.modes(), step)) {
     document["resonance"] = {
         {"mode", nearest->mode}, {"multiple", nearest->multiple}, {"step", nearest->step}};
-    result.text += fmt::format("  nearest resonance h omega = {:g} pi, of the mode {:.6g}: at step {:.6g}\n",
-                               nearest->multiple, nearest->mode, nearest->step);
+    result.details += fmt::format("nearest resonance h omega = {:g} pi, of the mode {:.6g}: at step {:.6g}\n",
+                                  nearest->multiple, nearest->mode, nearest->step);
   }
 }
 
@@ -268,9 +285,9 @@ int stability(const stability_command& command, const common_settings& common) {
     const judgement& found = system->judged(target.method, *command.step, common.execution.threads);
     const auto rival = loses_fewest(target.method, *system, found, common.execution.threads);
     shown.clear();
-    add_judgement(result, found);
+    add_judgement(result, target.name, system->description(), found);
     result.document["loses_fewest"] = to_json(rival);
-    if (rival) result.text += "  " + in_words(*rival) + "\n";
+    if (rival) result.text += in_words(*rival) + "\n";
     if (rotates) add_rotation(result, target.method, *system, *command.step);
     if (!rotates && !has_own_letters) {
       add_steps(result, target.method, chart, *system, found, common.execution.threads);
@@ -282,12 +299,13 @@ int stability(const stability_command& command, const common_settings& common) {
   if (!command.output.empty()) {
     write_curve(command, target, chart, marked, common);
     result.document["output"] = command.output;
-    result.text += line_of_written(command.output);
   }
   if (!common.json) {
     for (const auto& warning : warnings) warn(warning);
   }
-  print(common.json ? text_of(result.document) : result.text);
+  std::string text = common.json ? text_of(result.document) : result.readable(form_of(common));
+  if (!common.json && !command.output.empty()) text += line_of_written(command.output);
+  print(text);
   return done;
 }
 

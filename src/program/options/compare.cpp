@@ -70,6 +70,7 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
       ->type_name("FOLDER");
   command.add_flag("--resume", asked.resume, "go on where a comparison into this folder was stopped");
   add_json(command, common);
+  add_verbose(command, common);
   add_common(command, common);
   add_force(command, common, "use a scheme at another step or system than it was learned for");
   command.footer(

@@ -44,6 +44,10 @@ void add_json(CLI::App& command, common_settings& common) {
   command.add_flag("--json", common.json, "print one JSON document and nothing else");
 }
 
+void add_verbose(CLI::App& command, common_settings& common) {
+  command.add_flag("--verbose", common.verbose, "print all details");
+}
+
 void add_force(CLI::App& command, common_settings& common, const char* what) {
   command.add_flag("--force", common.force, what)->group(general_options);
 }

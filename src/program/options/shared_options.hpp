@@ -30,6 +30,8 @@ void add_of_program(CLI::App& program);
 void add_common(CLI::App& command, common_settings& common);
 /// --json, in the group that is under way.
 void add_json(CLI::App& command, common_settings& common);
+/// --verbose, there too.
+void add_verbose(CLI::App& command, common_settings& common);
 /// Of the general options.
 void add_force(CLI::App& command, common_settings& common, const char* what);
 

@@ -1,16 +1,6 @@
-// SPDX-License-Identifier: BSL-1.0
-// What a page does where scripts run: tables are sorted and filtered, pictures show values. Nothing is
+// Where scripts run, tables below the first heading are sorted and filtered; those of a few rows are read at a
+// glance. What is no number goes last in a column of numbers, whichever way the column is sorted. Nothing is
 // fetched, and without the script the page is whole.
-#pragma once
-
-#include <string_view>
-
-namespace nysalt {
-
-/// Tables of a few rows, and what is above the sections, are read at a glance: controls are for the others.
-/// What is no number goes last in a column of numbers, whichever way the column is sorted. The value of a
-/// point of a picture is its <title>, which a browser shows late, and not at all on a touch.
-inline constexpr std::string_view page_script = R"js(
 'use strict';
 const numberIn = text => {
   const found = /^(?:below |above |< )?([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)/i.exec(text);
@@ -23,7 +13,7 @@ const made = (tag, properties, ...children) => {
 };
 for (const table of document.querySelectorAll('table')) {
   const rows = [...table.tBodies[0].rows];
-  if (rows.length < 8 || !table.parentElement.matches('h2 ~ *')) continue;
+  if (rows.length < 8 || !table.matches('h2 ~ *')) continue;
   [...table.tHead.rows[0].cells].forEach((head, column) => {
     const button = made('button', { type: 'button', title: 'Sort by this column' }, ...head.childNodes);
     head.append(button);
@@ -51,27 +41,5 @@ for (const table of document.querySelectorAll('table')) {
     shown.textContent = words.length ? `${seen} of ${rows.length} rows` : '';
   });
   const label = made('label', {}, 'Rows with ', input);
-  table.parentElement.before(made('p', { className: 'filter' }, label, ' ', shown));
+  table.before(made('p', { className: 'filter' }, label, ' ', shown));
 }
-const value = made('div', { className: 'value', hidden: true });
-document.body.append(value);
-for (const title of document.querySelectorAll('.point > title')) {
-  const point = title.parentNode;
-  const text = title.textContent;
-  title.remove();
-  point.addEventListener('pointerover', event => {
-    value.textContent = text;
-    value.hidden = false;
-    value.style.left = `${Math.max(4, Math.min(event.clientX + 14, innerWidth - value.offsetWidth - 4))}px`;
-    value.style.top = `${Math.max(4, Math.min(event.clientY + 14, innerHeight - value.offsetHeight - 4))}px`;
-  });
-  point.addEventListener('pointerout', () => { value.hidden = true; });
-}
-addEventListener('keydown', event => { if (event.key === 'Escape') value.hidden = true; });
-addEventListener('scroll', () => { value.hidden = true; }, true);
-)js";
-
-/// A test computes it anew.
-inline constexpr std::string_view page_script_sha256 = "y9dJ5yIh67hrkEfL+64Gz5RuUC9pyeBMPusZVp+sIZM=";
-
-}  // namespace nysalt
