@@ -19,7 +19,7 @@
 #include "program.hpp"
 #include "table.hpp"
 
-#if !defined NYSALT_FAULTS  // where nothing can be preloaded, and for nysalt_paper
+#if !defined NYSALT_FAULTS  // where nothing can be preloaded
 #define NYSALT_FAULTS ""
 #endif
 #if defined NYSALT_MPIEXEC  // for any user and any number of cores; Open MPI never frees some of its memory
