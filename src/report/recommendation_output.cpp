@@ -275,7 +275,7 @@ std::string recommendation::readable(const text_form& form) const {
   constexpr std::size_t shown = 12;  // of the candidates by rank: the others are details
   const candidate* best = among.best();
   table ranking({"rank", "method", "step", "evaluations/time", "ns/time",
-                 among.statistic.is_quantile ? "95 % err below" : "error", "times the best", "marks"},
+                 among.statistic.is_quantile ? "95 % err below" : "error", "ratio", "marks"},
                 2);
   for (const auto& contender : among.all) {
     const std::size_t k = ranking.size();
@@ -294,7 +294,7 @@ std::string recommendation::readable(const text_form& form) const {
     };
     add(contender.error.is_heavy, "tail");
     add(contender.error.diverged > 0, "diverged");
-    add(contender.is_left_behind, "left behind");
+    add(contender.is_left_behind, "behind");
     add(!contender.reason.empty() && !contender.is_left_behind, "refused");
     ranking.add({is_ranked ? fmt::format("{}", k + 1) : "-", contender.source.typed,
                  in_short("{:.4g}", contender.step), in_short("{:.1f}", contender.evaluations_per_time),
@@ -311,7 +311,7 @@ std::string recommendation::readable(const text_form& form) const {
   }
   if (std::ranges::any_of(among.all, &candidate::is_left_behind)) {
     text += wrapped(
-        fmt::format("left behind: judged on fewer than {} trajectories, on which {}", options_.trajectories,
+        fmt::format("behind: left behind, judged on fewer than {} trajectories, on which {}", options_.trajectories,
                     options_.error ? "the cost was too far above the least"
                                    : "the error was larger than the least by more than chance"),
         form.width);
