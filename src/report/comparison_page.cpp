@@ -195,8 +195,10 @@ void add_energies(page& report, const comparison& all) {
   if (pictures.empty()) return;
   report.heading("Energy and survivors along time");
   for (auto& picture : pictures) {
-    const std::string caption =
-        picture.panels.front().title + ": root mean square of H(t) - H(0) over the trajectories that survive";
+    const panel& shown = picture.panels.front();
+    const std::string what =
+        shown.log_log ? "root mean square of H(t) - H(0) over the trajectories that survive" : shown.y_label;
+    const std::string caption = shown.title + ": " + what;
     report.picture(std::move(picture), caption);
   }
 }

@@ -140,7 +140,7 @@ std::vector<figure> pictures_of_energies(const comparison& all) {
                  .log_log = true,
                  .curves = {},
                  .linear_x = true};
-    panel survivors{.title = "",
+    panel survivors{.title = errors.title,
                     .x_label = "time",
                     .y_label = "share of trajectories that survive",
                     .curves = {},
@@ -160,12 +160,9 @@ std::vector<figure> pictures_of_energies(const comparison& all) {
       all_survive = all_survive && course.surviving.back() == 1.0;
     }
     if (errors.curves.empty()) continue;
-    figure picture{.name = plain(fmt::format("energy_at_{}", nominal)), .panels = {errors}};
-    if (!all_survive) {
-      picture.panels.push_back(survivors);
-      picture.width *= 2;
-    }
-    result.push_back(std::move(picture));
+    result.push_back({.name = plain(fmt::format("energy_at_{}", nominal)), .panels = {errors}});
+    if (!all_survive)
+      result.push_back({.name = plain(fmt::format("survivors_at_{}", nominal)), .panels = {survivors}});
   }
   return result;
 }

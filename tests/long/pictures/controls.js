@@ -45,7 +45,8 @@ addEventListener('load', () => {
       continue;
     }
     const visible = () => [...table.tBodies[0].rows].filter(row => row.offsetParent !== null);
-    const word = table.tBodies[0].rows[0].cells[0].textContent;
+    const cells = [...table.tBodies[0].rows[0].cells].map(cell => cell.textContent);
+    const word = cells.sort((a, b) => b.length - a.length)[0];
     const write = text => {
       input.value = text;
       input.dispatchEvent(new Event('input'));
