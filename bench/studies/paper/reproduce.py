@@ -84,7 +84,7 @@ def page(parts, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], allow_abbrev=False)
-    parser.add_argument("parts", nargs="*", metavar="PART", help=f"{', '.join(PARTS)} [all; some ten minutes]")
+    parser.add_argument("parts", nargs="*", metavar="PART", help=f"{', '.join(PARTS)} [all; some ten to twenty minutes]")
     parser.add_argument("--output", metavar="FOLDER", type=pathlib.Path, help="a folder to write: paper.md, paper.json and pictures")
     parser.add_argument("--quick", action="store_true", help="take few trajectories and steps, to see it run")
     parser.add_argument("--seed", type=int, default=1, help="[1]")
