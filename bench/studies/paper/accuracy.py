@@ -12,32 +12,36 @@ LAW, RIVAL, STARTS = ("the initial distribution", "the rival: at equal force eva
 
 
 class Sweep:
-    """Errors by method and gap, and the reference's own. methods: for each gap, by name."""
+    """Errors by method and gap, and of the reference its own error, or the sampling floor. methods: for each gap, by name."""
 
-    def __init__(self, system, gaps, methods, **how):
+    def __init__(self, system, gaps, methods, of_reference="error", **how):
         found = [errors(system, methods(gap), gap * GAP, **how) for gap in gaps]
-        self.gaps, self.of_reference = gaps, [own for _, own in found]
+        self.gaps, self.of_reference, self.has_floor = gaps, [one[of_reference] for _, one in found], of_reference == "floor"
         self.errors = {name: [one[name] for one, _ in found] for name in found[0][0]}
 
     def exponent(self, name, low, high):
         points = [(g, e.mean) for g, e in zip(self.gaps, self.errors[name]) if low <= g <= high and math.isfinite(e.mean)]
         return exponent(*zip(*points)) if points else Estimate(0.0)
 
+    def at(self, name, gap):
+        return self.errors[name][self.gaps.index(gap)]
+
+    def floor(self):
+        return float(np.mean(self.of_reference))
+
     def means(self, name):
         return np.array([e.mean for e in self.errors[name]])
 
     def table(self):
-        return (["gap", *self.errors, "reference's own"],
-                [[f"{gap:g}", *(f"{e.mean:.2e} +- {e.error:.0e}" if math.isfinite(e.mean) else "diverges" for e in row), f"{own:.0e}"]
+        return (["gap", *self.errors, "floor" if self.has_floor else "reference's own"],
+                [[gap, *(f"{e.mean:.2e} +- {e.error:.0e}" if math.isfinite(e.mean) else "diverges" for e in row), f"{own:.0e}"]
                  for gap, own, *row in zip(self.gaps, self.of_reference, *self.errors.values())], 0)
 
     def panel(self, title, label="average relative RMSE of I"):
-        return Panel(title, "gap", label, curves_of(self.gaps, self.errors), "xy")
-
-
-def curves_of(gaps, errors_by_method, bars=True):
-    return [Curve(name, gaps, [e.mean for e in es], [e.error for e in es] if bars else (), bold=name == "NySALT")
-            for name, es in errors_by_method.items()]
+        curves = [Curve(name, self.gaps, [e.mean for e in es], [e.error for e in es], bold=name == "NySALT")
+                  for name, es in self.errors.items()]
+        floor = [Curve("sampling floor", self.gaps, self.of_reference, dashed=True)] if self.has_floor else []
+        return Panel(title, "gap", label, curves + floor, "xy")
 
 
 def crossing(gaps, found, threshold):
@@ -222,11 +226,12 @@ def other_starts():
     rows, worst = [], {}
     for kind, other in (kinds, kinds[::-1]):
         for step in pick((0.01, 0.02, 0.03), (0.02,)):
-            found, own = errors(tested_on[kind], {"here": learned(learned_on[kind], step), "there": learned(learned_on[other], step),
+            found, reference = errors(tested_on[kind], {"here": learned(learned_on[kind], step), "there": learned(learned_on[other], step),
                                                   "mclachlan2": "mclachlan2"}, step, 0.5, count, metric="state")
             ratio = found["there"].mean / found["here"].mean
             worst[kind] = max(worst.get(kind, 0.0), ratio if math.isfinite(ratio) else math.inf)
-            rows.append([kind, f"{step:g}", found["here"], found["there"], f"{ratio:.2f}", found["mclachlan2"], f"{own:.0e}"])
+            rows.append([kind, f"{step:g}", found["here"], found["there"], f"{ratio:.2f}", found["mclachlan2"],
+                         f"{reference['error']:.0e}"])
     return Exhibit(
         "Starts of another kind than those learned from", "text of section 5.1",
         [Claim("trained on one type of starts only, NySALT can predict the dynamics of the other type",

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
 """The paper's chain, and what is learned, run and measured on it through the Python module."""
-import copy
 import functools
 import json
 import math
@@ -11,6 +10,7 @@ import numpy as np
 from claims import Estimate, mean_of
 
 OMEGA = 50.0
+STATE = [f"{name}{i}" for name in "qp" for i in range(1, 7)]
 GAP = 1e-4  # the paper's fine step: a step is `gap` times it
 
 
@@ -33,8 +33,7 @@ def chain(frequency=OMEGA, spread=1.0):
 
 def at(q, p, **surroundings):
     """The chain at given states; learning asks for starts that differ, by a spread that no printed digit shows."""
-    names = [f"{name}{i}" for name in "qp" for i in range(1, 7)]
-    states = [", ".join(f"{n}={x!r}" for n, x in zip(names, map(float, one))) for one in np.hstack([q, p])]
+    states = [", ".join(f"{n}={x!r}" for n, x in zip(STATE, map(float, one))) for one in np.hstack([q, p])]
     return nysalt.system("fpu", omega=OMEGA, at=states, spread=1e-9, **surroundings)
 
 
@@ -50,21 +49,26 @@ def soft_starts(trajectories, role):
 
 IN_BATH = {"friction": 0.01, "sigma": 0.05}  # the paper's
 BATH = "--friction 0.01 --sigma 0.05"
-ENSEMBLES = 30  # of the long trajectory, more than are taken
+ENSEMBLES = 20  # of the long trajectory, as many as there are repetitions
 
 
 @functools.lru_cache(maxsize=None)
 def long_trajectory():
-    """q and p of all ensembles, by which all work in a bath has one long trajectory, which takes seconds to make."""
-    system = nysalt.system("fpu", omega=OMEGA, start="trajectory", **IN_BATH)
-    return [np.split(x, ENSEMBLES) for x in system.starts(ENSEMBLES * pick(10_000, 64), seed=Setting.seed)]
+    """q and p of ensembles of starts: the trajectory takes seconds to make."""
+    return [np.split(x, ENSEMBLES) for x in bath("trajectory").starts(ENSEMBLES * 1024, seed=Setting.seed, role="training")]
 
 
 @functools.lru_cache(maxsize=None)
-def bath(start, ensemble=0):
-    """The chain in the paper's bath: with Gibbs starts, or with states of one long trajectory, others in each ensemble."""
+def bath(start):
+    """The chain in the paper's bath: with Gibbs starts, or with states of one long trajectory."""
+    return nysalt.system("fpu", omega=OMEGA, start=start, **IN_BATH)
+
+
+@functools.lru_cache(maxsize=None)
+def to_learn_from(start, ensemble):
+    """The same: from a long trajectory that is not made for each call, with other states in each ensemble."""
     if start == "gibbs":
-        return nysalt.system("fpu", omega=OMEGA, start=start, **IN_BATH)
+        return bath(start)
     q, p = long_trajectory()
     return at(q[ensemble], p[ensemble], **IN_BATH)
 
@@ -79,7 +83,7 @@ def learned(system, step, *, trajectories=None, horizon=0.5, coordinates="qp", p
 
 def learned_in_bath(start, gap, *, trajectories=None, coordinates="qp", placement="end", repetition=0):
     """The paper's fits in the bath: M = 512, Ttr = 1, loss in q and p."""
-    return learned(bath(start, ENSEMBLES - 1 - repetition), gap * GAP, trajectories=trajectories or pick(512, 16), horizon=1.0,
+    return learned(to_learn_from(start, repetition), gap * GAP, trajectories=trajectories or pick(512, 16), horizon=1.0,
                    coordinates=coordinates, placement=placement, fine_step=GAP, repetition=repetition)
 
 
@@ -98,26 +102,25 @@ def two_stages(b1, beta1):
                                     "coefficients": [c1, b1, c2 - c1, b2, 1 - c2]}), f"({b1}, {beta1})")
 
 
-def named(method, name):
-    """A scheme under a name of its own."""
-    if not isinstance(method, str):
-        method = copy.copy(method)
-        method.name = name
-    return method
+def divided(step, most):
+    """The largest step that divides `step` and is at most so long."""
+    return step / math.ceil(step / most - 1e-9)  # of a whole number, rounding apart
 
 
-def errors(system, methods, step, horizon, trajectories, metric="relative", fine_step=None):
-    """Errors of methods by name, and that of the reference itself; infinite if more than half of the trajectories diverged, as
+def errors(system, methods, step, horizon, trajectories, metric="relative", fine_step=None, **how):
+    """Errors of methods by name, and the document of the reference; infinite if more than half of the trajectories diverged, as
     the error of the others is that of a lucky few."""
-    found = nysalt.compare(system, [named(method, name) for name, method in methods.items()], step, metric=metric,
-                           observable=None if metric == "state" else "stiff_energy", horizon=horizon,
-                           trajectories=trajectories, fine_step=fine_step, force=True, seed=Setting.seed,
-                           threads=Setting.threads)
+    for name, method in methods.items():
+        if not isinstance(method, str):
+            method.name = name
+    found = nysalt.compare(system, methods.values(), step, metric=metric, observable=None if metric == "state" else "stiff_energy",
+                           horizon=horizon, trajectories=trajectories, force=True, seed=Setting.seed, threads=Setting.threads,
+                           fine_step=fine_step and divided(step, fine_step), **how)
     result = {}
     for name, row in zip(methods, found["rows"], strict=True):
         lost = 2 * row["diverged"] > trajectories or not isinstance(row["error"], float)
         result[name] = Estimate(math.inf) if lost else Estimate(row["error"], row["standard_error"] or math.nan)
-    return result, found["references"][0]["error"]
+    return result, found["references"][0]
 
 
 def follow(system, method, step, horizon, sample, trajectories, observables, *, repetition=0, **states):
@@ -125,11 +128,6 @@ def follow(system, method, step, horizon, sample, trajectories, observables, *, 
     return nysalt.run(system, method, step, horizon, trajectories=None if states else trajectories, observables=observables,
                       sample_every=round(sample / step), checks=False, force=True, threads=Setting.threads,
                       seed=Setting.seed + repetition, **states).values
-
-
-def reference_step(step, frequency=OMEGA):
-    """The reference's step below omega h = .05 that divides `step`."""
-    return step / math.ceil(step * frequency / 0.05 - 1e-9)  # of a whole number, rounding apart
 
 
 def gain(ours, theirs):

@@ -89,7 +89,6 @@ class Exhibit:
     remarks: List[str] = dataclasses.field(default_factory=list)
     tables: List[Tuple] = dataclasses.field(default_factory=list)
     figures: List[Tuple] = dataclasses.field(default_factory=list)
-    seconds: float = 0.0
 
 
 def items(parts):

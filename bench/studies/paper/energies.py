@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: BSL-1.0
 """Energies of the stiff springs, states and actions along recorded trajectories of the chain: sections 2, 3.4 and 5.2."""
+import functools
+import itertools
 import math
 
 import numpy as np
 
-from chain import OMEGA, chain, follow, gain, learned, pick, reference_step, theta_of, two_stages
+from chain import OMEGA, STATE, chain, divided, follow, gain, learned, pick, theta_of, two_stages
 from claims import Claim, Exhibit, agrees, exponent, mean_of
 from linear import limit_of
 from pages import Curve, Panel
 
 STIFF = ["stiff_energy_1", "stiff_energy_2", "stiff_energy_3"]  # their sum is I
-STATE = [f"{name}{i}" for name in "qp" for i in range(1, 7)]
 
 
-def usual(step):
-    return learned(chain(), step)
+usual = functools.partial(learned, chain())
 
 
 def by_reference(sample, horizon, count, observables=tuple(STIFF), finer=1):
     """The reference of long runs: the same starts, omega h = .05, or a part of it to see its own error."""
-    return follow(chain(), "srkn11b", reference_step(sample) / finer, horizon, sample, count, list(observables))
+    return follow(chain(), "srkn11b", divided(sample, 0.05 / OMEGA) / finer, horizon, sample, count, list(observables))
 
 
 def energy_error(I, reference):
@@ -81,9 +81,9 @@ def energy_transitions():
                      "known to 1 % (its finer self differs), and errors are due to chaos", "the time")
 
     times = sample * np.arange(whole + 1)
-    panels = [Panel(label, "time", "mean L1 error / delta", [Curve(name, times, e.mean(0), bold=name == "NySALT")
-                                                             for name, e in errors[what].items()])
-              for what, label in (("energies", "energies"), ("phase angles", "phase angles"))]
+    panels = [Panel(what, "time", "mean L1 error / delta", [Curve(name, times, e.mean(0), bold=name == "NySALT")
+                                                            for name, e in of_methods.items()])
+              for what, of_methods in errors.items()]
     return Exhibit(
         "L1 errors of energies and angles", "Figure 3 (right), section 5.2", [claim("energies"), claim("phase angles")],
         ["The printed errors hold a factor delta, which makes them depend on the step without saying more: here they are without it, "
@@ -176,12 +176,7 @@ def largest_stable_step():
 
     def largest(losses):
         """The last step at which no trajectory is lost, nor at any smaller one."""
-        last = 0.0
-        for step, number in losses.items():
-            if number:
-                break
-            last = step
-        return last
+        return max((step for step, _ in itertools.takewhile(lambda one: one[1] == 0, losses.items())), default=0.0)
 
     steps, limit = {name: largest(losses) for name, losses in lost.items()}, math.sqrt(20 / 3) / OMEGA
     close = {name: abs(step / limit - 1) <= 0.05 for name, step in steps.items()}

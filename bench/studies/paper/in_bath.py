@@ -6,218 +6,125 @@ import time
 import nysalt
 import numpy as np
 
-from accuracy import RIVAL, STARTS, crossing, curves_of, is_gap
-from chain import BATH, GAP, Setting, bath, follow, learned_in_bath, pick, reference_step, steps_text
-from claims import Claim, Estimate, Exhibit
+from accuracy import RIVAL, STARTS, Sweep, crossing, is_gap
+from chain import BATH, GAP, Setting, bath, divided, follow, learned_in_bath, pick, steps_text
+from claims import Claim, Exhibit
 from pages import Curve, Panel
 
 START = {"trajectory": "one long trajectory", "gibbs": "Gibbs starts"}
-FINE = 1e-3  # of the reference of distributions: omega h = .05
-REFERENCES = 4  # ensembles: six pairs for the floor
-GROUPS = 32  # of trajectories, for the jackknife
+FINE = 2.5e-3  # of the reference: its own error is far below the floor
 
 
-def ensemble(method, step, every, start, number, count):
-    """I by trajectory and sample over [0, 40], every `every` steps, of those trajectories that did not diverge. Ensemble 0
-    feels the noise of the seed; each other has starts and noise of its own, as that of a reference must be."""
-    horizon = step * int(pick(40.0, 4.0) / step + 1e-9)
-    values = follow(bath(start, number), method, step, horizon, every * step, count, ["stiff_energy"],
-                    repetition=number)[:, :, 0]
-    return values[~np.isnan(values).any(1)]
+def sweeps(metric, gaps, trajectories, **how):
+    """Distances of statistics of I over [0, 40] by the name of the starts, and the command of nysalt."""
+    def methods(start):
+        return lambda gap: {"BAOAB": "baoab", "BAOAB with half steps": "baoab_2x", "NySALT": learned_in_bath(start, gap)}
+
+    command = (f"nysalt compare --system fpu {BATH} --start trajectory --metric {metric}{' --range 0,1' if 'range' in how else ''} "
+               f"--horizon 40 --trajectories {trajectories} --steps {steps_text(gaps)} "
+               "--methods baoab,baoab_2x,learned:nystrom@end --learn-trajectories 512 --learn-horizon 1")
+    return {name: Sweep(bath(start), gaps, methods(start), "floor", horizon=pick(40.0, 4.0), trajectories=pick(trajectories, 64),
+                        metric=metric, fine_step=FINE, **how) for start, name in START.items()}, command
 
 
-def methods_at(start, gap):
-    return {"BAOAB": "baoab", "BAOAB with half steps": "baoab_2x", "NySALT": learned_in_bath(start, gap)}
+def samples(start, gap):
+    """I along trajectories by method, at each step of this gap, to show."""
+    step = gap * GAP
+    methods = {"reference": "baoab", "BAOAB": "baoab", "BAOAB with half steps": "baoab_2x", "NySALT": learned_in_bath(start, gap)}
+    for name, method in methods.items():
+        fine = divided(step, FINE if name == "reference" else step)
+        yield name, follow(bath(start), method, fine, step * int(pick(40.0, 4.0) / step), step, pick(1000, 64),
+                           ["stiff_energy"])[:, :, 0]
 
 
-def command(metric, gaps, count):
-    return (f"nysalt compare --system fpu {BATH} --start trajectory --metric {metric} --horizon 40 --trajectories {count} --steps "
-            f"{steps_text(gaps)} --methods baoab,baoab_2x,learned:nystrom@end --learn-trajectories 512 --learn-horizon 1")
-
-
-class Distances:
-    """Of one way to start: distances from the reference by method and gap, and the sampling floor."""
-
-    def __init__(self, start, gaps, floor=0.0):
-        self.start, self.name, self.gaps, self.floor = start, START[start], gaps, floor
-        self.errors = {name: [] for name in ("BAOAB", "BAOAB with half steps", "NySALT")}
-        self.shown = []
-
-    def at(self, name, gap):
-        return self.errors[name][self.gaps.index(gap)]
-
-    def table(self, sentence):
-        columns = ["gap", *self.errors, "floor"]
-        return (f"{sentence}, {self.name}:", columns,
-                [[f"{gap:g}", *(f"{e.mean:.4f}" if math.isfinite(e.mean) else "diverges" for e in row), f"{self.floor:.4f}"]
-                 for gap, *row in zip(self.gaps, *self.errors.values())], 0)
-
-    def panel(self, label):
-        floor = Curve("sampling floor", self.gaps, [self.floor] * len(self.gaps), dashed=True)
-        return Panel(self.name, "gap", label, [*curves_of(self.gaps, self.errors, bars=False), floor], "xy")
-
-
-def fractions(values):
-    """Of the samples, in 100 bins of 0 .. 1 and beyond either end."""
-    counts = np.bincount(np.clip(np.floor(values.ravel() * 100), -1, 100).astype(int) + 1, minlength=102)
-    return counts / counts.sum()
-
-
-def total_variation(a, b):
-    return 0.5 * float(np.abs(a - b).sum())
-
-
-def distributions(start, gaps):
-    count = pick(10_000, 32)
-    references = [fractions(ensemble("baoab", FINE, 20, start, 1 + k, count)) for k in range(REFERENCES)]
-    pairs = [total_variation(a, b) for i, a in enumerate(references) for b in references[:i]]
-    found = Distances(start, gaps, float(np.mean(pairs)))
-    centres = (np.arange(100) + 0.5) / 100
-    found.shown.append(Curve("reference", centres, 100 * references[0][1:-1], bold=True))
-    for gap in gaps:
-        for name, method in methods_at(start, gap).items():
-            values = ensemble(method, gap * GAP, max(1, int(100 / gap)), start, 0, count)
-            if 2 * len(values) <= count:
-                found.errors[name].append(Estimate(math.inf))
-                continue
-            sampled = fractions(values)
-            found.errors[name].append(Estimate(float(np.mean([total_variation(sampled, one) for one in references]))))
-            if gap == 330:
-                found.shown.append(Curve(name, centres, 100 * sampled[1:-1]))
-    return found
+def exhibit(title, place, claims, remark, found, sentence, label, command, figures, shown):
+    """figures: (name, caption) of the distances and of the curves that are shown, panels by the start."""
+    for one in claims:
+        one.command = command
+    (name, caption), (name_of_shown, caption_of_shown) = figures
+    return Exhibit(title, place, claims, [remark], [(f"{sentence}, {start}:", *one.table()) for start, one in found.items()],
+                   [(name, [one.panel(start, label) for start, one in found.items()], (1200, 520), caption),
+                    (name_of_shown, shown, (1200, 480), caption_of_shown)])
 
 
 def law_of_energy():
     gaps = pick([30, 50, 70, 100, 150, 190, 250, 330, 390, 450], [330, 450])
-    found = [distributions(start, gaps) for start in START]
+    found, command = sweeps("distribution", gaps, 10_000, range=(0.0, 1.0))
 
     def claim(name, gap, text, holds, rule):
-        values = [(one, one.at(name, gap).mean) for one in found]
+        values = {start: (one.at(name, gap).mean, one.floor()) for start, one in found.items()}
         return Claim(text, f"total variation at gap {gap}",
-                     "; ".join(f"{value:.4f}, floor {one.floor:.4f} ({one.name})" for one, value in values),
-                     {one.name: holds(value, one.floor) for one, value in values}, rule, STARTS)
+                     "; ".join(f"{value:.4f}, floor {floor:.4f} ({start})" for start, (value, floor) in values.items()),
+                     {start: holds(*one) for start, one in values.items()}, rule, STARTS)
 
     def is_hundredth(value, floor):
         return round(math.log10(value)) == -2 or value <= 1.5 * floor
 
     at_hundredth = "its decimal logarithm, rounded, must be -2, or it is at the floor"
-    least = {rival: min(one.at(rival, gap).mean / one.at("NySALT", gap).mean for one in found for gap in gaps if gap > 200)
+    least = {rival: min(one.at(rival, gap).mean / one.at("NySALT", gap).mean for one in found.values() for gap in gaps if gap > 200)
              for rival in ("BAOAB", "BAOAB with half steps")}
-    claims = [claim("BAOAB", 330, "BAOAB at gap 330: TVD 1e-1", lambda value, _: round(math.log10(value)) == -1,
-                    "its decimal logarithm, rounded, must be -1"),
-              claim("NySALT", 330, "NySALT at gap 330: a magnitude less, about 1e-2", is_hundredth, at_hundredth),
-              claim("NySALT", 450, "NySALT: TVD around 1e-2 even at gap 450", is_hundredth, at_hundredth),
-              Claim("NySALT has consistently smaller TVD than BAOAB after gap 200",
-                    "least ratio of the rival's TVD to that of NySALT after gap 200, for both ways to start",
-                    ", ".join(f"{ratio:.2f} for {rival}" for rival, ratio in least.items()),
-                    {rival: ratio > 1 for rival, ratio in least.items()}, "above 1 at every gap. At the floor such a ratio is chance",
-                    RIVAL + "BAOAB with half the step")]
-    for one in claims:
-        one.command = command("distribution --range 0,1", gaps, 10_000)
-    return Exhibit(
-        "Distribution of the total stiff energy", "Figure 6 (middle), section 5.3", claims,
-        ["The floor is the mean distance between pairs of four ensembles of the reference: no error below it can be seen. T = 40 is 0.4 "
-         "of a relaxation time: this is the departure from the initial distribution, not the error of the stationary distribution."],
-        [one.table("Total variation") for one in found],
-        [("law_distance", [one.panel("total variation") for one in found], (1200, 520),
-          "Total variation of the distribution of I over [0, 40] from that of fine steps."),
-         ("law_density", [Panel(f"{one.name}, gap 330", "I", "density", one.shown) for one in found], (1200, 480),
-          "Density of I at gap 330.")])
+    edges = np.linspace(0, 1, 101)
+    shown = [Panel(f"{name}, gap 330", "I", "density",
+                   [Curve(method, edges[:-1] + 0.005, np.histogram(values, edges)[0] * 100 / np.isfinite(values).sum(),
+                          bold=method == "reference") for method, values in samples(start, 330)]) for start, name in START.items()]
+    return exhibit(
+        "Distribution of the total stiff energy", "Figure 6 (middle), section 5.3",
+        [claim("BAOAB", 330, "BAOAB at gap 330: TVD 1e-1", lambda value, _: round(math.log10(value)) == -1,
+               "its decimal logarithm, rounded, must be -1"),
+         claim("NySALT", 330, "NySALT at gap 330: a magnitude less, about 1e-2", is_hundredth, at_hundredth),
+         claim("NySALT", 450, "NySALT: TVD around 1e-2 even at gap 450", is_hundredth, at_hundredth),
+         Claim("NySALT has consistently smaller TVD than BAOAB after gap 200",
+               "least ratio of the rival's TVD to that of NySALT after gap 200, for both ways to start",
+               ", ".join(f"{ratio:.2f} for {rival}" for rival, ratio in least.items()),
+               {rival: ratio > 1 for rival, ratio in least.items()}, "above 1 at every gap. At the floor such a ratio is chance",
+               RIVAL + "BAOAB with half the step")],
+        "The floor is the mean distance between pairs of four ensembles of the reference: no error below it can be seen. T = 40 is 0.4 "
+        "of a relaxation time: this is the departure from the initial distribution, not the error of the stationary distribution.",
+        found, "Total variation", "total variation", command,
+        [("law_distance", "Total variation of the distribution of I over [0, 40] from that of fine steps."),
+         ("law_density", "Density of I at gap 330.")], shown)
 
 
-def autocorrelations(values, lags):
-    """rho(k) = C(k)/C(0) of all trajectories, and without each of the groups."""
-    centred = values - values.mean()
-    groups = np.array_split(centred, min(GROUPS, len(centred)))
-    # By group and lag: the number of pairs, and the sums of the earlier value, the later value and their product.
-    n = values.shape[1]
-    sums = np.array([[(g[:, k:].size, g[:, :n - k].sum(), g[:, k:].sum(), np.sum(g[:, :n - k] * g[:, k:])) for k in range(lags + 1)]
-                     for g in groups])
-
-    def rho(total):
-        pairs, early, late, products = total.T
-        covariances = products / pairs - early * late / pairs**2
-        return covariances / covariances[0]
-
-    return rho(sums.sum(0)), np.array([rho(sums.sum(0) - one) for one in sums])
-
-
-def jackknife(without):
-    """The variance of what was found without each of the groups."""
-    return np.var(without, axis=0) * (len(without) - 1)
-
-
-def acf_distance(a, b):
-    """The RMS difference of rho over lags from the first on, with its standard error, and what sampling alone would make of it."""
-    (of_a, without_a), (of_b, without_b) = a, b
-
-    def distance(x, y):
-        return np.sqrt(np.mean((x - y)[..., 1:] ** 2, axis=-1))
-
-    error = math.sqrt(jackknife(distance(without_a, of_b)) + jackknife(distance(without_b, of_a)))
-    floor = math.sqrt(np.mean((jackknife(without_a) + jackknife(without_b))[1:]))
-    return Estimate(float(distance(of_a, of_b)), error), floor
-
-
-def autocovariances(start, gaps):
-    count = pick(2000, 32)
-    found = Distances(start, gaps)
-    for gap in gaps:
-        step = gap * GAP
-        longest = int(1 / step + 1e-9)
-        every = max(1, longest // 50)
-        lags, finer = longest // every, round(step / reference_step(step))
-        reference = autocorrelations(ensemble("baoab", step / finer, every * finer, start, 1, count), lags)
-        x = step * every * np.arange(lags + 1)
-        if gap == 190:
-            found.shown.append(Curve("reference", x, reference[0], bold=True))
-        for name, method in methods_at(start, gap).items():
-            values = ensemble(method, step, every, start, 0, count)
-            if 2 * len(values) <= count:
-                found.errors[name].append(Estimate(math.inf))
-                continue
-            sampled = autocorrelations(values, lags)
-            off, floor = acf_distance(sampled, reference)
-            found.errors[name].append(off)
-            if name == "NySALT":
-                found.floor += floor / len(gaps)
-            if gap == 190:
-                found.shown.append(Curve(name, x, sampled[0], bold=name == "NySALT"))
-    return found
+def autocorrelation(values, lags):
+    """rho(k) = C(k)/C(0) of the trajectories that did not diverge."""
+    x = values[np.isfinite(values).all(1)]
+    x, n = x - x.mean(), values.shape[1]
+    covariances = np.array([np.mean(x[:, :n - k] * x[:, k:]) for k in range(lags + 1)])
+    return covariances / covariances[0]
 
 
 def autocovariance_of_energy():
     gaps = pick([30, 50, 70, 100, 130, 160, 190, 200, 250, 330, 390, 400, 450], [190, 200])
-    found = [autocovariances(start, gaps) for start in START]
+    found, command = sweeps("acf", gaps, 2000, longest_lag=1.0)
 
     def at_one_gap(gap, text):
-        pairs = [(one, one.at("NySALT", gap).mean, one.at("BAOAB", gap).mean) for one in found]
+        values = {start: (one.at("NySALT", gap).mean, one.at("BAOAB", gap).mean, one.floor()) for start, one in found.items()}
         return Claim(text, "RMS error of the normalised ACF over lags up to 1",
-                     "; ".join(f"NySALT {a:.1e}, BAOAB {b:.1e}, floor {one.floor:.1e} ({one.name})" for one, a, b in pairs),
-                     {one.name: a <= 3 * one.floor and b > 10 * one.floor for one, a, b in pairs},
+                     "; ".join(f"NySALT {a:.1e}, BAOAB {b:.1e}, floor {c:.1e} ({start})" for start, (a, b, c) in values.items()),
+                     {start: a <= 3 * c and b > 10 * c for start, (a, b, c) in values.items()},
                      "NySALT within three times the sampling floor, BAOAB above ten times", STARTS)
 
     def threshold(name, gap, distance, text, level):
-        at = {one.name: crossing(gaps, one.errors[name], level * one.floor) for one in found}
+        at = {start: crossing(gaps, one.errors[name], level * one.floor()) for start, one in found.items()}
         return Claim(text, f"gap at which the RMS error of the normalised ACF rises above {level:g} times the floor",
-                     ", ".join(f"{at[one.name]} ({one.name}, floor {one.floor:.1e})" for one in found),
+                     ", ".join(f"{at[start]} ({start}, floor {one.floor():.1e})" for start, one in found.items()),
                      {start: is_gap(one, gap, distance) for start, one in at.items()},
                      f"within {distance} gaps and two standard errors", STARTS)
 
-    claims = [at_one_gap(200, "at delta = 0.02 BAOAB produces an inaccurate ACF, NySALT remains very reliable"),
-              at_one_gap(190, "at gap 190 NySALT is almost exactly as the reference, BAOAB oscillates much more"),
-              threshold("BAOAB", 100, 30, "the error of BAOAB grows from gap 100 on", 2),
-              threshold("NySALT", 400, 50, "NySALT remains accurate until about gap 400", 10)]
-    for one in claims:
-        one.command = command("acf", gaps, 2000)
-    return Exhibit(
-        "Autocovariance of the total stiff energy", "Figures 2 (section 2) and 6 (right), section 5.3", claims,
-        ["The paper's ACF is not normalised; here rho(k) = C(k)/C(0), so that starts which inflate the variance do not hide the shape."],
-        [one.table("RMS error of the ACF") for one in found],
-        [("acf_error", [one.panel("RMS error of rho") for one in found], (1200, 520),
-          "RMS error of the normalised autocovariance of I."),
-         ("acf_shape", [Panel(f"{one.name}, gap 190", "lag", "rho", one.shown) for one in found], (1200, 480),
-          "Normalised autocovariance of I at gap 190.")])
+    step, lags = 190 * GAP, 52  # up to 1
+    shown = [Panel(f"{name}, gap 190", "lag", "rho",
+                   [Curve(method, step * np.arange(lags + 1), autocorrelation(values, lags), bold=method in ("reference", "NySALT"))
+                    for method, values in samples(start, 190)]) for start, name in START.items()]
+    return exhibit(
+        "Autocovariance of the total stiff energy", "Figures 2 (section 2) and 6 (right), section 5.3",
+        [at_one_gap(200, "at delta = 0.02 BAOAB produces an inaccurate ACF, NySALT remains very reliable"),
+         at_one_gap(190, "at gap 190 NySALT is almost exactly as the reference, BAOAB oscillates much more"),
+         threshold("BAOAB", 100, 30, "the error of BAOAB grows from gap 100 on", 2),
+         threshold("NySALT", 400, 50, "NySALT remains accurate until about gap 400", 10)],
+        "The paper's ACF is not normalised; here rho(k) = C(k)/C(0), so that starts which inflate the variance do not hide the shape.",
+        found, "RMS error of the ACF", "RMS error of rho", command,
+        [("acf_error", "RMS error of the normalised autocovariance of I."),
+         ("acf_shape", "Normalised autocovariance of I at gap 190.")], shown)
 
 
 def run_times():

@@ -6,15 +6,14 @@ import math
 import nysalt
 import numpy as np
 
-from chain import BATH, GAP, OMEGA, Setting, chain, follow, learned, learned_in_bath, pick, theta_of, two_stages
+from chain import BATH, GAP, OMEGA, STATE, Setting, chain, follow, learned, learned_in_bath, pick, theta_of, two_stages
 from claims import Claim, Estimate, Exhibit, agrees, exponent, mean_of
-from linear import energy_optimum, optimum_in_bath, two_stages_of
+from linear import optimum, optimum_in_bath, two_stages_of
 from pages import Curve, Panel
 
 CLOSE = 0.01  # where the paper calls parameters close
 PRINTED = {1: (0.499, 0.403), 5: (0.500, 0.403), 10: (0.499, 0.402)}  # table 1: b1 and beta1 by the step in .001
 DIRECTIONS = np.array([[1.0, 0.5], [0.0, 1.0]])  # of b1 and beta1: along the first a small step hardly changes
-STATE = [f"{name}{i}" for name in "qp" for i in range(1, 7)]
 
 
 def force(q):
@@ -106,7 +105,7 @@ def curves_of(thetas, x, k):
 def parameters_against_omega():
     omegas = pick([2, 4, 8, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100], [2, 50])
     theta = {c: [theta_of(learned(chain(float(w)), 1 / w, coordinates=c)) for w in omegas] for c in ("qp", "modes")}
-    linear = (0.5, energy_optimum(1.0)[1])
+    linear = (0.5, optimum(1.0)[1])
     farthest = {c: max(distance_from(linear, t) for w, t in zip(omegas, theta[c]) if w >= 30) for c in theta}
     panels = [Panel(name, "omega", name, [*curves_of({f"loss in {c}": theta[c] for c in theta}, omegas, k),
                                           Curve("linear system", omegas, [linear[k]] * len(omegas))], "x")

@@ -25,10 +25,10 @@ def reproduce(*arguments, **how):
                           text=True, check=False, **how)
 
 
-def claims_of(*arguments, **how):
-    done = reproduce("--json", *arguments, **how)
+def claims_of(folder, *arguments):
+    done = reproduce("--quick", "--output", folder, *arguments)
     assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
+    return json.loads((folder / "paper.json").read_text())
 
 
 def must_be_whole(claims):
@@ -123,13 +123,11 @@ def test_force_and_scheme_are_those_of_the_library():
     assert not np.allclose(ours, other[:, 1], rtol=1e-6)
 
 
-def test_distances_of_energies_angles_and_laws():
+def test_distances_of_energies_and_angles():
     I = np.array([[[1.0, 2.0, 1.0], [2.0, 1.0, 1.0], [math.nan] * 3]])
     reference = np.array([[[1.0, 2.0, 1.0], [1.0, 2.0, 1.0], [1.0, 2.0, 1.0]]])
     assert energies.energy_error(I, reference).tolist() == [[0.0, 0.5, 2.0]]
     assert abs(energies.angle_error(I, reference)[0, 1] - (math.atan(2**0.5) - math.atan(2**-0.5))) < 1e-15  # rounding
-    a, b = in_bath.fractions(np.array([-1.0, 0.005, 0.995, 2.0])), in_bath.fractions(np.array([-1.0, 0.005, 0.5, 2.0]))
-    assert in_bath.total_variation(a, b) == 0.25 and in_bath.total_variation(a, a) == 0
 
 
 def test_autocorrelations_of_a_known_process():
@@ -139,33 +137,28 @@ def test_autocorrelations_of_a_known_process():
     x[:, 0] = rng.normal(0, math.sqrt(4 / 3), 300)
     for n in range(119):
         x[:, n + 1] = 0.5 * x[:, n] + rng.normal(0, 1, 300)
-    rho = in_bath.autocorrelations(x, 4)
-    assert np.abs(rho[0] - 0.5 ** np.arange(5)).max() < 0.05
-    same, floor = in_bath.acf_distance(rho, in_bath.autocorrelations(x[::-1], 4))
-    assert same.mean < 1e-12 < floor < 0.05  # the same trajectories in another order: rounding
-    shuffled = in_bath.autocorrelations(rng.permuted(x, axis=1), 4)
-    far, _ = in_bath.acf_distance(rho, shuffled)
-    assert far.mean > 10 * floor and far.mean > 10 * far.error
+    x = np.vstack([x, np.full(120, math.nan)])  # a trajectory that diverged does not count
+    assert np.abs(in_bath.autocorrelation(x, 4) - 0.5 ** np.arange(5)).max() < 0.05
+    assert np.abs(in_bath.autocorrelation(rng.permuted(x, axis=1), 4)[1:]).max() < 0.05  # shuffled, they have none
 
 
 def test_quick_runs_go_through_all_exhibits_and_write_them(tmp_path):
-    document = claims_of("--quick", "--output", "results", cwd=tmp_path)
+    document = claims_of(tmp_path)
     must_be_whole(document["items"])
     assert document["quick"] and {one["part"] for one in document["items"]} == {"linear", "deterministic", "langevin"}
     exhibits = {one["exhibit"] for one in document["items"]}
     assert len(exhibits) == 23 and len(document["items"]) == 57
-    page = (tmp_path / "results/paper.md").read_text()
+    page = (tmp_path / "paper.md").read_text()
     assert "no weight" in page and all(f"### {exhibit}\n" in page for exhibit in exhibits)
-    written = json.loads((tmp_path / "results/paper.json").read_text())
-    assert written["items"] == document["items"] and " cores" in written["made"]["machine"]
+    assert " cores" in document["made"]["machine"]
     for picture in ("parameters_against_omega", "accuracy_T_05", "energies_at_400", "law_distance"):
-        assert "<svg" in (tmp_path / f"results/paper/{picture}.svg").read_text()
+        assert "<svg" in (tmp_path / f"paper/{picture}.svg").read_text()
 
 
-def test_threads_change_nothing_and_seeds_do():
-    one = claims_of("deterministic", "linear", "--quick", "--threads", "1")
-    assert claims_of("linear", "deterministic", "--quick", "--threads", "3") == one
-    assert claims_of("deterministic", "--quick", "--seed", "2")["items"] != [x for x in one["items"] if x["part"] != "linear"]
+def test_threads_change_nothing_and_seeds_do(tmp_path):
+    one = claims_of(tmp_path, "deterministic", "linear", "--threads", "1")["items"]
+    assert claims_of(tmp_path, "linear", "deterministic", "--threads", "3")["items"] == one
+    assert claims_of(tmp_path, "deterministic", "--seed", "2")["items"] != [x for x in one if x["part"] != "linear"]
 
 
 @pytest.mark.parametrize("arguments, words", [
