@@ -19,6 +19,8 @@
 
 namespace nysalt::program {
 
+struct method_row;
+
 class recommendation {
  public:
   /// Plans who takes part. Throws refusal for bad options, before any work is done.
@@ -32,6 +34,7 @@ class recommendation {
   bool has_result() const { return asked().has_result(); }
   const std::vector<std::string>& warnings() const { return warnings_; }
   json document() const;
+  static json schema();
   std::string readable() const;
   /// The method to take; nothing if none is accepted.
   std::optional<chosen_method> chosen() const;
@@ -107,8 +110,7 @@ class recommendation {
   std::string bound_of(const contest& among, const candidate& contender) const;
   std::string quantity() const;
   double quantile_of(const measured_error& error) const;
-  json row_json(const contest& among, const candidate& contender) const;
-  json contest_json(const contest& among) const;
+  method_row row_of(const contest& among, const candidate& contender) const;
 
   recommendation_options options_;
   common_settings common_;

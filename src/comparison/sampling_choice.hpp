@@ -52,6 +52,7 @@ class sampling_choice {
   std::string verdict() const;
   const std::vector<std::string>& warnings() const { return warnings_; }
   json document() const;
+  static json schema();
   std::string readable() const;
   /// The word to take; nothing if there is none.
   std::optional<chosen_method> chosen() const;

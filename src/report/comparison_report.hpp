@@ -12,6 +12,7 @@ namespace nysalt::program {
 
 /// The results of a comparison for machines, and for people.
 json document_of(const comparison& all);
+json schema_of_comparison();
 std::string readable(const comparison& all);
 /// In the folder of a report.
 constexpr const char* folder_of_schemes = "schemes";
