@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(a_budget_of_seconds_gives_equal_seconds) {
   BOOST_TEST(all["rows"].size() >= 12U);
   std::set<double> budgets;
   for (const auto& one : all["rows"]) {
-    if (one.contains("reason")) {  // on a machine that is busier by now, fewer than ten steps
+    if (!one["reason"].is_null()) {  // on a machine that is busier by now, fewer than ten steps
       const std::string reason = one["reason"];
       BOOST_TEST(reason.find("of its steps of") != std::string::npos, reason);
       continue;
