@@ -134,7 +134,7 @@ void comparison::learn(row& line, journal& kept) {
   const learned_row found = kept.once(part, read, [&] {
     const learn_plan plan = plan_for(*source.family, where, line.step, options_.learning, common_);
     const learned_scheme learned = learn_with(*system_, plan, shown_, work_of_learning(line));
-    return learned_row_of(line.method, learned.fit,
+    return learned_row_of(fit_of(learned, options_.learning, where, line.method),
                           learned.fit.usable ? scheme_document({learned}, *system_, plan) : json(nullptr));
   });
   fits_.push_back(found);
@@ -143,7 +143,7 @@ void comparison::learn(row& line, journal& kept) {
   line.coefficients.emplace(
       family.name, family.letters, family.coefficients(parameters),
       method_properties{family.order, family.symmetric, family.requires_quadratic_kinetic});
-  line.gains_nothing = found.gains_nothing;
+  line.gains_nothing = found.gains_nothing();
   if (!found.usable) line.reason = "the fit is not usable: " + found.reason;
 }
 
@@ -242,7 +242,7 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
     shown_.part(fmt::format("comparing at step {:g}", step), work_of_paths(all));
   }
   const auto read = [&](const json& text) {
-    return all_measured_from(text, along_paths().size(), all.size(), options_.trajectories);
+    return measured_from(text, along_paths().size(), all.size(), options_.trajectories);
   };
   const auto found = kept.once(part, read, [&] {
     std::vector<method> methods;
@@ -268,8 +268,10 @@ void comparison::measure_paths(double step, const group& all, journal& kept) {
 void comparison::measure_acceptance(std::size_t metric, double step, const group& all, journal& kept) {
   shown_.part(fmt::format("acceptance at step {:g}", step));
   const std::string part = fmt::format("{} at {}", metrics_[metric].text(), step);
-  const auto read = [&](const json& text) { return measured_from(text, all.size(), options_.trajectories); };
-  const measured found = kept.once(part, read, [&] {
+  const auto read = [&](const json& text) {
+    return measured_from(text, 1, all.size(), options_.trajectories);
+  };
+  const auto found = kept.once(part, read, [&] {
     measured result;
     for (const row* line : all) {
       const auto accepted = system_->acceptance(*line->coefficients, plan_at(step), options_.hmc_temperature,
@@ -278,9 +280,9 @@ void comparison::measure_acceptance(std::size_t metric, double step, const group
       one.lose(accepted.diverged_at, options_.trajectories);
       result.measurements.push_back(std::move(one));
     }
-    return result;
+    return std::vector{result};
   });
-  take(metric, step, all, found);
+  take(metric, step, all, found.front());
 }
 
 void comparison::measure_seconds() {

@@ -246,7 +246,7 @@ void comparison::measure_law(std::size_t metric, double step, const group& all, 
   const std::string part = fmt::format("reference of {} at {}", name, step);
   if (kept.has(part)) shown_.skip(6.0 * work_of_reference());
   const auto read_reference = [](const json& text) {
-    baseline context = baseline_from(text);
+    auto context = from_json<baseline>(text);
     if (!context.law) throw std::out_of_range("law");
     return context;
   };

@@ -150,7 +150,8 @@ void journal::refuse_edited(const std::string& part) const {
          path_.string(), part);
 }
 
-void journal::keep(const std::string& part, const json& result) {
+void journal::keep(const std::string& part, json result) {
+  name_infinities(result);
   on_first(all_ranks(), [&] { write(line_of({{"part", part}, {"result", result}})); });
   has_written_ = true;
 }

@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-#include "json.hpp"
+#include "described.hpp"
 
 namespace nysalt::program {
 
@@ -44,7 +44,7 @@ class journal {
   /// Nothing was finished, now or before.
   bool is_empty() const { return found_.empty() && !has_written_; }
   /// The result of a part, by the name of the part: read(json) of what was kept, or else that of work(), of
-  /// which to_json() is kept. Throws refusal if it cannot be written, and where read() throws: read() must
+  /// which as_json() is kept. Throws refusal if it cannot be written, and where read() throws: read() must
   /// take nothing of which a later use goes wrong, as another version may have written the file.
   auto once(const std::string& part, const auto& read, const auto& work) {
     if (has(part)) {
@@ -55,7 +55,7 @@ class journal {
       }
     }
     auto result = work();
-    if (!path_.empty()) keep(part, to_json(result));
+    if (!path_.empty()) keep(part, as_json(result));
     return result;
   }
   /// Takes the file away: all is finished, and written elsewhere. No other rank needs to call it.
@@ -70,7 +70,7 @@ class journal {
   std::size_t read(const std::string& text, const json& question, const std::string& head);
   json result_of(const std::string& part) const;
   [[noreturn]] void refuse_edited(const std::string& part) const;
-  void keep(const std::string& part, const json& result);
+  void keep(const std::string& part, json result);
   void write(const std::string& text);
 
   std::filesystem::path path_;

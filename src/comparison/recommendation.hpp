@@ -19,6 +19,8 @@
 
 namespace nysalt::program {
 
+struct method_row;
+
 class recommendation {
  public:
   /// Plans who takes part. Throws refusal for bad options, before any work is done.
@@ -33,6 +35,7 @@ class recommendation {
   const std::vector<std::string>& warnings() const { return warnings_; }
   json document() const;
   std::string readable(const text_form& form = {}) const;
+  static json schema();
   /// The method to take; nothing if none is accepted.
   std::optional<chosen_method> chosen() const;
 
@@ -127,8 +130,7 @@ class recommendation {
   std::string bound_of(const contest& among, const candidate& contender) const;
   std::string quantity() const;
   double quantile_of(const measured_error& error) const;
-  json row_json(const contest& among, const candidate& contender) const;
-  json contest_json(const contest& among) const;
+  method_row row_of(const contest& among, const candidate& contender) const;
 
   recommendation_options options_;
   common_settings common_;

@@ -81,7 +81,7 @@ std::string repaid_after(const comparison& all, const cost_at_level& cost,
   });
   double spent = 0.0;
   for (const auto& fit : all.fits()) {
-    if (fit.method == cost.method) spent = std::max(spent, fit.evaluations);
+    if (fit.method == cost.method) spent = std::max(spent, fit.learning_evaluations);
   }
   if (best == costs.end() || spent == 0.0 ||
       cost.evaluations.kind != threshold_crossing::crossing_kind::found)
@@ -205,9 +205,7 @@ void add_energies(page& report, const comparison& all) {
 
 /// "usable", "not usable", or "nothing gained over chin4a".
 std::string verdict_of(const learned_row& fit) {
-  if (!fit.usable) return std::string(to_string(verdict::not_usable));
-  if (!fit.gains_nothing) return std::string(to_string(verdict::usable));
-  return std::string(to_string(verdict::nothing_gained)) + (fit.rival.empty() ? "" : " over " + fit.rival);
+  return fit.verdict + (fit.gains_nothing() && !fit.rival.empty() ? " over " + fit.rival : "");
 }
 
 void add_fits(page& report, const comparison& all) {
@@ -223,8 +221,8 @@ void add_fits(page& report, const comparison& all) {
     const auto number = [](double x) {
       return std::isfinite(x) ? fmt::format("{:.3g}", x) : std::string("-");
     };
-    fits.add({fit.method, number(fit.step), parameters, number(fit.one_step_error), number(fit.evaluations),
-              number(fit.seconds), verdict_of(fit),
+    fits.add({fit.method, number(fit.step), parameters, number(fit.one_step_error),
+              number(fit.learning_evaluations), number(fit.seconds), verdict_of(fit),
               fit.usable ? fmt::format("{}/{}", folder_of_schemes, scheme_file(fit.method, fit.step)) : "-"});
   }
   report.table(std::move(fits));
@@ -349,10 +347,9 @@ std::vector<std::string> write_report(const comparison& all, const std::filesyst
   write_document(folder / "report.json", document, all.common());
   write_result(folder / "report.html", html_of(report_of(all), warnings));
   for (const auto& fit : all.fits()) {
-    const json scheme = fit.scheme();
-    if (scheme.is_null()) continue;
+    if (fit.scheme.is_null()) continue;
     make_folders(folder / folder_of_schemes);
-    write_document(folder / folder_of_schemes / scheme_file(fit.method, fit.step), scheme, all.common());
+    write_document(folder / folder_of_schemes / scheme_file(fit.method, fit.step), fit.scheme, all.common());
   }
   return warnings;
 }

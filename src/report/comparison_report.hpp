@@ -13,6 +13,7 @@ namespace nysalt::program {
 
 /// The results of a comparison for machines, and for people.
 json document_of(const comparison& all);
+json schema_of_comparison();
 /// First who is best, then the rows by rank; details where they are asked for.
 std::string readable(const comparison& all, const text_form& form = {});
 /// In the folder of a report.

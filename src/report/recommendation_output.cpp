@@ -6,7 +6,9 @@
 #include "comparison/learning.hpp"
 #include "comparison/method_file.hpp"
 #include "comparison/purpose.hpp"
+#include "comparison/ranking.hpp"
 #include "comparison/recommendation.hpp"
+#include "method_row.hpp"
 #include "table.hpp"
 #include "terminal.hpp"
 
@@ -159,32 +161,32 @@ std::string recommendation::quantity() const {
   return options_.metric + " error";
 }
 
-json recommendation::row_json(const contest& among, const candidate& contender) const {
-  json row{
-      {"method", contender.source.typed},
-      {"learned", contender.is_learned()},
-      {"order", contender.order},
-      {"reversible", contender.symmetric},
-      {"rotation", contender.rotates},
-      {"evaluations_per_step", contender.source.evaluations_per_step},
-      {"step_size", contender.step},
-      {"evaluations_per_time", contender.evaluations_per_time},
-      {"seconds_per_time", contender.seconds_per_time},
-      {"error", contender.error.mean.mean},
-      {"standard_error", contender.error.mean.standard_error},
-      {"tail", contender.error.is_heavy},
-      {"error_of_95_percent", contender.is_ranked() ? json(quantile_of(contender.error)) : json(nullptr)},
-      {"diverged", contender.error.diverged},
-      {"trajectories", contender.error.trajectories},
-      {"reference_error", contender.reference_error ? json(*contender.reference_error) : json(nullptr)},
-      {"confirmed", nullptr}};
+method_row recommendation::row_of(const contest& among, const candidate& contender) const {
+  const measured_error& error = contender.error;
+  method_row row{.metric = metric().text(),
+                 .method = contender.source.typed,
+                 .step = contender.step,
+                 .step_size = contender.step,
+                 .evaluations_per_time = contender.evaluations_per_time,
+                 .seconds_per_time = contender.seconds_per_time,
+                 .error = error.mean.mean,
+                 .standard_error = error.mean.standard_error,
+                 .survivors = error.trajectories - error.diverged,
+                 .diverged = error.diverged,
+                 .reason = contender.reason,
+                 .learned = contender.is_learned(),
+                 .order = contender.order,
+                 .reversible = contender.symmetric,
+                 .rotation = contender.rotates,
+                 .evaluations_per_step = contender.source.evaluations_per_step,
+                 .reference_error = contender.reference_error,
+                 .frequency = frequency_of(contender.source, *system_)};
+  if (error.is_heavy) row.marks.push_back(to_string(mark::tail));
+  if (contender.is_ranked()) row.quantile_95 = quantile_of(error);
   if (contender.confirmed && contender.reason.empty()) {
-    row["confirmed"] = {{"error", among.statistic(contender.confirmed->scores)},
-                        {"upper_bound", among.statistic.upper_bound(contender.confirmed->scores)}};
+    const auto& scores = contender.confirmed->scores;
+    row.confirmed = {among.statistic(scores), among.statistic.upper_bound(scores)};
   }
-  if (const auto frequency = frequency_of(contender.source, *system_))
-    row["frequency"] = {{"value", frequency->value}, {"source", frequency->source}};
-  if (!contender.reason.empty()) row["reason"] = contender.reason;
   return row;
 }
 
@@ -192,64 +194,88 @@ double recommendation::quantile_of(const measured_error& error) const {
   return statistic(true)(error.scores);
 }
 
-json recommendation::contest_json(const contest& among) const {
+namespace {
+
+/// Who wins at one cost or error, and by how much: classical over learned.
+struct contest_result {
+  std::string verdict;
+  std::string winner;
+  std::string best_learned;
+  std::string best_classical;
+  std::string judged_by;
+  std::optional<ratio_estimate> error_ratio{};
+  std::optional<double> evaluations_ratio{};
+  std::optional<double> seconds_ratio{};
+  std::vector<method_row> rows{};
+};
+
+struct recommendation_result : recommendation_options, contest_result {
+  std::string system;
+  std::string starts;
+  std::uint64_t seed;
+  std::string advice;
+  contest_result by_seconds;
+  std::vector<learned_fit> fits;
+  std::vector<left_out_method> left_out;
+  std::vector<std::string> warnings;
+  std::string output{};  // the file of the method to take, if that was written
+};
+
+contest_result result_of(const contest& among) {
   const auto name_of = [](const candidate* contender) {
-    return contender == nullptr ? json(nullptr) : json(contender->source.typed);
+    return contender == nullptr ? std::string() : contender->source.typed;
   };
   const candidate* learned = among.best_of(true);
   const candidate* classical = among.best_of(false);
-  json result{{"verdict", among.verdict()},
-              {"winner", name_of(among.winner())},
-              {"best_learned", name_of(learned)},
-              {"best_classical", name_of(classical)},
-              {"judged_by", among.statistic.is_quantile ? "quantile" : "mean"},
-              {"error_ratio", nullptr},
-              {"evaluations_ratio", nullptr},
-              {"seconds_ratio", nullptr}};
+  contest_result result{among.verdict(), name_of(among.winner()), name_of(learned), name_of(classical),
+                        among.statistic.is_quantile ? "quantile" : "mean"};
   if (learned == nullptr || classical == nullptr) return result;
-  const ratio_estimate ratio = among.error_ratio(*classical, *learned);
-  result["error_ratio"] = {{"value", ratio.value}, {"low", ratio.low}, {"high", ratio.high}};
-  result["evaluations_ratio"] = classical->evaluations_per_time / learned->evaluations_per_time;
-  result["seconds_ratio"] = classical->seconds_per_time / learned->seconds_per_time;
+  result.error_ratio = among.error_ratio(*classical, *learned);
+  result.evaluations_ratio = classical->evaluations_per_time / learned->evaluations_per_time;
+  result.seconds_ratio = classical->seconds_per_time / learned->seconds_per_time;
   return result;
 }
 
+}  // namespace
+
+NYSALT_DESCRIBED(ratio_estimate, value, low, high)
+NYSALT_DESCRIBED(contest_result, verdict, winner, best_learned, best_classical, judged_by, error_ratio,
+                 evaluations_ratio, seconds_ratio, rows)
+constexpr auto members(of<recommendation_result>) {
+  using result = recommendation_result;
+  return std::tuple(NYSALT_MEMBERS(result, system, starts, metric, observable, budget, budget_seconds, error,
+                                   horizon, trajectories, seed),
+                    item{"purpose", [](const result& all) { return all.learning.purpose; }},
+                    NYSALT_MEMBERS(result, verdict, winner, best_learned, best_classical, judged_by,
+                                   error_ratio, evaluations_ratio, seconds_ratio, advice, by_seconds, rows,
+                                   fits, left_out, warnings, output));
+}
+
+json recommendation::schema() { return whole_schema<recommendation_result>("nysalt recommend"); }
+
 json recommendation::document() const {
-  json rows = json::array();
-  json fits = json::array();
-  for (const auto& contender : asked().all) {
-    rows.push_back(row_json(asked(), contender));
+  const auto with_rows = [&](const contest& among) {
+    contest_result result = result_of(among);
+    for (const candidate& contender : among.all) result.rows.push_back(row_of(among, contender));
+    return result;
+  };
+  recommendation_result result{options_,
+                               with_rows(asked()),
+                               system_->description(),
+                               system_->starts(),
+                               common_.seed,
+                               advice(),
+                               with_rows(*by_seconds_),
+                               {},
+                               left_out_of(left_out_),
+                               warnings_};
+  if (options_.metric != "path") result.observable.clear();
+  for (const candidate& contender : asked().all) {
     if (!contender.learned) continue;
-    json fit{{"method", contender.source.typed}};
-    fit.update(fit_json(contender.learned->fit));
-    fits.push_back(fit);
+    result.fits.push_back(
+        fit_of(*contender.learned, options_.learning, contender.where, contender.source.typed));
   }
-  json left_out = json::array();
-  for (const auto& [name, reason] : left_out_) left_out.push_back({{"method", name}, {"reason", reason}});
-  const auto number = [](const std::optional<double>& value) { return value ? json(*value) : json(nullptr); };
-  const std::string& purpose = options_.learning.purpose;
-  json result{{"system", system_->description()},
-              {"starts", system_->starts()},
-              {"metric", options_.metric},
-              {"observable", options_.metric == "path" ? json(options_.observable) : json(nullptr)},
-              {"budget", number(options_.budget)},
-              {"budget_seconds", number(options_.budget_seconds)},
-              {"error", number(options_.error)},
-              {"horizon", options_.horizon},
-              {"trajectories", options_.trajectories},
-              {"seed", common_.seed},
-              {"purpose", purpose.empty() ? json(nullptr) : json(purpose)}};
-  result.update(contest_json(asked()));
-  result["advice"] = advice();
-  result["by_seconds"] = contest_json(*by_seconds_);
-  json in_seconds = json::array();
-  for (const auto& contender : by_seconds_->all) in_seconds.push_back(row_json(*by_seconds_, contender));
-  result["by_seconds"]["rows"] = in_seconds;
-  result["rows"] = rows;
-  result["fits"] = fits;
-  result["left_out"] = left_out;
-  result["warnings"] = warnings_;
-  return result;
+  return whole_document(result);
 }
 
 namespace {
@@ -310,11 +336,11 @@ std::string recommendation::readable(const text_form& form) const {
         form.width);
   }
   if (std::ranges::any_of(among.all, &candidate::is_left_behind)) {
-    text += wrapped(
-        fmt::format("behind: left behind, judged on fewer than {} trajectories, on which {}", options_.trajectories,
-                    options_.error ? "the cost was too far above the least"
-                                   : "the error was larger than the least by more than chance"),
-        form.width);
+    text += wrapped(fmt::format("behind: left behind, judged on fewer than {} trajectories, on which {}",
+                                options_.trajectories,
+                                options_.error ? "the cost was too far above the least"
+                                               : "the error was larger than the least by more than chance"),
+                    form.width);
   }
   if (!form.is_verbose) return text;
   table all({"method", "order", "mean error", "standard error", "95 % err below", "diverged"});

@@ -24,7 +24,7 @@ const json& row_of(const json& all, const std::string& method) {
   throw std::runtime_error("no row of " + method);
 }
 
-bool stands(const json& row) { return !row.contains("reason") && row["diverged"] == 0; }
+bool stands(const json& row) { return row["reason"].is_null() && row["diverged"] == 0; }
 
 /// A chain whose modes lie between 0.7 and 4 rad per unit time.
 const std::string chain = "--system linear_chain --masses 8 --spring 4 --length 2 ";
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(at_one_budget_all_cost_the_same_and_the_least_error_is_firs
       BOOST_TEST(step == evaluations / 80.0, boost::test_tools::tolerance(1e-15));
     }
     if (!stands(row)) continue;
-    const double ranked = row[all["judged_by"] == "mean" ? "error" : "error_of_95_percent"];
+    const double ranked = row[all["judged_by"] == "mean" ? "error" : "quantile_95"];
     BOOST_TEST(ranked >= last);
     last = ranked;
     // The budget and at most one evaluation more, to begin with.
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(at_one_budget_all_cost_the_same_and_the_least_error_is_firs
       "learn --system fpu --family nystrom --step 0.025 --horizon 5 --effort quick --trajectories 8 --seed "
       "3");
   for (const auto& one : all["fits"]) {
-    if (one["family"] == "nystrom") BOOST_TEST(one["parameters"] == fit["parameters"]);
+    if (one["family"] == "nystrom") BOOST_TEST(one["parameters"] == fit["fits"][0]["parameters"]);
   }
   // On the same trajectories, beside a finer reference: the two differ by the errors of both references.
   const auto& row = row_of(all, "srkn6b");

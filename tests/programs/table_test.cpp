@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(rows_that_are_wrong_are_found) {
            {json + " | golden: diverged 1e-9", "/step is 0.01, not 0.05"},
            {json + " --seed 2 | golden: run 1e-10", "/rows/0/3 is"},
            {json + " --trajectories 2 | golden: run 1e-10", "/trajectories is 2, not 1"},
-           {"0 list --json | golden: run 1e-10", " is {\"systems\""},
+           {"0 list --json | golden: run 1e-10", " is {\"version\""},
            {"0 $ sed 's/\"step\":/\"stop\":/' $source/golden/run.json | golden: run 1e-10",
             " has stop where step was"},
            {"0 $ sed 's/\"~number\"/null/' $source/golden/run.json | golden: run 1e-10", "/seconds is ~null"},

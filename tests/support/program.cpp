@@ -162,6 +162,39 @@ void compare(const json& golden, const json& found, double tolerance, const std:
   }
 }
 
+/// What of a document its JSON Schema refuses: by the words that the program's schemas have.
+void find_violations(const json& schema, const json& value, const std::string& at, texts& wrong) {
+  if (schema.contains("const") && schema["const"] != value)
+    wrong.push_back(at + " must be " + schema["const"].dump());
+  if (schema.contains("type")) {
+    const auto is = [&](const json& type) {
+      return type == "object"    ? value.is_object()
+             : type == "array"   ? value.is_array()
+             : type == "string"  ? value.is_string()
+             : type == "boolean" ? value.is_boolean()
+             : type == "integer" ? value.is_number_integer()
+             : type == "number"  ? value.is_number()
+                                 : type == "null" && value.is_null();
+    };
+    if (std::none_of(schema["type"].begin(), schema["type"].end(), is))
+      return wrong.push_back(at + " must be " + schema["type"].dump());
+  }
+  if (value.is_array() && schema.contains("items")) {
+    for (std::size_t k = 0; k < value.size(); ++k)
+      find_violations(schema["items"], value[k], at + "/" + std::to_string(k), wrong);
+  }
+  if (!value.is_object()) return;
+  for (const auto& name : schema.value("required", json::array())) {
+    if (!value.contains(name)) wrong.push_back(at + " lacks " + name.get<std::string>());
+  }
+  const json others = schema.value("additionalProperties", json(true));
+  for (const auto& [name, one] : value.items()) {
+    const json of_name = schema.value("properties", json::object()).value(name, others);
+    if (of_name == false) wrong.push_back(at + " must not have " + name);
+    if (of_name.is_object()) find_violations(of_name, one, at + "/" + name, wrong);
+  }
+}
+
 /// What a golden file has of a document: kinds of what is measured anew, and where it had them before.
 void keep_kinds(json& found, const json& before) {
   if (!found.is_structured()) return;
@@ -368,6 +401,9 @@ class table {
     } else if (takes(check, "golden: ")) {
       const auto words_of = words(check);
       golden(words_of[0], std::stod(words_of[1]), now.document, problems);
+    } else if (takes(check, "schema: ")) {
+      const std::string file = NYSALT_SOURCE_DIR "/share/schemas/" + check + ".json";
+      find_violations(json::parse(contents(file)), now.document, "", problems);
     } else if (takes(check, "json: ")) {
       must(is_so(check, now.document));
     } else {

@@ -25,6 +25,7 @@
 //   files: A B   the folder has these alone      holds F: TEXT  the file has the text
 //   label: L     the name of this answer         same: L        prints the same but times; other: L not
 //   golden: G TOL        prints golden/G.json, numbers within the relative tolerance, "~kind" for any value
+//   schema: NAME         obeys the JSON Schema share/schemas/NAME.json
 //   json: /a/0/b = /c    of the document printed; also != < > <= >=, `~ VALUE TOL` relative, `has TEXT`,
 //                        `lacks TEXT`, `set A B C`. A place is L:/a of another answer;
 //                        /rows[method=verlet]/error selects; /a# is a size; /a/*/b all; 2*/a is twice that.

@@ -35,7 +35,7 @@ std::optional<json> finished_report(const std::filesystem::path& folder, const j
 
 bool has_value(const json& report) {
   const json rows = report.value("rows", json::array());
-  return std::ranges::any_of(rows, [](const json& row) { return !row.contains("reason"); });
+  return std::ranges::any_of(rows, [](const json& row) { return row.value("reason", json()).is_null(); });
 }
 
 /// Prints the report, if the folder has a whole one: the exit code.

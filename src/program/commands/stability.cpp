@@ -61,14 +61,66 @@ subject subject_of(const stability_command& command, const prepared_problem* sys
       source.typed, *source.family);
 }
 
-/// The findings, as JSON and as text: what matters most, ranges of z, steps and frequencies, all else, and
-/// what only details have.
+/// Frequencies of a system, and the margin of a step on them.
+struct margin_on_band {
+  double low;
+  double high;
+  double margin;
+};
+
+/// The modes that a word which rotates magnifies most in some steps, alone and in a pair.
+struct magnified_mode {
+  double mode;
+  double factor;
+  std::int64_t steps;
+};
+struct growing_pair {
+  double first;
+  double second;
+  double growth;
+};
+
+/// The step at which h omega = k pi for some mode, k = 1, 2, ..., that is nearest.
+struct resonance_of_mode {
+  double mode;
+  double multiple;
+  double step;
+};
+
+/// The findings for machines; nothing of what was not asked for, or is not known.
+struct stability_result {
+  std::string method;
+  std::string letters;
+  std::vector<double> coefficients;
+  int order;
+  int evaluations_per_step;
+  std::optional<double> limit{};
+  std::optional<double> limit_per_evaluation{};
+  std::vector<stability_window> windows{};
+  std::vector<double> touching{};
+  std::string system{};
+  std::optional<double> step{};
+  std::optional<nysalt::judgement> judgement{};
+  std::optional<rival_judgement> loses_fewest{};
+  std::vector<margin_on_band> bands{};
+  std::vector<step_range> stable_steps{};
+  std::optional<double> linear_step{};
+  std::optional<double> safe_step{};
+  std::optional<magnified_mode> magnification{};
+  std::optional<growing_pair> resonant_pair{};
+  std::optional<resonance_of_mode> resonance{};
+  std::vector<std::string> warnings{};
+  std::string output{};  // the table of the curve
+};
+
+/// The findings for machines and as text: what matters most, ranges of z, steps and frequencies, all else,
+/// and what only details have.
 struct answer {
-  json document;
-  std::string sentence;
+  stability_result document;
+  std::string sentence{};
   table ranges{{"range", "from", "to", "margin"}};
-  std::string text;
-  std::string details;
+  std::string text{};
+  std::string details{};
 
   void add_range(const char* what, double low, double high, const std::string& margin = "-") {
     ranges.add({what, fmt::format("{:.10g}", low), fmt::format("{:.10g}", high), margin});
@@ -82,47 +134,34 @@ struct answer {
   }
 };
 
-json pairs(const auto& ranges) {
-  json all = json::array();
-  for (const auto& [low, high] : ranges) all.push_back({low, high});
-  return all;
-}
-
 std::string percent(double margin) { return fmt::format("{:.3g} %", 100.0 * margin); }
 
 answer about(const subject& target, const stability_chart& chart) {
   const nysalt::word& word = target.method.letters();
   const int evaluations = word.evaluations_per_step;
-  answer result;
-  result.document = {{"method", target.name},
-                     {"letters", word.letters()},
-                     {"coefficients", target.method.coefficients()},
-                     {"order", target.method.order},
-                     {"evaluations_per_step", evaluations}};
+  answer result{
+      {target.name, word.letters(), target.method.coefficients(), target.method.order, evaluations}};
   result.details =
       fmt::format("{}, order {}, {} evaluations a step\n", word.letters(), target.method.order, evaluations);
   if (word.has_own_letters()) {
-    for (const char* name : {"limit", "limit_per_evaluation"}) result.document[name] = nullptr;
-    for (const char* name : {"windows", "touching"}) result.document[name] = json::array();
     result.sentence =
         target.name +
         " has letters of one's own: it has no windows of z = h omega, and is tried on its system";
     return result;
   }
-  const bool rotates = word.reads_modes;
-  const bool from_zero = !chart.windows.empty() && chart.windows.front().low == 0.0;
-  const double limit = from_zero ? chart.windows.front().high : 0.0;
-  result.document["limit"] = rotates ? json() : json(limit);
-  result.document["limit_per_evaluation"] = rotates ? json() : json(limit / evaluations);
-  result.document["windows"] = pairs(chart.windows);
-  result.document["touching"] = chart.touching;
-  if (rotates) {
+  if (word.reads_modes) {
     result.sentence =
         target.name +
         " rotates: it is stable on the quadratic part at any step; what soft forces make of that "
         "depends on the system";
     return result;
   }
+  const bool from_zero = !chart.windows.empty() && chart.windows.front().low == 0.0;
+  const double limit = from_zero ? chart.windows.front().high : 0.0;
+  result.document.limit = limit;
+  result.document.limit_per_evaluation = limit / evaluations;
+  result.document.windows = chart.windows;
+  result.document.touching = chart.touching;
   result.sentence = fmt::format("{} is stable up to z = h omega = {:.10g}, {:.10g} for each evaluation",
                                 target.name, limit, limit / evaluations);
   for (const auto& [low, high] : chart.windows) result.add_range("stable z = h omega", low, high);
@@ -131,12 +170,12 @@ answer about(const subject& target, const stability_chart& chart) {
 }
 
 /// The judgement in full. It comes first.
-void add_judgement(answer& result, const std::string& method, const std::string& system,
-                   const judgement& found) {
-  json& document = result.document;
-  document["judgement"] = to_json(found);
+void add_judgement(answer& result, const judgement& found) {
+  stability_result& document = result.document;
+  document.judgement = found;
   result.text = fmt::format("{}\n{}trial: {}\n", result.sentence, result.text, found.report());
-  result.sentence = fmt::format("{} at step {:g} for {}: {}", method, found.step, system, found.in_words());
+  result.sentence = fmt::format("{} at step {:g} for {}: {}", document.method, found.step, document.system,
+                                found.in_words());
   if (found.highest_frequency > 0.0) {
     result.text +=
         fmt::format("highest frequency along the motion {:.6g}, z = {:.6g} ({})\n", found.highest_frequency,
@@ -154,28 +193,22 @@ void add_judgement(answer& result, const std::string& method, const std::string&
 /// Where the step lies among the windows, and which steps are stable and safe.
 void add_steps(answer& result, const method& method, const stability_chart& chart,
                const prepared_problem& system, const judgement& found, int threads) {
-  json& document = result.document;
+  stability_result& document = result.document;
   auto bands = system.frequency_bands();
-  document["bands"] = json::array();
-  if (bands.empty() && !(found.highest_frequency > 0.0)) {  // what the judgement says
-    document["stable_steps"] = json::array();
-    document["linear_step"] = document["safe_step"] = json();
-    return;
-  }
+  if (bands.empty() && !(found.highest_frequency > 0.0)) return;  // what the judgement says
   if (bands.empty()) bands.push_back({0.0, found.highest_frequency});
   for (const auto& band : bands) {
     const double margin = stability_margin(chart.windows, found.step * band.low, found.step * band.high);
-    document["bands"].push_back({{"low", band.low}, {"high", band.high}, {"margin", finite(margin)}});
+    document.bands.push_back({band.low, band.high, margin});
     result.add_range("frequencies at this step", band.low, band.high, percent(margin));
   }
-  const auto steps = stable_steps(chart.windows, bands);
-  document["stable_steps"] = pairs(steps);
-  for (const auto& [low, high] : steps) result.add_range("linearly stable steps", low, high);
+  document.stable_steps = stable_steps(chart.windows, bands);
+  for (const auto& [low, high] : document.stable_steps) result.add_range("linearly stable steps", low, high);
   const double linear = linear_step(method, chart, found.highest_frequency);
-  document["linear_step"] = linear > 0.0 ? json(linear) : json();
+  document.linear_step = only_if(linear > 0.0, linear);
   result.text += fmt::format("{} to the first end, and turn by less than a quarter\n", advice(linear));
   const auto safe = safe_step(method, system, linear, threads);
-  document["safe_step"] = safe ? json(*safe) : json();
+  document.safe_step = safe;
   if (safe) {
     result.text +=
         fmt::format("safe step {:g}: trials lost nothing there, at {:g}, {:g} % more, and at shorter steps\n",
@@ -187,18 +220,12 @@ void add_steps(answer& result, const method& method, const stability_chart& char
   }
 }
 
-/// The step at which h omega = k pi for some mode, k = 1, 2, ..., that is nearest.
-struct resonance {
-  double mode;
-  double multiple;
-  double step;
-};
-std::optional<resonance> nearest_resonance(const std::vector<double>& modes, double step) {
-  std::optional<resonance> nearest;
+std::optional<resonance_of_mode> nearest_resonance(const std::vector<double>& modes, double step) {
+  std::optional<resonance_of_mode> nearest;
   for (const double omega : modes) {
     if (!(omega > 0.0)) continue;
     const double multiple = std::max(1.0, std::round(step * omega / std::numbers::pi));
-    const resonance one{omega, multiple, multiple * std::numbers::pi / omega};
+    const resonance_of_mode one{omega, multiple, multiple * std::numbers::pi / omega};
     if (!nearest || std::abs(one.step - step) < std::abs(nearest->step - step)) nearest = one;
   }
   return nearest;
@@ -208,24 +235,21 @@ std::optional<resonance> nearest_resonance(const std::vector<double>& modes, dou
 void add_rotation(answer& result, const method& method, const prepared_problem& system, double step) {
   const auto guard = system.guard(method.letters());
   const auto worst = guard.most_magnified(method.letters(), method.coefficients(), step);
-  json& document = result.document;
-  document["magnification"] = {{"mode", worst.frequency}, {"factor", worst.factor}, {"steps", guard.steps()}};
+  stability_result& document = result.document;
+  document.magnification = {worst.frequency, worst.factor, guard.steps()};
   if (worst.frequency > 0.0) {
     result.details += fmt::format("the mode {:.6g} is magnified most, {:.4g}-fold in {} steps\n",
                                   worst.frequency, worst.factor, guard.steps());
   }
   const auto pair = guard.most_resonant(method.letters(), method.coefficients(), step);
-  document["resonant_pair"] = nullptr;
   if (pair.growth > 0.0) {
-    document["resonant_pair"] = {{"first", pair.first}, {"second", pair.second}, {"growth", pair.growth}};
+    document.resonant_pair = {pair.first, pair.second, pair.growth};
     result.details +=
         fmt::format("the pair of modes {:.6g} and {:.6g} grows by the factor exp({:.3g}) in {} steps\n",
                     pair.first, pair.second, pair.growth, guard.steps());
   }
-  document["resonance"] = nullptr;
-  if (const auto nearest = nearest_resonance(guard.modes(), step)) {
-    document["resonance"] = {
-        {"mode", nearest->mode}, {"multiple", nearest->multiple}, {"step", nearest->step}};
+  document.resonance = nearest_resonance(guard.modes(), step);
+  if (const auto& nearest = document.resonance) {
     result.details += fmt::format("nearest resonance h omega = {:g} pi, of the mode {:.6g}: at step {:.6g}\n",
                                   nearest->multiple, nearest->mode, nearest->step);
   }
@@ -243,6 +267,19 @@ void write_curve(const stability_command& command, const subject& target, const 
 }
 
 }  // namespace
+
+NYSALT_DESCRIBED(stability_window, low, high)
+NYSALT_DESCRIBED(step_range, low, high)
+NYSALT_DESCRIBED(margin_on_band, low, high, margin)
+NYSALT_DESCRIBED(magnified_mode, mode, factor, steps)
+NYSALT_DESCRIBED(growing_pair, first, second, growth)
+NYSALT_DESCRIBED(resonance_of_mode, mode, multiple, step)
+NYSALT_DESCRIBED(stability_result, method, letters, coefficients, order, evaluations_per_step, limit,
+                 limit_per_evaluation, windows, touching, system, step, judgement, loses_fewest, bands,
+                 stable_steps, linear_step, safe_step, magnification, resonant_pair, resonance, warnings,
+                 output)
+
+json schema_of_stability() { return whole_schema<stability_result>("nysalt stability"); }
 
 int stability(const stability_command& command, const common_settings& common) {
   if (command.step) require_positive("step", *command.step);
@@ -275,8 +312,8 @@ int stability(const stability_command& command, const common_settings& common) {
   answer result = about(target, chart);
   std::optional<marked_step> marked;
   if (system) {
-    result.document["system"] = system->description();
-    result.document["step"] = *command.step;
+    result.document.system = system->description();
+    result.document.step = command.step;
     progress shown;
     warn_of_threads(common);
     // A bath drives the initial states to its stationary distribution.
@@ -285,8 +322,8 @@ int stability(const stability_command& command, const common_settings& common) {
     const judgement& found = system->judged(target.method, *command.step, common.execution.threads);
     const auto rival = loses_fewest(target.method, *system, found, common.execution.threads);
     shown.clear();
-    add_judgement(result, target.name, system->description(), found);
-    result.document["loses_fewest"] = to_json(rival);
+    add_judgement(result, found);
+    result.document.loses_fewest = rival;
     if (rival) result.text += in_words(*rival) + "\n";
     if (rotates) add_rotation(result, target.method, *system, *command.step);
     if (!rotates && !has_own_letters) {
@@ -294,16 +331,17 @@ int stability(const stability_command& command, const common_settings& common) {
       marked = {system->description(), *command.step, system->frequency_bands()};
       if (marked->bands.empty()) marked->bands.push_back({0.0, found.highest_frequency});
     }
-    result.document["warnings"] = warnings;
   }
+  result.document.warnings = warnings;
   if (!command.output.empty()) {
     write_curve(command, target, chart, marked, common);
-    result.document["output"] = command.output;
+    result.document.output = command.output;
   }
   if (!common.json) {
     for (const auto& warning : warnings) warn(warning);
   }
-  std::string text = common.json ? text_of(result.document) : result.readable(form_of(common));
+  std::string text =
+      common.json ? text_of(whole_document(result.document)) : result.readable(form_of(common));
   if (!common.json && !command.output.empty()) text += line_of_written(command.output);
   print(text);
   return done;
