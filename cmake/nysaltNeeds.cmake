@@ -8,7 +8,7 @@ set(nysalt_nysalt_needs core fmt TBB Ceres)  # to be linked with: no header of o
 set(nysalt_shared_needs core)
 set(nysalt_learn_needs nysalt)
 set(nysalt_report_needs nysalt fmt TBB)  # to be linked with, as above
-set(nysalt_report_library_needs nlohmann_json)  # to compile it
+set(nysalt_report_library_needs nlohmann_json mustache)  # to compile it
 set(nysalt_odeint_needs core Boost)
 set(nysalt_mpi_needs nysalt MPI)
 set(nysalt_library_needs core Boost fmt TBB Ceres)  # to compile it
@@ -26,6 +26,8 @@ nysalt_describe(TBB TBB::tbb 2021 "oneTBB 2021 (Debian: libtbb-dev, or set TBB_D
 nysalt_describe(Ceres Ceres::ceres 2.1 "Ceres 2.1 (Debian: libceres-dev, or set Ceres_DIR)")
 nysalt_describe(nlohmann_json nlohmann_json::nlohmann_json 3.11
   "nlohmann-json 3.11 (Debian: nlohmann-json3-dev, or set nlohmann_json_DIR)")
+nysalt_describe(mustache nysalt::mustache 4.1
+  "mustache 4.1 of Kevin Wojniak, a header (Debian: libkainjow-mustache-dev, or set NYSALT_MUSTACHE)")
 nysalt_describe(MPI MPI::MPI_CXX 3.1 "an MPI 3.1 for C++ (Debian: libopenmpi-dev, or set MPI_HOME)")
 
 # What is linked for a package.
@@ -44,6 +46,14 @@ function(nysalt_look_for package)
   elseif(package STREQUAL MPI)
     set(options COMPONENTS CXX)
     set(MPI_CXX_SKIP_MPICXX ON)  # its C++ bindings are long gone, and ours is the C interface
+  endif()
+  if(package STREQUAL mustache)  # which has no package of CMake
+    find_path(NYSALT_MUSTACHE kainjow/mustache.hpp)
+    if(NYSALT_MUSTACHE)
+      add_library(nysalt::mustache INTERFACE IMPORTED)
+      set_target_properties(nysalt::mustache PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${NYSALT_MUSTACHE})
+    endif()
+    return()
   endif()
   set(CMAKE_MESSAGE_LOG_LEVEL WARNING)  # Ceres tells of what it looks for, QUIET or not
   find_package(${package} ${nysalt_version_of_${package}} QUIET ${options})

@@ -9,7 +9,8 @@ nysalt learn --system ./morse.so --family aba4 --step 0.2 --horizon 4 --trajecto
 nysalt compare --system ./morse.so --methods verlet,srkn6b,scheme.json --steps 0.05 --equal-cost --horizon 4 \
   --trajectories 32 >compared.txt
 # [/build]
-grep usable learned.txt
+head -n 2 learned.txt
 
 # Expected output:
-#   usable                yes
+# aba4 at step 0.2 for morse_chain(depth=10, width=1): usable, with a held-out loss 1.59 ± 0.22 times smaller
+#   than that of phase_fitted, the best classical method of the same cost.

@@ -19,10 +19,11 @@ def rows_of(path):
     result = defaultdict(dict)
     with open(path, newline="", encoding="utf-8") as file:
         for row in csv.DictReader(line for line in file if not line.startswith("#")):
-            if not row["value"] or "diverged" in row.get("marks", "") or "reference" in row.get("marks", ""):
+            value = row["error"] or row["acceptance"]
+            if not value or "diverged" in row.get("marks", "") or "reference" in row.get("marks", ""):
                 continue
             result[row["method"]][float(row["step"])] = {
-                "seconds": float(row["seconds_per_time"]), "error": float(row["value"]),
+                "seconds": float(row["seconds_per_time"]), "value": float(value),
                 "median": float(row["median"]) if row.get("median") else math.nan,
                 "tail": "tail" in row.get("marks", "")}
     return result

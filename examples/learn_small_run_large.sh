@@ -20,37 +20,21 @@ nysalt run --system lennard_jones --parameter atoms=13 --method pair.json --step
 # [/refused]
 
 # Expected output:
-# fpu_chain(pairs=64, omega=50), 16 trajectories over 5
-# starts: fpu_law(omega=50)
+# small.json is best: at 67.77 evaluations a unit of time its error is 2.83 ± 0.05 times smaller than that of
+#   the next, phase_fitted_mclachlan5.
+#
+# fpu_chain(pairs=64, omega=50), 16 trajectories over 5; starts: fpu_law(omega=50)
 # steps are per force evaluation: equal steps, equal cost
 #
 # state error
 #
-# Nothing beats small.json at 67.77 force evaluations per unit time: the error of phase_fitted_mclachlan5 is 2.83 ± 0.05 times larger.
-#
-# step sizes  reference                           its own error, at most  null model, at least  predictable until
-# ----------  ----------------------------------  ----------------------  --------------------  -----------------
-# 0.0148~srkn11b with step~the end
-# 0.0592~srkn11b with step~the end
-# 0.074~srkn11b with step~the end
-# 0.0888~srkn11b with step~the end
-#
-# method                     step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged   verdict  marks
-# -----------------------  ------  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  --------  -----
-# small.json               0.0148              67.8~2.13e-03~0/16      good
-# verlet                   0.0148              67.8~1.99e+01~0/16      good
-# pefrl                    0.0148              67.6~2.62e+01~0/16  unstable  loses
-# blanes_moan_s6           0.0148              67.8~1.27e+01~0/16      good
-# phase_fitted_mclachlan5  0.0148              67.6~6.04e-03~0/16      good
-# null model                    -               0.0        0         -  2.96e+01               -             -                     -         -         -
-# `loses`: the method loses trajectories in long runs at this step; the value is not ranked
-#
-# at equal cost    step     error       best of the others  its error  its error / learned  its ns / learned
-# -------------  ------  --------  -----------------------  ---------  -------------------  ----------------
-# small.json ~phase_fitted_mclachlan5~
-#
-# fitted to the frequency 50, declared: phase_fitted_mclachlan5
-#
-# peak memory: ~ MB
+# rank  method                     step  evaluations/time             error  times the best  marks
+# ----  -----------------------  ------  ----------------  ----------------  --------------  -----
+# 1     small.json               0.0148              67.8  2.13e-03 ± 4e-05               1
+# 2     phase_fitted_mclachlan5  0.0148              67.6  6.04e-03 ± 2e-04            2.83
+# 3     blanes_moan_s6           0.0148              67.8  1.27e+01 ± 2e-01        5.97e+03
+# 4     verlet                   0.0148              67.8  1.99e+01 ± 2e-01         9.3e+03
+# -     pefrl                    0.0148              67.6  2.62e+01 ± 1e-01               -  loses
+# loses: the method loses trajectories in long runs at this step
 # exit code 2
 # exit code 2

@@ -9,72 +9,40 @@ nysalt compare --equal-cost --system fpu --steps 0.015 --horizon 20 --trajectori
 # [/report]
 
 # Expected output:
-# fpu_chain(pairs=3, omega=50), 48 trajectories over 20
-# starts: fpu_law(omega=50)
+# path error of stiff_energy: learned:fg_chin is best: at 66.72 evaluations a unit of time its error is 12 ± 2
+#   times smaller than that of the next, phase_fitted_mclachlan5.
+# state error: phase_fitted_mclachlan5 is best: at 66.72 evaluations a unit of time its error is 3.4 ± 0.3 times
+#   smaller than that of the next, learned:fg_chin.
+#
+# fpu_chain(pairs=3, omega=50), 48 trajectories over 20; starts: fpu_law(omega=50)
 # steps are per force evaluation: equal steps, equal cost
 #
 # path error of stiff_energy
 #
-# Nothing beats learned:fg_chin at 66.72 force evaluations per unit time: the error of phase_fitted_mclachlan5 is 12 ± 2 times larger.
-#
-# step sizes     reference                           its own error, at most  null model, at least  predictable until
-# -------------  ----------------------------------  ----------------------  --------------------  -----------------
-# 0.015 to 0.03  srkn11b with step 0.00375                         1.60e-11              8.06e-03            the end
-# 0.045          srkn11b with step 0.00409090909091                2.70e-11              8.06e-03            the end
-# 0.075          srkn11b with step 0.00394736842105                2.19e-11              8.05e-03            the end
-# 0.09           srkn11b with step 0.00391304347826                2.07e-11              8.05e-03            the end
-#
-# method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged       verdict           marks
-# -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------------  --------------
-# learned:fg_chin          0.015              66.7~8.09e-05~0/48          good            tail
-# learned:nystrom          0.015              66.7~9.50e-03~0/48          good    null formula
-# phase_fitted_mclachlan5  0.015              66.7~9.36e-04~0/48          good
-# srkn6b                   0.015              66.7~2.20e-01~0/48  near an edge  null tail edge
-# s_aia2                   0.015              66.7~8.07e-03~0/48          good            null
-# verlet                   0.015              66.7~5.01e-02~0/48          good       null tail
-# null model                   -               0.0        0         -  8.05e-03               -             -                     -         -             -
-# `null`: no better than the null model, which stays as it was at the start and costs nothing; not ranked
-# `tail`: few trajectories decide the mean: it and its standard error say little; ranked by the median, as are all rows here
-# `formula`: learned, but nothing was gained: a classical method of the same cost, named with the fit, has as small a loss
-# `edge`: the method at this step is near an edge: the judgement in the data says which
-#
-# at equal cost     step  median error       best of the others  its median error  its error / learned  its ns / learned
-# ---------------  -----  ------------  -----------------------  ----------------  -------------------  ----------------
-# learned:fg_chin  0.015      6.37e-05  phase_fitted_mclachlan5          7.95e-04               12 ± 2~
+# rank  method                    step  evaluations/time      median error  times the best           marks
+# ----  -----------------------  -----  ----------------  ----------------  --------------  --------------
+# 1     learned:fg_chin          0.015              66.7  6.37e-05 ± 8e-06               1            tail
+# 2     phase_fitted_mclachlan5  0.015              66.7  7.95e-04 ± 1e-04            12.5
+# -     learned:nystrom          0.015              66.7  8.24e-03 ± 9e-04               -    null formula
+# -     srkn6b                   0.015              66.7  2.03e-01 ± 3e-03               -  null tail edge
+# -     s_aia2                   0.015              66.7  7.29e-03 ± 1e-03               -            null
+# -     verlet                   0.015              66.7  3.87e-02 ± 4e-03               -       null tail
+# null: no better than the null model, which stays as it was at the start and costs nothing; tail: few
+#   trajectories decide the mean; formula: learned, but nothing was gained; edge: the method at this step is
+#   near an edge
 #
 # state error
 #
-# Nothing beats phase_fitted_mclachlan5 at 66.72 force evaluations per unit time: the error of learned:fg_chin is 3.4 ± 0.3 times larger.
-#
-# step sizes     reference                           its own error, at most  null model, at least  predictable until
-# -------------  ----------------------------------  ----------------------  --------------------  -----------------
-# 0.015 to 0.03  srkn11b with step 0.00375                         6.21e-09              5.40e+00            the end
-# 0.045          srkn11b with step 0.00409090909091                1.05e-08              5.40e+00            the end
-# 0.075          srkn11b with step 0.00394736842105                8.45e-09              5.40e+00            the end
-# 0.09           srkn11b with step 0.00391304347826                8.02e-09              5.40e+00            the end
-#
-# method                    step  evaluations/time  ns/time  median +     error  standard error  median error           5 % to 95 %  diverged       verdict    marks
-# -----------------------  -----  ----------------  -------  --------  --------  --------------  ------------  --------------------  --------  ------------  -------
-# learned:fg_chin          0.015              66.7~9.62e-03~0/48          good     tail
-# learned:nystrom          0.015              66.7~4.18e+00~0/48          good  formula
-# phase_fitted_mclachlan5  0.015              66.7~2.84e-03~0/48          good     tail
-# srkn6b                   0.015              66.7~4.19e+00~0/48  near an edge     edge
-# s_aia2                   0.015              66.7~4.23e+00~0/48          good
-# verlet                   0.015              66.7~4.16e+00~0/48          good
-# null model                   -               0.0        0         -  5.40e+00               -             -                     -         -             -
-# `tail`: few trajectories decide the mean: it and its standard error say little; ranked by the median, as are all rows here
-# `formula`: learned, but nothing was gained: a classical method of the same cost, named with the fit, has as small a loss
-# `edge`: the method at this step is near an edge: the judgement in the data says which
-#
-# at equal cost     step  median error       best of the others  its median error  its error / learned  its ns / learned
-# ---------------  -----  ------------  -----------------------  ----------------  -------------------  ----------------
-# learned:fg_chin  0.015      8.92e-03  phase_fitted_mclachlan5          2.63e-03          0.29 ± 0.02~
-# learned:nystrom  0.015      4.03e+00  phase_fitted_mclachlan5          2.63e-03    0.00065 ± 0.00004~
-#
-# fitted to the frequency 50, declared: phase_fitted_mclachlan5
-# fitted to the frequency 50.3383, declared: s_aia2
+# rank  method                    step  evaluations/time      median error  times the best    marks
+# ----  -----------------------  -----  ----------------  ----------------  --------------  -------
+# 1     phase_fitted_mclachlan5  0.015              66.7  2.63e-03 ± 1e-04               1     tail
+# 2     learned:fg_chin          0.015              66.7  8.92e-03 ± 6e-04            3.39     tail
+# 3     verlet                   0.015              66.7  4.01e+00 ± 2e-01        1.52e+03
+# 4     learned:nystrom          0.015              66.7  4.03e+00 ± 2e-01        1.53e+03  formula
+# 5     srkn6b                   0.015              66.7  4.06e+00 ± 1e-01        1.55e+03     edge
+# 6     s_aia2                   0.015              66.7  4.07e+00 ± 2e-01        1.55e+03
+# tail: few trajectories decide the mean; formula: learned, but nothing was gained; edge: the method at this
+#   step is near an edge
 #
 # learned for state, by the loss trajectory
-#
-# peak memory: ~ MB
 # Written: report

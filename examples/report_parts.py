@@ -4,6 +4,7 @@
 
 usage: report_parts.py FOLDER
 """
+import base64
 import html.parser
 import pathlib
 import re
@@ -59,17 +60,17 @@ class Markdown(html.parser.HTMLParser):
             self.text += MARKS[tag]
 
     def handle_data(self, data):
-        if not {"head", "nav", "svg", "script"} & set(self.open) and (data.strip() or "pre" in self.open):
+        if not {"head", "nav", "script"} & set(self.open) and (data.strip() or "pre" in self.open):
             self.text += data.replace("|", "\\|") if "td" in self.open else data
 
 
 def main():
     folder = pathlib.Path(sys.argv[1])
     page = (folder / "report.html").read_text(encoding="utf-8")
-    for name, drawn in re.findall(r'<figure data-name="([^"]+)">.*?(<svg.*?</svg>)', page, re.DOTALL):
-        (folder / f"{name}.svg").write_text(drawn + "\n", encoding="utf-8")
+    for name, drawn in re.findall(r'<figure data-name="([^"]+)">\s*<img src="data:image/svg\+xml;base64,([^"]*)"', page):
+        (folder / f"{name}.svg").write_bytes(base64.b64decode(drawn))
     markdown = Markdown()
-    markdown.feed(re.sub(r"<(nav|svg|script|style)\b.*?</\1>", "", page, flags=re.DOTALL))
+    markdown.feed(re.sub(r"<(nav|script|style)\b.*?</\1>", "", page, flags=re.DOTALL))
     (folder / "report.md").write_text(markdown.text.lstrip("\n"), encoding="utf-8")
 
 

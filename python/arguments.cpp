@@ -279,12 +279,7 @@ program::compare_command compare_of(const argument_reader& arguments,
   arguments.take("bins", command.bins);
   arguments.take("longest_lag", command.longest_lag);
   arguments.take("hmc_temperature", command.hmc_temperature);
-  require_fitting(command, [&](const char* option) {
-    std::string name = option + 2;
-    if (name == "for") name = "purpose";
-    std::ranges::replace(name, '-', '_');
-    return arguments.has(name.c_str());
-  });
+  require_fitting(command, [&](const char* field) { return arguments.has(program::spelled(field).c_str()); });
   return command;
 }
 

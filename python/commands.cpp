@@ -176,7 +176,6 @@ void add_commands(py::module_& module) {
   module.attr("longest_method_file") = program::longest_method_file;
   module.def("export", &export_method, rounded_as_usual());
   module.def("save", &save);
-  module.def("in_words_of_python", &in_words_of_python);
 }
 
 }  // namespace nysalt::python

@@ -126,7 +126,7 @@ void examine(own_functions& functions) {
   functions.frequency = found.value_or(0.0);
   if (functions.frequency > 0.0) return;
   program::refuse(
-      "{}: a frequency must be seen along its starts, got none; give --frequency, the highest angular "
+      "{}: a frequency must be seen along its starts, got none; give frequency, the highest angular "
       "frequency of its motion, by which the step of the reference is chosen",
       functions.name);
 }

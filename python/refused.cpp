@@ -5,15 +5,28 @@
 #include <array>
 #include <stdexcept>
 
-#include "../src/comparison/argument_names.hpp"
 #include "../src/comparison/progress.hpp"
 #include "../src/comparison/refusal.hpp"
+#include "../src/comparison/spelling.hpp"
 
 namespace nysalt::python {
 
-std::string in_words_of_python(const std::string& text) {
-  return program::with_arguments(text, program::in_python);
-}
+namespace {
+
+constexpr program::spelling in_arguments{.prefix = "",
+                                         .between_words = '_',
+                                         .learning = "learn_",
+                                         .renamed = [](std::string_view field) -> std::string_view {
+                                           return field == "metrics" ? "metric" : field;
+                                         },
+                                         .equals = "=",
+                                         .switched_on = "=True",
+                                         .quote = "\"",
+                                         .separator = ", ",
+                                         .learn = "nysalt.learn(system, ",
+                                         .learned = ")"};
+
+}  // namespace
 
 bool says_not_convertible(const pybind11::error_already_set& raised) {
   const std::array kinds{PyExc_TypeError, PyExc_ValueError, PyExc_OverflowError};
@@ -21,10 +34,11 @@ bool says_not_convertible(const pybind11::error_already_set& raised) {
 }
 
 void raise_refusals() {
+  spell(in_arguments);
   // Of this module only: other modules translate their own exceptions.
   pybind11::register_local_exception_translator([](std::exception_ptr thrown) {
     const auto raise = [](PyObject* kind, const std::exception& problem) {
-      const std::string text = in_words_of_python(problem.what());
+      const std::string text = problem.what();
       PyObject* const shown = PyUnicode_DecodeUTF8(text.data(), std::ssize(text), "replace");
       PyErr_SetObject(kind, shown);
       Py_XDECREF(shown);

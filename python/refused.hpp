@@ -4,20 +4,14 @@
 
 #include <pybind11/pybind11.h>
 
-#include <string>
-
 namespace nysalt::python {
-
-/// The sentence with the names of arguments instead of those of options: --sample-every becomes sample_every,
-/// and --force becomes force=True. A command line that a sentence proposes stays.
-std::string in_words_of_python(const std::string& text);
 
 /// Whether what an argument raised says that it is of another kind (TypeError, ValueError, OverflowError).
 /// Anything else is of the user's code, as KeyboardInterrupt and MemoryError are, and comes through.
 bool says_not_convertible(const pybind11::error_already_set& raised);
 
-/// Refusals of the library and the program are a ValueError, once this was called; what fails on the way is a
-/// RuntimeError.
+/// Refusals of the library and the program name arguments, and are a ValueError, once this was called; what
+/// fails on the way is a RuntimeError.
 void raise_refusals();
 
 }  // namespace nysalt::python

@@ -129,7 +129,7 @@ py::dict run(const held_system& system, const py::dict& arguments, const py::obj
   result["steps"] = plan.steps;
   result["evaluations"] = evaluations;
   result["energy_error"] = energy_error;
-  result["judgement"] = program::to_json(planned->judged()).dump();
+  result["judgement"] = program::as_json(planned->judged()).dump();
   result["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   result["warnings"] = list_of(warnings);
   return result;
@@ -151,7 +151,7 @@ py::tuple integrate(const held_system& system, const py::dict& arguments, const 
   const argument_reader asked(arguments);
   const auto common = common_of(asked, system.calls_python());
   const auto command = run_of(asked, system.settings);
-  program::require_positive("--step", command.step);
+  program::require_positive("step", command.step);
   std::int64_t steps = 0;
   asked.take("steps", steps);
   if (steps < 0) refuse("steps must not be negative, got {}", steps);
@@ -200,7 +200,7 @@ py::tuple judge(const held_system& system, const py::dict& arguments) {
   const argument_reader asked(arguments);
   const auto common = common_of(asked, system.calls_python());
   const auto command = run_of(asked, system.settings);
-  program::require_positive("--step", command.step);
+  program::require_positive("step", command.step);
   std::string document;
   std::vector<std::string> warnings;
   compute(system.calls_python(), [&] {
@@ -210,7 +210,7 @@ py::tuple judge(const held_system& system, const py::dict& arguments) {
     const auto source = program::find_method(command.method, command.held, made->letters());
     const auto method = coefficients_at(source, *made, command.step, common.force,
                                         program::placement_asked(command.placement), warnings);
-    document = program::to_json(made->judged(method, command.step, common.execution.threads)).dump();
+    document = program::as_json(made->judged(method, command.step, common.execution.threads)).dump();
   });
   return py::make_tuple(document, list_of(warnings));
 }

@@ -10,13 +10,15 @@ memory. FOLDER/table.md is written. The exit status is 1 if something does not c
 """
 import json
 import pathlib
-import platform
 import shlex
 import subprocess
 import sys
 import tempfile
 
 from cost import run
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from pages import processor  # noqa: E402
 
 
 def flags_of(build):
@@ -31,14 +33,6 @@ def flags_of(build):
         elif not word.startswith(not_of_users):
             flags.append(word)
     return flags
-
-
-def processor():
-    try:
-        lines = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
-        return next(line.split(":")[1].strip() for line in lines if line.startswith("model name"))
-    except (OSError, StopIteration):
-        return platform.processor()
 
 
 def measure(command):

@@ -15,6 +15,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from ratios import paired_ratio  # noqa: E402
+
 PLUGIN = pathlib.Path(__file__).resolve().parents[2] / "examples/plugins/toda.hpp"
 TRAJECTORIES = 64
 TRIED = 25_000  # steps beyond which a trial run before the run takes no longer
@@ -82,10 +85,8 @@ class Row:
 
 
 def interval(values):
-    """Of the median, 95 %, by order statistics."""
-    ordered = sorted(values)
-    skip = max(0, int((len(ordered) - 1.96 * len(ordered) ** 0.5) / 2))
-    return f"{statistics.median(ordered):.3f} ({ordered[skip]:.3f} to {ordered[-1 - skip]:.3f})"
+    found = paired_ratio(values, [1.0] * len(values))
+    return f"{found.value:.3f} ({found.low:.3f} to {found.high:.3f})"
 
 
 def main():

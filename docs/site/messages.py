@@ -78,10 +78,22 @@ def thrown(code):
     code = re.sub(r"(?m)^ *//.*", "", code)
     for match in call.finditer(code):
         body = code[match.end():end_of_call(code, match.end()) - 1]
-        texts = [text for text in texts_of_c(body) if " " in text.strip()]
+        field, *_ = all_texts = texts_of_c(body) or [""]
+        texts = [text for text in all_texts if " " in text.strip()]
         if texts:
-            found.append((code.count("\n", 0, match.start()) + 1, max(texts, key=len)))
+            name = "" if match[0] != "refuse_value(" else "{} " if field in texts else f"{field} "
+            found.append((code.count("\n", 0, match.start()) + 1, name + max(texts, key=len)))
     return found
+
+
+programs = ("program", "reproduction")
+
+
+def options_named(folder):
+    """["FILE: TEXT"] of the texts below src that name options, but for the programs, which have them."""
+    return [f"{path.relative_to(folder)}: {text}" for path in sorted((folder / "src").rglob("*.?pp"))
+            if path.relative_to(folder / "src").parts[0] not in programs
+            for text in texts_of_c(path.read_text()) if re.search(r"--[a-z]", text)]
 
 
 def refused(template):
@@ -123,7 +135,8 @@ headings = {"value": "a value that must meet a condition", "unknown": "names tha
 intro = """# Messages of exceptions
 
 What the library throws and the program refuses with exit code 2 or 4, by part and form, so that the words of a message can
-be searched for here. `{}` is a value. `docs/site/messages.py` collected this page from the sources; a test compares both.
+be searched for here. `{}` is a value, or a parameter: `learn_horizon` is `--learn-horizon` in the program and
+`learning.horizon` in C++. `docs/site/messages.py` collected this page from the sources; a test compares both.
 What the compiler says is on [another page](messages.md).
 
 A message has one of three forms:

@@ -380,7 +380,7 @@ def _held_by_name(given: Iterable[Method]) -> Tuple[List[Any], Dict[str, str]]:
 
 def _warn(texts: Sequence[str], stacklevel: int = 3) -> None:
     for text in texts:
-        _warnings.warn(_nysalt.in_words_of_python(text), stacklevel=stacklevel)
+        _warnings.warn(text, stacklevel=stacklevel)
 
 
 def _chosen(found: Tuple[str, Optional[str], Optional[str]]) -> Tuple[Dict[str, Any], Union[Scheme, Table, None]]:
@@ -525,7 +525,7 @@ def compare(system: System, methods: Union[Method, Iterable[Method]] = "all", st
     the document says which do not, and why.
     Returns the document that `nysalt compare --json` prints: `rows`, the `references` that they are seen
     against, `rankings`, `fits` of "learned:FAMILY", which are learned for a `purpose` ["state"] as `learn` does it;
-    `scheme` of a fit is the document of the scheme. metrics() lists the metrics [path].
+    `schemes` are the documents of their scheme files. metrics() lists the metrics [path].
     equal_cost=True: steps are per force evaluation. prices: of the forces of parts 0, 1, ..., in any unit; a kick
     with a part then counts as the share of the part in an evaluation.
     """

@@ -24,9 +24,10 @@ asked_metric metric_named(std::string_view text, const std::string& otherwise) {
   }
   asked.observable = text.substr(colon + 1);
   if (!asked.takes_observable()) {
-    refuse("--metric must be path, relative, distribution or acf to have an observable, got {}", text);
+    refuse_value("metric", "must be path, relative, distribution or acf to have an observable, got {}", text);
   }
-  if (asked.observable.empty()) refuse("--metric must have an observable after the colon, got {}", text);
+  if (asked.observable.empty())
+    refuse_value("metric", "must have an observable after the colon, got {}", text);
   return asked;
 }
 
@@ -39,8 +40,10 @@ bool asked_metric::sees_phases() const {
 
 std::string advice_on_purpose(std::span<const asked_metric> metrics, const std::string& purpose) {
   if (purpose != for_state || std::ranges::any_of(metrics, &asked_metric::sees_phases)) return {};
-  return "what is measured does not see the phases of the state, which methods are learned for: --for energy "
-         "leaves these out";
+  return fmt::format(
+      "what is measured does not see the phases of the state, which methods are learned for: {} leaves these "
+      "out",
+      spelled("purpose", "energy"));
 }
 
 }  // namespace nysalt::program

@@ -20,29 +20,31 @@ namespace nysalt::program {
 inline void require_sound(const common_settings& common) {
   constexpr int most_threads = 1024;  // each takes memory, before it works
   if (common.execution.threads < 1 || common.execution.threads > most_threads) {
-    refuse("--threads must be at least 1 and at most {}, got {}", most_threads, common.execution.threads);
+    refuse_value("threads", "must be at least 1 and at most {}, got {}", most_threads,
+                 common.execution.threads);
   }
-  if (common.seed >= seed_limit) refuse("--seed must be below 2^51 = {}, got {}", seed_limit, common.seed);
+  if (common.seed >= seed_limit)
+    refuse_value("seed", "must be below 2^51 = {}, got {}", seed_limit, common.seed);
 }
 
 /// Subnormal numbers, of fewer digits, are too small.
-inline void require_positive(const char* option, double value) {
+inline void require_positive(const std::string& field, double value) {
   constexpr double least = std::numeric_limits<double>::min();
   if (value >= least && std::isfinite(value)) return;
-  if (value > 0.0 && value < least) refuse("{} must be at least {:.3g}, got {}", option, least, value);
-  refuse("{} must be a positive, finite number, got {}", option, value);
+  if (value > 0.0 && value < least) refuse_value(field, "must be at least {:.3g}, got {}", least, value);
+  refuse_value(field, "must be a positive, finite number, got {}", value);
 }
 
-inline void require_at_least_one(const char* option, std::int64_t value) {
-  if (value < 1) refuse("{} must be at least 1, got {}", option, value);
+inline void require_at_least_one(const std::string& field, std::int64_t value) {
+  if (value < 1) refuse_value(field, "must be at least 1, got {}", value);
 }
 
 /// Throws refusal if two of the values are the same, `same` of neighbours in increasing order.
 template <class T, class Same = std::ranges::equal_to>
-void require_different(const char* option, std::vector<T> values, const Same& same = {}) {
+void require_different(const std::string& field, std::vector<T> values, const Same& same = {}) {
   std::ranges::sort(values);
   const auto twice = std::ranges::adjacent_find(values, same);
-  if (twice != values.end()) refuse("{} must be different, got {} twice; give each once", option, *twice);
+  if (twice != values.end()) refuse_value(field, "must be different, got {} twice; give each once", *twice);
 }
 
 /// Throws refusal if the square of the highest frequency of `system` overflows, or has fewer digits than
@@ -55,17 +57,17 @@ inline void require_square_of_frequency(const std::string& system, double freque
 }
 
 /// steps_in(). Throws refusal if that is no step, or more than can be counted.
-inline std::int64_t steps_within(const char* option, double horizon, double step) {
-  require_positive(option, horizon);
+inline std::int64_t steps_within(const std::string& field, double horizon, double step) {
+  require_positive(field, horizon);
   const double steps = nysalt::detail::steps_in(horizon, step);
-  if (steps < 1.0) refuse("{} must be at least one step of {}, got {}", option, step, horizon);
-  if (!(steps < 0x1p53)) refuse("{} must hold fewer than 2^53 steps of {}, got {}", option, step, horizon);
+  if (steps < 1.0) refuse_value(field, "must be at least one step of {}, got {}", step, horizon);
+  if (!(steps < 0x1p53)) refuse_value(field, "must hold fewer than 2^53 steps of {}, got {}", step, horizon);
   return static_cast<std::int64_t>(steps);
 }
 
 /// Steps to the horizon or just beyond it, and at least one: errors are means over all of it.
-inline std::int64_t steps_beyond(const char* option, double horizon, double step) {
-  const std::int64_t whole = steps_within(option, horizon, step);
+inline std::int64_t steps_beyond(const std::string& field, double horizon, double step) {
+  const std::int64_t whole = steps_within(field, horizon, step);
   const double ratio = horizon / step;
   return whole + (static_cast<double>(whole) < ratio - nysalt::detail::rounding_of_steps(ratio) ? 1 : 0);
 }

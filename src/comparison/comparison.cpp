@@ -19,28 +19,28 @@
 namespace nysalt::program {
 
 void require_fitting(const comparison_options& asked, const std::function<bool(const char*)>& is_given) {
-  const auto belongs = [&](const char* option, const std::vector<std::string>& metrics) {
+  const auto belongs = [&](const char* field, const std::vector<std::string>& metrics) {
     const auto is_of_these = [&](const std::string& text) {
       const bool names_observable =
-          std::string(option) == "--observable" && text.find(':') != std::string::npos;
+          std::string_view(field) == "observable" && text.find(':') != std::string::npos;
       return std::ranges::count(metrics, text.substr(0, text.find(':'))) > 0 && !names_observable;
     };
-    if (!is_given(option) || std::ranges::any_of(asked.metrics, is_of_these)) return;
-    refuse("{} must come with --metric {}, got {}", option, fmt::format("{}", fmt::join(metrics, " or ")),
-           listed(asked.metrics));
+    if (!is_given(field) || std::ranges::any_of(asked.metrics, is_of_these)) return;
+    refuse_value(field, "must come with {} {}, got {}", spelled("metrics"),
+                 fmt::format("{}", fmt::join(metrics, " or ")), listed(asked.metrics));
   };
-  belongs("--observable", {"path", "relative", "distribution", "acf"});
-  belongs("--range", {"distribution"});
-  belongs("--bins", {"distribution"});
-  belongs("--longest-lag", {"acf"});
-  belongs("--hmc-temperature", {"acceptance"});
+  belongs("observable", {"path", "relative", "distribution", "acf"});
+  belongs("range", {"distribution"});
+  belongs("bins", {"distribution"});
+  belongs("longest_lag", {"acf"});
+  belongs("hmc_temperature", {"acceptance"});
   const auto is_learned = [](const std::string& method) { return method.starts_with("learned:"); };
   if (std::ranges::any_of(asked.methods, is_learned)) return;
-  for (const char* option : {"--for", "--learn-trajectories", "--learn-horizon", "--learn-loss",
-                             "--learn-effort", "--learn-random-starts", "--coordinates", "--fix"}) {
-    if (!is_given(option)) continue;
-    refuse("{} must come with a method that is learned, got {}; leave {} away", option, listed(asked.methods),
-           option);
+  for (const char* field : {"purpose", "learning.trajectories", "learning.horizon", "learning.loss",
+                            "learning.effort", "learning.random_starts", "coordinates", "fix"}) {
+    if (!is_given(field)) continue;
+    refuse_value(field, "must come with a method that is learned, got {}; leave {} away",
+                 listed(asked.methods), spelled(field));
   }
 }
 
@@ -73,7 +73,7 @@ void comparison::name_metrics() {
       options_.observable.empty() ? system_->default_observable() : options_.observable;
   for (const auto& text : options_.metrics) metrics_.push_back(metric_named(text, otherwise));
   bins_.resize(metrics_.size());
-  settle_purpose(options_.learning, system_->heat_bath(), "--learn-");
+  settle_purpose(options_.learning, system_->heat_bath(), "learning.");
 }
 
 void comparison::name_methods() {
@@ -94,28 +94,29 @@ void comparison::name_methods() {
 
 void comparison::require_sound_command() const {
   if (options_.methods.empty()) {
-    refuse("--methods must be one or more, got none; name methods, such as verlet,learned:nystrom, or all");
+    refuse_value("methods",
+                 "must be one or more, got none; name methods, such as verlet,learned:nystrom, or all");
   }
   if (options_.steps.empty()) {
-    refuse("--steps must be one or more, got none; give steps, such as 0.01,0.02");
+    refuse_value("steps", "must be one or more, got none; give steps, such as 0.01,0.02");
   }
   if (options_.metrics.empty()) {
-    refuse("--metric must be one or more, got none; name metrics, such as path,energy");
+    refuse_value("metrics", "must be one or more, got none; name metrics, such as path,energy");
   }
-  for (const double step : options_.steps) require_positive("--steps", step);
-  for (const double level : options_.levels) require_positive("--levels", level);
-  require_different("--steps", options_.steps);
-  require_different("--levels", options_.levels);
-  require_different("--methods", options_.methods);
+  for (const double step : options_.steps) require_positive("steps", step);
+  for (const double level : options_.levels) require_positive("levels", level);
+  require_different("steps", options_.steps);
+  require_different("levels", options_.levels);
+  require_different("methods", options_.methods);
   std::vector<std::string> metrics;
   for (const auto& metric : metrics_) metrics.push_back(metric.text());
-  require_different("--metric", metrics);
-  require_at_least_one("--trajectories", options_.trajectories);
+  require_different("metrics", metrics);
+  require_at_least_one("trajectories", options_.trajectories);
   require_sound_prices(options_.prices, system_->letters());
-  require_sound(options_.learning, "--learn-");
+  require_sound(options_.learning, "learning.");
   if (std::ranges::any_of(metrics_, &asked_metric::is_of_law)) require_sound_statistics();
   if (std::ranges::any_of(metrics_, &asked_metric::is_acceptance)) {
-    require_positive("--hmc-temperature", options_.hmc_temperature);
+    require_positive("hmc_temperature", options_.hmc_temperature);
   }
 }
 
@@ -170,8 +171,8 @@ void comparison::plan_rows() {
     return std::ranges::count(rows_, name, &row::method) == 0;
   };
   if (rows_.empty() && !left_out_.empty()) {
-    refuse("--methods must have one that applies, got none: {}: {}", left_out_.back().first,
-           left_out_.back().second);
+    refuse_value("methods", "must have one that applies, got none: {}: {}", left_out_.back().first,
+                 left_out_.back().second);
   }
   std::erase_if(options_.methods,
                 [&](const std::string& name) { return is_of_all(name) && has_no_row(name); });
@@ -179,9 +180,9 @@ void comparison::plan_rows() {
     if (is_of_all(source.typed) || !has_no_row(source.typed)) continue;
     if (!source.learned) refuse("{}", warnings_.back());
     const double evaluations = options_.equal_cost ? cost_of_step(source) : 1.0;
-    refuse("--steps{} must hold {}, for which {} was learned; add {}, or take --force",
+    refuse("{}{} must hold {}, for which {} was learned; add {}, or take {}", spelled("steps"),
            options_.equal_cost ? " (of an evaluation)" : "", source.learned->steps(), source.typed,
-           source.learned->curve.steps().back() / evaluations);
+           source.learned->curve.steps().back() / evaluations, switched_on("force"));
   }
   require_enough_samples();
 }
@@ -216,7 +217,7 @@ void comparison::add_row(const method_source& source, double nominal) {
   bool symmetric = false;
   if (source.family) {
     symmetric = family_named(*source.family, system_->letters()).symmetric;
-    steps_within("--learn-horizon", options_.learning.horizon_at(step), step);
+    steps_within("learning.horizon", options_.learning.horizon_at(step), step);
     const auto where = placement_in(source, *system_, otherwise);
     system_->require_learnable(*source.family, where, options_.learning, step);
     if (where == placement::symmetric) parts = 2;
@@ -250,14 +251,14 @@ void comparison::add_row(const method_source& source, double nominal) {
 }
 
 trajectories_plan comparison::plan_at(double step) const {
-  return {step, steps_within("--horizon", horizon_, step), options_.trajectories,
+  return {step, steps_within("horizon", horizon_, step), options_.trajectories,
           seed_for(role::test, common_.seed), common_.execution.threads};
 }
 
 /// To the horizon, over which errors are means.
 trajectories_plan comparison::paths_at(double step) const {
   trajectories_plan plan = plan_at(step);
-  plan.steps = steps_beyond("--horizon", horizon_, step);
+  plan.steps = steps_beyond("horizon", horizon_, step);
   plan.horizon = horizon_;
   return plan;
 }
@@ -266,9 +267,9 @@ std::string comparison::too_few_samples(const asked_metric& metric, double step)
   const double samples = horizon_ / step;
   if (metric.is_acceptance() || samples >= fewest_samples - 1e-9) return {};
   return fmt::format(
-      "--horizon must hold at least {:g} steps of {:g} for a mean over time, got {:g}, which holds {:.3g}; "
-      "take at least {:g}",
-      fewest_samples, step, horizon_, samples, fewest_samples * step);
+      "{} must hold at least {:g} steps of {:g} for a mean over time, got {:g}, which holds {:.3g}; take at "
+      "least {:g}",
+      spelled("horizon"), fewest_samples, step, horizon_, samples, fewest_samples * step);
 }
 
 void comparison::require_enough_samples() const {

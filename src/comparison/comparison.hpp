@@ -42,8 +42,8 @@ struct row {
   std::optional<energy_course> energies{};
 };
 
-/// Throws refusal for an option of a metric that is not asked for, where it is given: by `--observable` and
-/// its like.
+/// Throws refusal for an option of a metric that is not asked for, where it is given: by the field, such as
+/// `observable`.
 void require_fitting(const comparison_options& asked, const std::function<bool(const char*)>& is_given);
 
 /// Plans, learns and measures. Each part that is finished goes into a work file; what is there is not done

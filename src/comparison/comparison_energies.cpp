@@ -53,7 +53,7 @@ void comparison::follow_energies(work_file& kept) {
     if (!line.reason.empty()) continue;
     shown_.part(fmt::format("energies of {} at step {:g}", line.method, line.nominal));
     const std::string part = fmt::format("energies of {} at {}", line.method, line.step);
-    line.energies = kept.once(part, energies_from, [&] {
+    line.energies = kept.once(part, from_json<energy_course>, [&] {
       sampled_plan plan{.trajectories = plan_at(line.step), .observables = {"energy"}};
       plan.trajectories.count = std::min(plan.trajectories.count, most_trajectories);
       plan.every = std::max<std::int64_t>(1, plan.trajectories.steps / samples);

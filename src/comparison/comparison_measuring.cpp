@@ -35,8 +35,12 @@ void comparison::learn_and_measure(work_file& kept) {
     if (of_energies) warnings_.push_back(*of_energies);
   }
   expect_work();
+  const auto is_learned = [&](const row& line) { return families_.contains(line.method); };
+  shown_.count(static_cast<std::size_t>(std::ranges::count_if(rows_, is_learned)), "fits");
   for (auto& line : rows_) {
-    if (families_.contains(line.method)) learn(line, kept);
+    if (!is_learned(line)) continue;
+    shown_.next();
+    learn(line, kept);
   }
   std::map<double, group> by_step;  // rows at one step share the reference
   for (auto& line : rows_) {
@@ -48,7 +52,9 @@ void comparison::learn_and_measure(work_file& kept) {
     if (line.reason.empty()) continue;
     for (measurement& one : line.measurements) one.reason = line.reason;
   }
+  shown_.count(by_step.size(), "steps");
   for (const auto& [step, all] : by_step) {
+    shown_.next();
     const auto has_samples = [this, at = step](const asked_metric& metric) {
       return too_few_samples(metric, at).empty();
     };
@@ -59,6 +65,7 @@ void comparison::learn_and_measure(work_file& kept) {
       if (metrics_[m].is_of_law()) measure_law(m, step, usable(all), kept);
     }
   }
+  shown_.count(0, {});
   judge_steps();
   if (options_.energies && !system_->heat_bath().acts()) follow_energies(kept);
   measure_seconds();
@@ -127,7 +134,7 @@ void comparison::learn(row& line, work_file& kept) {
   const learned_row found = kept.once(part, read, [&] {
     const learn_plan plan = plan_for(*source.family, where, line.step, options_.learning, common_);
     const learned_scheme learned = learn_with(*system_, plan, shown_, work_of_learning(line));
-    return learned_row_of(line.method, learned.fit,
+    return learned_row_of(fit_of(learned, options_.learning, where, line.method),
                           learned.fit.usable ? scheme_document({learned}, *system_, plan) : json(nullptr));
   });
   fits_.push_back(found);
@@ -136,7 +143,7 @@ void comparison::learn(row& line, work_file& kept) {
   line.coefficients.emplace(
       family.name, family.letters, family.coefficients(parameters),
       method_properties{family.order, family.symmetric, family.requires_quadratic_kinetic});
-  line.gains_nothing = found.gains_nothing;
+  line.gains_nothing = found.gains_nothing();
   if (!found.usable) line.reason = "the fit is not usable: " + found.reason;
 }
 
@@ -235,7 +242,7 @@ void comparison::measure_paths(double step, const group& all, work_file& kept) {
     shown_.part(fmt::format("comparing at step {:g}", step), work_of_paths(all));
   }
   const auto read = [&](const json& text) {
-    return all_measured_from(text, along_paths().size(), all.size(), options_.trajectories);
+    return measured_from(text, along_paths().size(), all.size(), options_.trajectories);
   };
   const auto found = kept.once(part, read, [&] {
     std::vector<method> methods;
@@ -261,8 +268,10 @@ void comparison::measure_paths(double step, const group& all, work_file& kept) {
 void comparison::measure_acceptance(std::size_t metric, double step, const group& all, work_file& kept) {
   shown_.part(fmt::format("acceptance at step {:g}", step));
   const std::string part = fmt::format("{} at {}", metrics_[metric].text(), step);
-  const auto read = [&](const json& text) { return measured_from(text, all.size(), options_.trajectories); };
-  const measured found = kept.once(part, read, [&] {
+  const auto read = [&](const json& text) {
+    return measured_from(text, 1, all.size(), options_.trajectories);
+  };
+  const auto found = kept.once(part, read, [&] {
     measured result;
     for (const row* line : all) {
       const auto accepted = system_->acceptance(*line->coefficients, plan_at(step), options_.hmc_temperature,
@@ -271,9 +280,9 @@ void comparison::measure_acceptance(std::size_t metric, double step, const group
       one.lose(accepted.diverged_at, options_.trajectories);
       result.measurements.push_back(std::move(one));
     }
-    return result;
+    return std::vector{result};
   });
-  take(metric, step, all, found);
+  take(metric, step, all, found.front());
 }
 
 void comparison::measure_seconds() {

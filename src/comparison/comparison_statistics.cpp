@@ -79,38 +79,38 @@ void comparison::require_sound_statistics() const {
   const auto of_law = std::ranges::find_if(metrics_, &asked_metric::is_of_law);
   if (heat_bath.acts() && heat_bath.sigma() == 0.0) {
     refuse(
-        "the metric {}: the temperature must be > 0, got 0, at which friction stops all motion; give "
-        "--temperature or --sigma",
-        of_law->name);
+        "the metric {}: the temperature must be > 0, got 0, at which friction stops all motion; give {} or "
+        "{}",
+        of_law->name, spelled("temperature"), spelled("sigma"));
   }
   if (heat_bath.acts() && !heat_bath.has_temperature()) {
     refuse(
         "the metric {}: the bath must have a temperature, got noise without friction, which heats without "
-        "end; give --friction",
-        of_law->name);
+        "end; give {}",
+        of_law->name, spelled("friction"));
   }
   const auto is_distribution = [](const asked_metric& one) { return one.name == "distribution"; };
   if (!options_.range.empty() && options_.range.size() != 2) {
-    refuse("--range must be two numbers, such as 0,1, got {}", options_.range.size());
+    refuse_value("range", "must be two numbers, such as 0,1, got {}", options_.range.size());
   }
   const auto distributions = std::ranges::count_if(metrics_, is_distribution);
   if (!options_.range.empty() && distributions > 1) {
-    refuse("--range must come with one metric distribution, got {}; take one, or leave --range away",
-           distributions);
+    refuse_value("range", "must come with one metric distribution, got {}; take one, or leave {} away",
+                 distributions, spelled("range"));
   }
   if (options_.bins < 1 || options_.bins > 100'000) {
-    refuse("--bins must be at least 1 and at most 100000, got {}", options_.bins);
+    refuse_value("bins", "must be at least 1 and at most 100000, got {}", options_.bins);
   }
   if (!options_.range.empty()) {
     const equal_bins bins{options_.range[0], options_.range[1], static_cast<int>(options_.bins)};
     if (!(bins.low < bins.high)) {
-      refuse("--range must be LOW,HIGH with LOW below HIGH, got {},{}", bins.low, bins.high);
+      refuse_value("range", "must be LOW,HIGH with LOW below HIGH, got {},{}", bins.low, bins.high);
     }
     if (!std::isfinite(bins.high - bins.low)) {
-      refuse("--range must have a finite width, got {},{}; take a narrower one", bins.low, bins.high);
+      refuse_value("range", "must have a finite width, got {},{}; take a narrower one", bins.low, bins.high);
     }
   }
-  require_positive("--longest-lag", options_.longest_lag);
+  require_positive("longest_lag", options_.longest_lag);
 }
 
 /// Autocovariances take some 50 lags at any step: a product a lag and sample is all their cost.
@@ -120,13 +120,13 @@ statistics_plan comparison::statistics_at(std::size_t metric, double step) const
     plan.bins = bins_[metric];
     return plan;
   }
-  const std::int64_t longest = steps_within("--longest-lag", options_.longest_lag, step);
+  const std::int64_t longest = steps_within("longest_lag", options_.longest_lag, step);
   constexpr std::int64_t enough = 50;
   plan.every = std::max<std::int64_t>(1, longest / enough);
   plan.lags = static_cast<int>(longest / plan.every);
   if (*plan.lags < plan.trajectories.steps / plan.every) return plan;
-  refuse("--longest-lag must be shorter than --horizon {}, got {}; take a longer horizon", horizon_,
-         options_.longest_lag);
+  refuse_value("longest_lag", "must be shorter than {} {}, got {}; take a longer horizon", spelled("horizon"),
+               horizon_, options_.longest_lag);
 }
 
 /// The same for all steps.
@@ -140,9 +140,8 @@ void comparison::prepare_bins(std::size_t metric) {
     range = {low, high};
     if (!(range[0] < range[1])) {
       refuse(
-          "the observable {} must differ between initial states, got {} at all; give the --range of its "
-          "histogram",
-          observable, range[0]);
+          "the observable {} must differ between initial states, got {} at all; give the {} of its histogram",
+          observable, range[0], spelled("range"));
     }
   } else {
     range = {options_.range[0], options_.range[1]};
@@ -159,9 +158,10 @@ void comparison::require_samples_in_range(std::size_t metric,
     const auto inside = ensemble.histogram->counts().subspan(1, static_cast<std::size_t>(bins->count));
     if (std::ranges::any_of(inside, [](std::int64_t n) { return n > 0; })) return;
   }
-  refuse(
-      "--range must hold values of {} of the reference, whose mean is {:g}, got {},{}; take a range about "
-      "the mean",
+  refuse_value(
+      "range",
+      "must hold values of {} of the reference, whose mean is {:g}, got {},{}; take a range about the "
+      "mean",
       metrics_[metric].observable, all.front().mean.mean, bins->low, bins->high);
 }
 
@@ -179,9 +179,9 @@ gathered_statistics comparison::reference(std::size_t metric, double step, int n
   if (found.lost.empty()) return found;
   const auto [trajectory, at] = found.lost.front();
   refuse(
-      "cannot sample the reference: its trajectory {} diverged at step {}; take a smaller --fine-step or "
-      "another system",
-      trajectory, at);
+      "cannot sample the reference: its trajectory {} diverged at step {}; take a smaller {} or another "
+      "system",
+      trajectory, at, spelled("fine_step"));
 }
 
 const std::vector<gathered_statistics>& comparison::references_at(std::size_t metric, double step) {
@@ -246,7 +246,7 @@ void comparison::measure_law(std::size_t metric, double step, const group& all, 
   const std::string part = fmt::format("reference of {} at {}", name, step);
   if (kept.has(part)) shown_.skip(6.0 * work_of_reference());
   const auto read_reference = [](const json& text) {
-    baseline context = baseline_from(text);
+    auto context = from_json<baseline>(text);
     if (!context.law) throw std::out_of_range("law");
     return context;
   };

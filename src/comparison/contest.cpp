@@ -11,10 +11,11 @@ bool contest::is_better(const candidate& a, const candidate& b) const {
 
 void contest::rank() {
   const auto group = [](const candidate& contender) {
-    return contender.is_eligible() ? 0 : contender.reason.empty() ? 1 : 2;
+    if (contender.is_eligible()) return 0;
+    return contender.is_left_behind ? 1 : contender.reason.empty() ? 2 : 3;
   };
   std::ranges::stable_sort(all, [&](const candidate& a, const candidate& b) {
-    return group(a) != group(b) ? group(a) < group(b) : group(a) == 0 && is_better(a, b);
+    return group(a) != group(b) ? group(a) < group(b) : group(a) < 2 && is_better(a, b);
   });
 }
 

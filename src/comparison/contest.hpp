@@ -32,6 +32,7 @@ struct measured_error {
   std::vector<double> scores{};  // of each trajectory
   bool is_heavy = false;         // the tail of the scores is too heavy for a mean and a standard error
   std::int64_t diverged = 0;
+  std::int64_t trajectories = 0;
 };
 
 /// A method that may win, and what was found of it at its step.
@@ -44,9 +45,11 @@ struct candidate {
   bool rotates = false;
   double step = 0.0;
   std::optional<learned_scheme> learned{};
+  std::int64_t learned_from = 0;  // trajectories
   std::optional<nysalt::method> method{};
   bracket search{};
-  std::string reason{};  // why the candidate cannot win
+  std::string reason{};         // why the candidate cannot win
+  bool is_left_behind = false;  // in a race, on few trajectories, which is the reason
   measured_error error{};
   std::optional<measured_error> confirmed{};  // on trajectories on which nothing was chosen
   double evaluations_per_time = std::numeric_limits<double>::quiet_NaN();
@@ -56,7 +59,10 @@ struct candidate {
 
   bool is_learned() const { return source.family.has_value(); }
   /// The candidate was measured, and stayed with the reference on every trajectory.
-  bool is_eligible() const { return reason.empty() && !error.scores.empty() && error.diverged == 0; }
+  bool is_eligible() const { return reason.empty() && has_error(); }
+  /// That, or it was so on the trajectories on which it was left behind.
+  bool is_ranked() const { return (reason.empty() || is_left_behind) && has_error(); }
+  bool has_error() const { return !error.scores.empty() && error.diverged == 0; }
 };
 
 enum class cost_unit { evaluations, seconds };

@@ -19,18 +19,21 @@ void require_sound_prices(const std::vector<double>& prices, const std::vector<l
       parts = std::max(parts, static_cast<std::size_t>(part - '0') + 1);
   }
   if (parts == 0)
-    refuse(
-        "--prices must be for a system with letters that kick with parts of its force, such as "
-        "kick_of_part<0>, got a system without them; leave --prices out");
+    refuse_value(
+        "prices",
+        "must be for a system with letters that kick with parts of its force, such as kick_of_part<0>, "
+        "got a system without them; leave {} out",
+        spelled("prices"));
   if (prices.size() != parts)
-    refuse("--prices must be {} numbers, one for each part of the force, got {}", parts, prices.size());
+    refuse_value("prices", "must be {} numbers, one for each part of the force, got {}", parts,
+                 prices.size());
   for (const double price : prices) {
     if (!(price >= 0.0) || !std::isfinite(price))
-      refuse("--prices must be finite numbers >= 0, got {:g}", price);
+      refuse_value("prices", "must be finite numbers >= 0, got {:g}", price);
   }
   const double whole = std::accumulate(prices.begin(), prices.end(), 0.0);
   if (!(whole > 0.0) || !std::isfinite(whole))
-    refuse("--prices must have a positive and finite sum, got {:g}", whole);
+    refuse_value("prices", "must have a positive and finite sum, got {:g}", whole);
 }
 
 double priced_evaluations(const word& letters, const std::vector<double>& prices) {

@@ -27,23 +27,20 @@ double step_of(const method_source& source, const export_request& request) {
   const scheme& learned = *source.learned;
   const auto steps = learned.curve.steps();
   if (!request.step && steps.size() > 1) {
-    refuse(
-        "export: --step must be given, as {} was learned for {}; give one of these steps or one between them",
-        source.typed, learned.steps());
+    refuse("export: {} must be given, as {} was learned for {}; give one of these steps or one between them",
+           spelled("step"), source.typed, learned.steps());
   }
   const double step = request.step.value_or(steps.front());
   if (!(step >= steps.front() * (1.0 - 1e-9) && step <= steps.back() * (1.0 + 1e-9))) {
-    refuse("export: --step must be {}, as {} was learned there, got {}", learned.steps(), source.typed, step);
+    refuse("export: {} must be {}, as {} was learned there, got {}", spelled("step"), learned.steps(),
+           source.typed, step);
   }
   return step;
 }
 
 export_source plain_source(const method_source& source, const export_request& request) {
   if (source.family) {
-    refuse(
-        "export: {} must be learned first: nysalt learn --system SYSTEM --family {} --step STEP --output "
-        "scheme.json",
-        source.typed, *source.family);
+    refuse("export: {} must be learned first: {}", source.typed, spelled_learning(*source.family));
   }
   if (source.adaptive != nullptr) {
     refuse(
@@ -53,10 +50,8 @@ export_source plain_source(const method_source& source, const export_request& re
   }
   if (source.fixed) {
     if (request.step) {
-      refuse(
-          "export: --step must come with a scheme, got {}, which is the same at every step; leave --step "
-          "away",
-          source.typed);
+      refuse("export: {} must come with a scheme, got {}, which is the same at every step; leave {} away",
+             spelled("step"), source.typed, spelled("step"));
     }
     return {*source.fixed, {.name = request.name}};
   }
@@ -81,12 +76,12 @@ std::optional<placement> placement_of(const method_source& source, const export_
   return source.where ? source.where : placement_asked(request.placement);
 }
 
-/// The arguments of `nysalt cite`.
-std::string arguments_of_cite(const method_source& source) {
-  if (source.learned) return " --methods learned:" + source.learned->family;
+/// What the works are of that `nysalt cite` names, beside nysalt itself.
+std::string cited(const method_source& source) {
+  if (source.learned) return ", for the method learned:" + source.learned->family;
   const bool is_known = std::ranges::any_of(
       classical_methods(), [&](const auto& known) { return known.method.name() == source.typed; });
-  return is_known ? " --methods " + source.typed : "";
+  return is_known ? ", for the method " + source.typed : "";
 }
 
 }  // namespace
@@ -113,23 +108,21 @@ export_source exported_from(const method_source& source, const export_request& r
         source.typed, own.letter);
   }
   result.options.displaced = request.displaced;
-  result.options.about.push_back("To cite: nysalt cite" + arguments_of_cite(source));
+  result.options.about.push_back("To cite: nysalt cite" + cited(source));
   return result;
 }
 
 std::string export_text(const std::string& host, const std::string& template_file,
                         const export_source& source) {
-  if (host.empty() == template_file.empty()) {
-    refuse(
-        "export: --to or --template must be given, and not both, got {}; nysalt export --help shows all "
-        "hosts",
-        host.empty() ? "neither" : "both");
-  }
   std::vector<std::string> names;
   for (const auto& one : export_hosts()) names.emplace_back(one.name);
+  if (host.empty() == template_file.empty()) {
+    refuse("export: {} or {} must be given, and not both, got {}; hosts are {}", spelled("to"),
+           spelled("template"), host.empty() ? "neither" : "both", listed(names));
+  }
   if (template_file.empty() && std::ranges::find(names, host) == names.end()) {
-    refuse("export: --to must be a host that is known, got '{}': {}", host,
-           did_you_mean(host, names, "nysalt export --help shows all"));
+    refuse("export: {} must be a host that is known, got '{}': {}", spelled("to"), host,
+           did_you_mean(host, names, "hosts are " + listed(names)));
   }
   try {
     if (template_file.empty()) return export_to(host, source.method, source.options);

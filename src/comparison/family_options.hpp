@@ -21,14 +21,14 @@ inline void fix_parameter(const family& family, const std::string& text, fit_opt
   const auto equals = text.find('=');
   const auto name = text.substr(0, equals);
   const auto value = equals == std::string::npos ? std::nullopt : number_from(text.substr(equals + 1));
-  if (!value) refuse("--fix must be name=number, such as {}=0.5, got '{}'", names[0], text);
+  if (!value) refuse_value("fix", "must be name=number, such as {}=0.5, got '{}'", names[0], text);
   const auto at = std::find(names.begin(), names.end(), name);
   if (at == names.end()) {
-    refuse("--fix must name a parameter of the family {}, got '{}': it has {}", family.name, name,
-           listed(names));
+    refuse_value("fix", "must name a parameter of the family {}, got '{}': it has {}", family.name, name,
+                 listed(names));
   }
   auto& fixed = options.fixed[static_cast<std::size_t>(at - names.begin())];
-  if (fixed) refuse("--fix must name different parameters, got {} twice", name);
+  if (fixed) refuse_value("fix", "must name different parameters, got {} twice", name);
   fixed = value;
 }
 

@@ -16,41 +16,9 @@
 
 namespace nysalt::program {
 
-json to_json(const judgement& found) {
-  json result{{"verdict", std::string(to_string(found.verdict))},
-              {"reason", found.reason.empty() ? json() : json(found.reason)},
-              {"step", found.step},
-              {"trajectories", found.trajectories},
-              {"unconfined", found.unconfined},
-              {"steps", found.steps},
-              {"lost", found.lost},
-              {"diverged", found.diverged},
-              {"exceeding", found.exceeding},
-              {"share_lost", found.share_lost()},
-              {"most_lost", found.most_lost()},
-              {"first_lost", nullptr},
-              {"energy_error", nullptr},
-              {"kinetic_energy", nullptr},
-              {"highest_frequency", found.highest_frequency > 0.0 ? json(found.highest_frequency) : json()},
-              {"frequencies", found.frequencies},
-              {"margin", found.margin ? finite(*found.margin) : json()},
-              {"linear_objection", found.linear_objection.empty() ? json() : json(found.linear_objection)},
-              {"resonance", found.resonance.empty() ? json() : json(found.resonance)}};
-  if (found.first_lost) {
-    result["first_lost"] = {{"trajectory", found.first_lost->trajectory}, {"step", found.first_lost->step}};
-  }
-  if (found.energy_was_watched) {
-    result["kinetic_energy"] = found.kinetic_energy;
-    if (found.diverged < found.trajectories) {
-      result["energy_error"] = {{"median", finite(found.energy_error.median)},
-                                {"most", finite(found.energy_error.most)},
-                                {"nearly_all", finite(found.energy_error.nearly_all)},
-                                {"largest", finite(found.energy_error.largest)},
-                                {"drift", finite(found.drift)},
-                                {"growth", finite(found.growth)}};
-    }
-  }
-  return result;
+std::optional<energy_of_trial> energy_error_of(const judgement& found) {
+  if (!found.energy_was_watched || found.diverged == found.trajectories) return std::nullopt;
+  return energy_of_trial{{found.energy_error}, found.drift, found.growth};
 }
 
 std::optional<std::string> warning_of(const std::string& name, const judgement& found) {
@@ -159,15 +127,6 @@ std::string in_words(const rival_judgement& rival) {
                      rival.found.lost == 0 ? std::string("no trajectory")
                                            : fmt::format("the fewest trajectories, {:.2g} %",
                                                          100.0 * rival.found.share_lost()));
-}
-
-json to_json(const std::optional<rival_judgement>& rival) {
-  if (!rival) return nullptr;
-  return {{"method", rival->method},
-          {"step", rival->found.step},
-          {"verdict", std::string(to_string(rival->found.verdict))},
-          {"share_lost", rival->found.share_lost()},
-          {"most_lost", rival->found.most_lost()}};
 }
 
 }  // namespace nysalt::program

@@ -2,12 +2,11 @@
 // Judgements of methods at steps, as documents and sentences, and the steps that they advise.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "json.hpp"
+#include "measurement.hpp"
 #include "nysalt/derivatives/linear_stability.hpp"
 #include "nysalt/judgement.hpp"
 #include "prepared_problem.hpp"
@@ -25,11 +24,28 @@ inline constexpr double turn_margin = 0.05;
 /// just beyond, momenta diffuse too slowly for a trial to see.
 inline constexpr double tried_margin = 0.2;
 
-/// A number that a document can hold: null where it is not finite.
-inline json finite(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
+/// Energy errors of the trajectories of a trial, and their course along it.
+struct energy_of_trial : judgement::energy_errors {
+  double drift;
+  double growth;
+};
+NYSALT_DESCRIBED(energy_of_trial, median, most, nearly_all, largest, drift, growth)
+/// Nothing where the energy was not watched, and where all trajectories diverged.
+std::optional<energy_of_trial> energy_error_of(const judgement& found);
 
-/// A judgement as every document shows it.
-json to_json(const judgement& found);
+constexpr auto members(of<judgement>) {
+  return std::tuple(
+      NYSALT_MEMBERS(judgement, verdict, reason, step, trajectories, unconfined, steps, lost, diverged,
+                     exceeding, share_lost, most_lost, first_lost),
+      item{"energy_error", energy_error_of},
+      item{"kinetic_energy",
+           [](const judgement& found) { return only_if(found.energy_was_watched, found.kinetic_energy); }},
+      item{"highest_frequency",
+           [](const judgement& found) {
+             return only_if(found.highest_frequency > 0.0, found.highest_frequency);
+           }},
+      NYSALT_MEMBERS(judgement, frequencies, margin, linear_objection, resonance));
+}
 
 /// Verdict and reason with the name of the method, where these are to be said: unless it is good.
 std::optional<std::string> warning_of(const std::string& name, const judgement& found);
@@ -53,6 +69,14 @@ struct rival_judgement {
   judgement found;
 };
 
+constexpr auto members(of<rival_judgement>) {
+  return std::tuple(item{"method", &rival_judgement::method},
+                    item{"step", [](const rival_judgement& rival) { return rival.found.step; }},
+                    item{"verdict", [](const rival_judgement& rival) { return rival.found.verdict; }},
+                    item{"share_lost", [](const rival_judgement& rival) { return rival.found.share_lost(); }},
+                    item{"most_lost", [](const rival_judgement& rival) { return rival.found.most_lost(); }});
+}
+
 /// Beside a method that loses trajectories: the classical method that loses the fewest at equal cost, of the
 /// five with the longest stability windows an evaluation, as on close encounters every fixed step loses
 /// some. Nothing where at most 2 % are lost, and in a bath. Cost: five trials at most.
@@ -60,7 +84,5 @@ std::optional<rival_judgement> loses_fewest(const method& method, const prepared
                                             const judgement& found, int threads);
 /// "at equal cost verlet at step 0.05 loses the fewest trajectories, 3.1 %"
 std::string in_words(const rival_judgement& rival);
-/// Of the one or of none.
-json to_json(const std::optional<rival_judgement>& rival);
 
 }  // namespace nysalt::program

@@ -166,7 +166,7 @@ struct answer {
   T value;
 };
 template <class T>
-json to_json(const answer<T>& one) {
+json as_json(const answer<T>& one) {
   return written(one.value);
 }
 

@@ -29,16 +29,14 @@ double learning_options::horizon_at(double step) const {
 namespace nysalt::program {
 
 void require_sound(const learning_options& how, const std::string& prefix) {
-  const std::string trajectories = prefix + "trajectories";
-  const std::string horizon = prefix + "horizon";
-  require_at_least_one(trajectories.c_str(), how.trajectories);
-  if (how.horizon) require_positive(horizon.c_str(), *how.horizon);
-  if (how.fine_step) require_positive("--fine-step", *how.fine_step);
+  require_at_least_one(prefix + "trajectories", how.trajectories);
+  if (how.horizon) require_positive(prefix + "horizon", *how.horizon);
+  if (how.fine_step) require_positive("fine_step", *how.fine_step);
   if (!how.coordinates.empty()) coordinates_named(how.coordinates);
   effort_named(how.effort);
   if (!how.loss.empty()) loss_named(how.loss);
   if (how.random_starts && (*how.random_starts < 0 || *how.random_starts > 10'000)) {
-    refuse("--{}random-starts must be from 0 to 10000, got {}", prefix.substr(2), *how.random_starts);
+    refuse_value(prefix + "random_starts", "must be from 0 to 10000, got {}", *how.random_starts);
   }
 }
 

@@ -12,7 +12,7 @@
 
 namespace nysalt::program {
 
-/// Throws refusal for settings that are invalid at any step; `prefix` is that of the option names.
+/// Throws refusal for settings that are invalid at any step; `prefix` is that of their names.
 void require_sound(const learning_options& how, const std::string& prefix);
 
 /// Throws refusal for what cannot be learned, before any work is done.

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "json.hpp"
+#include "described.hpp"
 #include "nysalt/analysis/ensemble_statistics.hpp"
 #include "nysalt/analysis/statistics.hpp"
 #include "nysalt/analysis/trajectory_errors.hpp"
@@ -77,21 +77,25 @@ struct measured {
 /// By the index of the metric, and the size of the step.
 using baselines = std::map<std::pair<std::size_t, double>, baseline>;
 
-json to_json(const std::vector<diverged_trajectory>& lost);
-json to_json(const measurement& outcome);
-json to_json(const energy_course& course);
-json to_json(const baseline& context);
-json to_json(const measured& all);
-json to_json(const std::vector<measured>& all);
+NYSALT_DESCRIBED(estimate, mean, standard_error)
+NYSALT_DESCRIBED(diverged_trajectory, trajectory, step)
+NYSALT_DESCRIBED(tail, count, skewness, deciding)
+NYSALT_DESCRIBED(method_error::distribution, largest, median, quantiles)
+NYSALT_DESCRIBED(drawn_law, x, y, mean, effective_sample_size, kinetic_temperature,
+                 half_step_kinetic_temperature)
+NYSALT_DESCRIBED(measurement, value, reason, diverged, diverged_at, law, spread, groups)
+NYSALT_DESCRIBED(energy_course, t, deviation, surviving)
+NYSALT_DESCRIBED(baseline, reference, reference_error, null_model, predictable_until, floor, law)
+NYSALT_DESCRIBED(measured, against, measurements)
 
 // Of what a work file holds, which people may have edited. Each throws std::exception for what is not whole:
 // of another kind, or of other lengths than the members of one result, the number of metrics or rows, or that
 // of all trajectories ask for.
+void require_whole(const drawn_law& law);
+void require_whole(const energy_course& course);
+void require_whole(const measurement& outcome);
 measurement measurement_from(const json& text, std::int64_t trajectories);
-energy_course energies_from(const json& text);
-baseline baseline_from(const json& text);
-measured measured_from(const json& text, std::size_t rows, std::int64_t trajectories);
-std::vector<measured> all_measured_from(const json& text, std::size_t metrics, std::size_t rows,
-                                        std::int64_t trajectories);
+std::vector<measured> measured_from(const json& text, std::size_t metrics, std::size_t rows,
+                                    std::int64_t trajectories);
 
 }  // namespace nysalt::program

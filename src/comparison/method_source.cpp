@@ -175,20 +175,19 @@ method from_scheme(const method_source& source, const prepared_problem& system, 
   const judgement& found = system.judged(method, step, 1);
   if (!found.holds()) {
     refuse(
-        "{} must hold between the steps for which it was learned, at {}, got: {}; learn it there, or take "
-        "--force",
-        source.typed, step, found.in_words());
+        "{} must hold between the steps for which it was learned, at {}, got: {}; learn it there, or take {}",
+        source.typed, step, found.in_words(), switched_on("force"));
   }
   return method;
 }
 
-/// Refuses a method of another size that fails the trial at this one; without --force.
+/// Refuses a method of another size that fails the trial at this one; unless forced.
 void take_at_size(const method_source& source, const method& method, const prepared_problem& system,
                   double step, bool force, std::vector<std::string>& warnings) {
   const std::string which =
       fmt::format("{}: it was learned at another size, for {}", source.typed, source.learned->system);
   if (force) {
-    warnings.push_back(which + "; it was not tried at this size (--force)");
+    warnings.push_back(which + fmt::format("; it was not tried at this size ({})", switched_on("force")));
     return;
   }
   system.require_served(method.letters());
@@ -196,8 +195,8 @@ void take_at_size(const method_source& source, const method& method, const prepa
   if (!found.holds()) {
     refuse(
         "{} must hold for {}, as it was learned at another size, for {}, got: {}; learn it there, take a "
-        "smaller step, or take --force",
-        source.typed, system.description(), source.learned->system, found.in_words());
+        "smaller step, or take {}",
+        source.typed, system.description(), source.learned->system, found.in_words(), switched_on("force"));
   }
   warnings.push_back(
       fmt::format("{}; for {} it was judged {}", which, system.description(), found.in_words()));
@@ -215,8 +214,9 @@ method found_at(const method_source& source, const prepared_problem& system, dou
         take_at_size(source, method, system, step, force, warnings);
       return method;
     }
-    if (!force) refuse("{} must {}; learn it there, or take --force", source.typed, why);
-    warnings.push_back(fmt::format("{} must {}; used all the same (--force)", source.typed, why));
+    if (!force) refuse("{} must {}; learn it there, or take {}", source.typed, why, switched_on("force"));
+    warnings.push_back(
+        fmt::format("{} must {}; used all the same ({})", source.typed, why, switched_on("force")));
     return from_scheme(source, system, step, force);
   }
   if (source.adaptive != nullptr) {
@@ -224,9 +224,8 @@ method found_at(const method_source& source, const prepared_problem& system, dou
     if (!frequency) {
       refuse(
           "{} must run on a system with a highest frequency, got {}, which declares none and shows none "
-          "along "
-          "its motion; give --frequency, or take another method",
-          source.typed, system.description());
+          "along its motion; give {}, or take another method",
+          source.typed, system.description(), spelled("frequency"));
     }
     try {
       return source.adaptive->at(step * frequency->value);
@@ -234,10 +233,8 @@ method found_at(const method_source& source, const prepared_problem& system, dou
       refuse("cannot take {} at the step {}: {}", source.typed, step, problem.what());
     }
   }
-  const std::string where = source.where ? fmt::format(" --placement {}", to_string(*source.where)) : "";
-  refuse(
-      "{} must be learned first: nysalt learn --system SYSTEM --family {}{} --step {} --output scheme.json",
-      source.typed, *source.family, where, step);
+  refuse("{} must be learned first: {}", source.typed,
+         spelled_learning(*source.family, source.where ? to_string(*source.where) : "", step));
 }
 
 constexpr placement usual = placement::symmetric;  // the best of the three for the invariant distribution
@@ -253,8 +250,8 @@ method adapted_to_bath(const method_source& source, method method, const prepare
            method.letters().letters());
   if (!system.heat_bath().acts()) {
     if (has_letters || source.where) {
-      warnings.push_back(
-          fmt::format("{}: without a bath (--friction) its letters O are left out", source.typed));
+      warnings.push_back(fmt::format("{}: without a bath ({}) its letters O are left out", source.typed,
+                                     spelled("friction")));
     }
     return method;
   }
@@ -275,8 +272,8 @@ method coefficients_at(const method_source& source, const prepared_problem& syst
   system.require_served(method.letters());
   system.require_sound_letters(source.typed, method.letters(), step);
   if (const auto frequency = frequency_of(source, system); frequency && system.is_frequency_seen()) {
-    const std::string text = fmt::format(
-        "methods that are fitted to a frequency take {}; --frequency gives another", in_words(*frequency));
+    const std::string text = fmt::format("methods that are fitted to a frequency take {}; {} gives another",
+                                         in_words(*frequency), spelled("frequency"));
     if (std::ranges::count(warnings, text) == 0) warnings.push_back(text);
   }
   return method;

@@ -26,12 +26,12 @@ inline double fine_step_within(double step, std::optional<double> asked, double 
   if (!(std::round(ratio) >= 1.0) || !(std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio)) {
     const std::string part =
         parts == 1 ? "" : fmt::format(" in {} equal parts, as its letters O need it", parts);
-    refuse("--fine-step must divide the step {}{}, got {}", step, part, fine);
+    refuse_value("fine_step", "must divide the step {}{}, got {}", step, part, fine);
   }
   constexpr double too_many = 1e6;  // a million for one step: the program would seem to hang
   if (ratio * parts > too_many) {
     refuse("the step {} must hold at most {:g} fine steps, got {:g} of {:g}; take a {}", step, too_many,
-           ratio * parts, fine, asked ? "larger --fine-step" : "smaller step");
+           ratio * parts, fine, asked ? "larger " + spelled("fine_step") : "smaller step");
   }
   return fine;
 }

@@ -93,9 +93,9 @@ prepared_problem::prepared_problem(initial_value_problem definition, std::vector
   if (conditions.spread != 1.0) parameters_.push_back({"spread", conditions.spread});
   const bool is_unknown = detail::is_black_box(made_.system) && !made_.system.facts().has_bands;
   if (start_ == start::gibbs && is_start_usual_ && is_unknown) {
-    take_law(
-        "chains that find it would call the force of a black box some million times; take --start gibbs for "
-        "it");
+    take_law(fmt::format(
+        "chains that find it would call the force of a black box some million times; take {} for it",
+        spelled("start", "gibbs")));
   }
   if (start_ == start::law) starts_.emplace(made_.starts);
 }
@@ -178,13 +178,13 @@ std::optional<std::int64_t> prepared_problem::given_states() const {
   return count < std::numeric_limits<std::int64_t>::max() ? std::optional(count) : std::nullopt;
 }
 
-void prepared_problem::require_starts(const std::string& option, std::int64_t trajectories) const {
+void prepared_problem::require_starts(const std::string& field, std::int64_t trajectories) const {
   const auto given = given_states();
   if (!given || trajectories <= *given) return;
-  refuse(
-      "{} must be at most {}, the number of states that are given to begin at, got {}; give --spread for "
-      "deviations of their starts, or {} {}",
-      option, *given, trajectories, option, *given);
+  refuse_value(field,
+               "must be at most {}, the number of states that are given to begin at, got {}; give {} for "
+               "deviations of their starts, or {}",
+               *given, trajectories, spelled("spread"), spelled(field, static_cast<double>(*given)));
 }
 
 void prepared_problem::take_law(const std::string& why) {
@@ -218,8 +218,8 @@ void prepared_problem::prepare_starts(std::uint64_t seed) {
   const auto got = why.rfind(", got ");
   why.resize(std::min(why.size(), got == why.npos ? why.rfind("; ") : why.find("; ", got)));
   if (!is_start_usual_)
-    refuse("cannot draw initial states: {}; take another temperature, or --start law", why);
-  take_law(why + "; take --start law to begin there without a search");
+    refuse("cannot draw initial states: {}; take another temperature, or {}", why, spelled("start", "law"));
+  take_law(fmt::format("{}; take {} to begin there without a search", why, spelled("start", "law")));
 }
 
 void prepared_problem::start_state(std::uint64_t seed, std::uint64_t n, std::span<double> q,

@@ -77,7 +77,7 @@ class prepared_problem {
   const initial_value_problem& definition() const { return made_; }
   start start_law() const { return start_; }
   /// Throws refusal if there are fewer starts than trajectories.
-  void require_starts(const std::string& option, std::int64_t trajectories) const;
+  void require_starts(const std::string& field, std::int64_t trajectories) const;
   /// Number of states that were given to begin at; nothing: starts are drawn.
   std::optional<std::int64_t> given_states() const;
   /// The starts, once they are prepared.

@@ -26,9 +26,9 @@ void prepared_problem::require_learnable(const std::string& name, std::optional<
   }
   if (const auto given = given_states()) {
     refuse(
-        "{} must be learned from starts that differ, and tried on others, got {} to begin at; give --spread "
-        "for deviations of their starts",
-        name, *given == 1 ? "one state" : fmt::format("{} states", *given));
+        "{} must be learned from starts that differ, and tried on others, got {} to begin at; give {} for "
+        "deviations of their starts",
+        name, *given == 1 ? "one state" : fmt::format("{} states", *given), spelled("spread"));
   }
   require_served(family.letters);
   require_sound_letters(name, family.letters, step);
@@ -49,9 +49,9 @@ void prepared_problem::require_learnable(const std::string& name, std::optional<
     refuse("{} must declare modes for the {} loss, got none; take another loss", description(), loss.name);
   if (loss.needs_bath && !made_.system.bath().has_temperature()) {
     refuse(
-        "the {} loss must be of a system in a bath, which has a stationary distribution; give --friction "
-        "with --temperature or --sigma",
-        loss.name);
+        "the {} loss must be of a system in a bath, which has a stationary distribution; give {} with {} or "
+        "{}",
+        loss.name, spelled("friction"), spelled("temperature"), spelled("sigma"));
   }
 }
 

@@ -59,7 +59,7 @@ struct sprung_system {
 
 void prepared_problem::require_measure(const asked_metric& metric, const trajectories_plan& plan,
                                        std::optional<double> fine_step, int noise_parts) const {
-  require_starts("--trajectories", plan.count);
+  require_starts("trajectories", plan.count);
   if (metric.is_of_law()) {
     observable(made_, metric.observable);
     reference().fine_step_for_statistics(plan.step, fine_step);
@@ -67,8 +67,8 @@ void prepared_problem::require_measure(const asked_metric& metric, const traject
   }
   if (metric.is_acceptance()) {
     if (made_.system.bath().acts()) {
-      refuse(
-          "the metric acceptance must be of a system without a bath, which changes H; leave --friction away");
+      refuse("the metric acceptance must be of a system without a bath, which changes H; leave {} away",
+             spelled("friction"));
     }
     detail::require_room(options_of(plan), 1, 1);
     return;

@@ -56,6 +56,19 @@ void progress::expect(double work) {
   began_ = clock::now();
 }
 
+void progress::count(std::size_t total, std::string things) {
+  const std::lock_guard lock(saying_);
+  total_ = total;
+  present_ = 0;
+  things_ = std::move(things);
+  count_began_ = clock::now();
+}
+
+void progress::next() {
+  const std::lock_guard lock(saying_);
+  if (present_ < total_) ++present_;
+}
+
 void progress::part(std::string what, double work) {
   const std::lock_guard lock(saying_);
   what_ = std::move(what);
@@ -94,21 +107,29 @@ double progress::seconds_since(clock::time_point t) {
 }
 
 std::string progress::text() const {
-  if (share_ >= 0.0) return fmt::format("{}: {:.0f} %{}", what_, 100.0 * share_, time_left());
   const std::string left = time_left();
+  if (present_ > 0) {
+    return fmt::format("{} of {} {}{}: {}", present_, total_, things_, left.empty() ? "" : ", " + left,
+                       what_);
+  }
+  const std::string in_brackets = left.empty() ? "" : " (" + left + ")";
+  if (share_ >= 0.0) return fmt::format("{}: {:.0f} %{}", what_, 100.0 * share_, in_brackets);
   const double seconds = seconds_since(part_began_);
-  if (!left.empty() || seconds < too_early) return fmt::format("{} ...{}", what_, left);
+  if (!left.empty() || seconds < too_early) return fmt::format("{} ...{}", what_, in_brackets);
   return fmt::format("{} ... ({} so far)", what_, in_words(seconds));
 }
 
 std::string progress::time_left() const {
-  // Of the whole work where it is known, else of the part.
+  // Of the whole work where it is known, else of the things that are counted, else of the part.
   const bool is_known = expected_ > 0.0;
+  const bool is_counted = !is_known && present_ > 0;
   const double share = std::max(share_, 0.0);
-  const double done = is_known ? (done_ + share * part_) / expected_ : share;
-  const double seconds = seconds_since(is_known ? began_ : part_began_);
+  const double done = is_known     ? (done_ + share * part_) / expected_
+                      : is_counted ? static_cast<double>(present_ - 1) / static_cast<double>(total_)
+                                   : share;
+  const double seconds = seconds_since(is_known ? began_ : is_counted ? count_began_ : part_began_);
   if (!(done > 0.0) || !(done < 1.0) || seconds < too_early) return {};
-  return fmt::format(" ({} left)", in_words(seconds * (1.0 / done - 1.0)));
+  return fmt::format("{} left", in_words(seconds * (1.0 / done - 1.0)));
 }
 
 void progress::step_aside() {
@@ -118,6 +139,7 @@ void progress::step_aside() {
 
 void progress::clear() {
   const std::lock_guard lock(saying_);
+  total_ = present_ = 0;
   what_.clear();
   take_away();
 }

@@ -49,6 +49,10 @@ class progress {
 
   /// The work of all parts to come, in any unit: with it the line has the remaining time.
   void expect(double work);
+  /// The parts to come are of so many things: "9 of 21 families, 40 s left".
+  void count(std::size_t total, std::string things);
+  /// The next of these begins.
+  void next();
   /// Begins a part of the work; what was begun before is done.
   void part(std::string what, double work = 0.0);
   /// Work that was expected and need not be done.
@@ -68,7 +72,7 @@ class progress {
   static double seconds_since(clock::time_point t);
   /// "judging the step ... (12 s so far)", "running: 34 % (3 min left)"
   std::string text() const;
-  /// " (3 min left)", when enough is done to estimate it.
+  /// "3 min left", when enough is done to estimate it; else empty.
   std::string time_left() const;
   // With the lock:
   void say();
@@ -86,7 +90,11 @@ class progress {
   double expected_ = 0.0;
   double done_ = 0.0;  // before the present part
   double part_ = 0.0;
+  std::size_t total_ = 0;    // things; 0: nothing is counted
+  std::size_t present_ = 0;  // the one under way, from 1 on
+  std::string things_;
   clock::time_point began_ = clock::now();
+  clock::time_point count_began_ = began_;
   clock::time_point part_began_ = began_;
   clock::time_point last_line_ = began_;
   bool ends_ = false;

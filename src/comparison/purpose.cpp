@@ -42,16 +42,15 @@ void settle_purpose(learning_options& how, const bath& around, const std::string
   if (how.purpose.empty()) how.purpose = usual;
   const auto found = std::ranges::find(all_purposes, std::string_view(how.purpose), &purpose::name);
   if (found == all_purposes.end())
-    refuse("unknown purpose '{}': --for is one of {}", how.purpose, purposes());
+    refuse("unknown purpose '{}': {} is one of {}", how.purpose, spelled("purpose"), purposes());
   if (!how.loss.empty()) {
     how.purpose.clear();
     return;
   }
   if (how.purpose == for_sampling && !how.horizon) {
-    refuse(
-        "{}horizon must be given with --for sampling; take the longest duration of a proposal, twice the "
-        "mean",
-        prefix);
+    refuse_value(prefix + "horizon",
+                 "must be given with {}; take the longest duration of a proposal, twice the mean",
+                 spelled("purpose", "sampling"));
   }
   how.loss = found->loss.empty() ? usual_loss(around).description() : std::string(found->loss);
 }

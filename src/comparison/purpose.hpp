@@ -21,7 +21,7 @@ std::string report_of_purpose(const learning_options& how);
 std::string purposes();
 
 /// Names the loss that the purpose sets, `usual` where no purpose is asked for. Where a loss is asked for it
-/// says what is learned for, and the purpose becomes empty. `prefix` is that of the option names. Throws
+/// says what is learned for, and the purpose becomes empty. `prefix` is that of the names of learning. Throws
 /// refusal for an unknown purpose, and for sampling without a horizon, as that is of the proposals and not of
 /// the step.
 void settle_purpose(learning_options& how, const bath& around, const std::string& prefix,

@@ -88,15 +88,12 @@ void recommendation::rank_at_one_error() {
 }
 
 std::vector<std::vector<std::string>> recommendation::parts_of(const contest& among) {
-  std::vector<std::vector<std::string>> parts(1);
+  std::vector<std::vector<std::string>> parts(2);
   for (const auto& contender : among.all) {
     if (!contender.reason.empty() || !contender.error.scores.empty()) continue;
-    if (contender.is_learned()) {
-      parts.push_back({contender.source.typed});
-    } else {
-      parts.front().push_back(contender.source.typed);
-    }
+    parts[contender.is_learned() ? 1 : 0].push_back(contender.source.typed);
   }
+  std::erase_if(parts, [](const auto& names) { return names.empty(); });
   return parts;
 }
 
@@ -106,18 +103,14 @@ void recommendation::run(contest& among) {
   for (const auto& part : parts_of(among)) {
     std::vector<candidate*> fresh;
     for (const auto& name : part) fresh.push_back(&candidate_named(among, name));
-    if (options_.error) find_steps(fresh);
-    for (candidate* contender : fresh) {
-      if (contender->method || !contender->reason.empty()) continue;
-      std::vector<double> from;
-      if (by_evaluations_ && &among != &*by_evaluations_) {
-        const auto& other = candidate_named(*by_evaluations_, contender->source.typed).learned;
-        if (other && other->fit.usable) from = theta_of(other->fit);
-      }
-      prepare(*contender, from);
+    if (options_.error) {
+      find_steps(fresh);
+      measure_on_test(fresh, options_.trajectories);
+    } else {
+      race(among, fresh);
     }
-    measure_on_test(std::move(fresh));
-    settle(among);
+    do settle(among);
+    while (call_back(among));
     if (&among == &asked()) tell_of_best();
   }
 }

@@ -19,6 +19,8 @@
 
 namespace nysalt::program {
 
+struct method_row;
+
 class recommendation {
  public:
   /// Plans who takes part. Throws refusal for bad options, before any work is done.
@@ -32,7 +34,8 @@ class recommendation {
   bool has_result() const { return asked().has_result(); }
   const std::vector<std::string>& warnings() const { return warnings_; }
   json document() const;
-  std::string readable() const;
+  std::string readable(const text_form& form = {}) const;
+  static json schema();
   /// The method to take; nothing if none is accepted.
   std::optional<chosen_method> chosen() const;
 
@@ -46,12 +49,14 @@ class recommendation {
   // At one error.
   void rank_at_one_error();
   void find_steps(const std::vector<candidate*>& all);
+  /// One more step of each whose search is not over, on few trajectories or on all; false if there is none.
+  bool search_on(const std::vector<candidate*>& all, bool on_few);
   static const double grid_ratio;
   double grid_step(const candidate& contender, int k) const;
   void prepare_search(candidate& contender) const;
   /// The point of the grid to try next; nothing if there is none.
   static std::optional<int> next_of(const bracket& search);
-  void probe(candidate& contender, int k);
+  void probe(candidate& contender, int k, std::int64_t trajectories);
   void judge(candidate& contender, int k) const;
   void step_down(candidate& contender);
 
@@ -59,13 +64,14 @@ class recommendation {
   /// The fastest rate of the reference; where none is known, as without a force, one turn in the horizon.
   double rate_of_motion() const;
   trajectories_plan plan_at(double step, std::int64_t count, std::uint64_t seed) const;
-  /// Coefficients at the contender's step; of a family with the optimum of a step nearby as one more start,
-  /// or the only.
-  void prepare(candidate& contender, const std::vector<double>& from = {}, bool only_from_there = false);
+  /// Coefficients at the contender's step; of a family learned from so many trajectories, with a known
+  /// optimum as one more start, or the only.
+  void prepare(candidate& contender, std::int64_t trajectories, const std::vector<double>& from = {},
+               bool only_from_there = false);
   std::vector<nysalt::method> formulas_at(double step) const;
   void measure(const std::vector<candidate*>& all, std::int64_t count, std::uint64_t seed);
   void measure_at(double step, const std::vector<candidate*>& group, std::int64_t count, std::uint64_t seed);
-  void measure_on_test(std::vector<candidate*> all);
+  void measure_on_test(const std::vector<candidate*>& all, std::int64_t count);
 
   // Seconds.
   void time_steps();
@@ -86,8 +92,25 @@ class recommendation {
 
   void settle(contest& among);
   void run(contest& among);
-  /// Names of what has no error yet, in the order of the work: classical methods at once, then each family.
+  /// Names of what has no error yet, in the order of the work: classical methods, then families.
   static std::vector<std::vector<std::string>> parts_of(const contest& among);
+
+  // The race: at one cost candidates fall behind by their error, at one error by their cost.
+  /// Trajectories that candidates are learned from and judged on.
+  struct stage {
+    std::int64_t learned_from;
+    std::int64_t judged_on;
+  };
+  std::vector<stage> stages() const;
+  void race(const contest& among, std::vector<candidate*> racing);
+  void advance(const contest& among, candidate& contender, const stage& at);
+  void leave_behind(const contest& among, std::vector<candidate*>& racing) const;
+  void leave_behind_by_cost(const std::vector<candidate*>& racing) const;
+  /// Whether one that was left behind is ahead of what remains, as those before it were objected to; it is
+  /// learned and judged on all trajectories then.
+  bool call_back(contest& among);
+  bool is_ahead(const contest& among, const candidate& one, const candidate& other) const;
+  void go_on(const contest& among, candidate& contender);
   /// Tells the observer of the candidate to take, if it is another than before.
   void tell_of_best();
   /// Judges one of the best on trajectories that it was not chosen on, and as `run` would warn of it.
@@ -103,12 +126,11 @@ class recommendation {
   std::string advice_on_seconds() const;
   std::string advice_on_observations() const;
   std::string costs(const candidate& contender, const candidate& other) const;
-  std::string as_options(const candidate& contender) const;
+  std::string as_settings(const candidate& contender) const;
   std::string bound_of(const contest& among, const candidate& contender) const;
   std::string quantity() const;
   double quantile_of(const measured_error& error) const;
-  json row_json(const contest& among, const candidate& contender) const;
-  json contest_json(const contest& among) const;
+  method_row row_of(const contest& among, const candidate& contender) const;
 
   recommendation_options options_;
   common_settings common_;

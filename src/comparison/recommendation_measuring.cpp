@@ -13,22 +13,22 @@
 namespace nysalt::program {
 
 trajectories_plan recommendation::plan_at(double step, std::int64_t count, std::uint64_t seed) const {
-  trajectories_plan plan{step, steps_within("--horizon", options_.horizon, step), count, seed,
+  trajectories_plan plan{step, steps_within("horizon", options_.horizon, step), count, seed,
                          common_.execution.threads};
   if (!metric().is_along_paths()) return plan;
-  plan.steps = steps_beyond("--horizon", options_.horizon, step);  // errors are means over all of the horizon
+  plan.steps = steps_beyond("horizon", options_.horizon, step);  // errors are means over all of the horizon
   plan.horizon = options_.horizon;
   return plan;
 }
 
-void recommendation::prepare(candidate& contender, const std::vector<double>& from, bool only_from_there) {
+void recommendation::prepare(candidate& contender, std::int64_t trajectories, const std::vector<double>& from,
+                             bool only_from_there) {
   contender.reason.clear();
   const double samples = options_.horizon / contender.step;
   if (metric().is_along_paths() && samples < fewest_samples - 1e-9) {
     contender.reason = fmt::format(
-        "--horizon {:g} holds {:.3g} of its steps of {:g}, fewer than the {:g} that a mean "
-        "over time takes",
-        options_.horizon, samples, contender.step, fewest_samples);
+        "{} {:g} holds {:.3g} of its steps of {:g}, fewer than the {:g} that a mean over time takes",
+        spelled("horizon"), options_.horizon, samples, contender.step, fewest_samples);
     return;
   }
   try {
@@ -40,9 +40,11 @@ void recommendation::prepare(candidate& contender, const std::vector<double>& fr
     }
     learn_plan plan =
         plan_for(*contender.source.family, contender.where, contender.step, options_.learning, common_);
+    plan.how.trajectories = std::min(trajectories, plan.how.trajectories);
     plan.from = from;
     plan.only_from_there = only_from_there;
     contender.learned = learn_with(*system_, plan, shown_);
+    contender.learned_from = plan.how.trajectories;
     contender.method = contender.learned->method;
     const fit_summary& fit = contender.learned->fit;
     if (!fit.usable) {
@@ -72,8 +74,8 @@ std::vector<method> recommendation::formulas_at(double step) const {
   return all;
 }
 
-void recommendation::measure_on_test(std::vector<candidate*> all) {
-  measure(all, options_.trajectories, seed_for(role::test, common_.seed));
+void recommendation::measure_on_test(const std::vector<candidate*>& all, std::int64_t count) {
+  measure(all, count, seed_for(role::test, common_.seed));
   for (candidate* contender : all) {
     if (!contender->method) continue;
     contender->seconds_per_time =
@@ -100,7 +102,7 @@ void recommendation::measure_at(double step, const std::vector<candidate*>& grou
       };
   const auto take = [&](candidate& contender, estimate mean, std::vector<double> scores,
                         const auto& diverged_at) {
-    contender.error = {mean, std::move(scores), false, std::ssize(diverged_at)};
+    contender.error = {mean, std::move(scores), false, std::ssize(diverged_at), count};
     contender.error.is_heavy = tail_of(contender.error.scores).is_heavy();
     if (contender.error.diverged < count) return;
     const auto earliest = std::ranges::min(diverged_at, {}, &diverged_trajectory::step);

@@ -19,33 +19,34 @@ void recommendation::require_sound_command() {
       options_.budget.has_value() + options_.budget_seconds.has_value() + options_.error.has_value();
   if (goals != 1) {
     refuse(
-        "recommend: one of --budget (force evaluations per unit time), --budget-seconds (per unit time of a "
-        "trajectory) and --error (to stay below) must be given, got {}",
-        goals);
+        "recommend: one of {} (force evaluations per unit time), {} (per unit time of a trajectory) and {} "
+        "(to stay below) must be given, got {}",
+        spelled("budget"), spelled("budget_seconds"), spelled("error"), goals);
   }
-  if (options_.budget) require_positive("--budget", *options_.budget);
-  if (options_.budget_seconds) require_positive("--budget-seconds", *options_.budget_seconds);
-  if (options_.error) require_positive("--error", *options_.error);
-  require_positive("--horizon", options_.horizon);
+  if (options_.budget) require_positive("budget", *options_.budget);
+  if (options_.budget_seconds) require_positive("budget_seconds", *options_.budget_seconds);
+  if (options_.error) require_positive("error", *options_.error);
+  require_positive("horizon", options_.horizon);
   if (options_.learning.purpose == for_sampling) {
-    refuse(
-        "--for must be state, energy or distribution for runs, got sampling; call recommend_for_sampling()");
+    refuse_value(
+        "purpose",
+        "must be state, energy or distribution for runs, got sampling; call recommend_for_sampling()");
   }
-  settle_purpose(options_.learning, system_->heat_bath(), "--learn-");
-  require_at_least_one("--trajectories", options_.trajectories);
-  require_sound(options_.learning, "--learn-");
+  settle_purpose(options_.learning, system_->heat_bath(), "learning.");
+  require_at_least_one("trajectories", options_.trajectories);
+  require_sound(options_.learning, "learning.");
   if (options_.error && options_.trajectories < 2) {
-    refuse("--trajectories must be at least 2 with --error, got {}: one says nothing of others",
-           options_.trajectories);
+    refuse_value("trajectories", "must be at least 2 with {}, got {}: one says nothing of others",
+                 spelled("error"), options_.trajectories);
   }
-  require_positive("--hmc-temperature", options_.hmc_temperature);
-  require_at_least_one("--looks", options_.looks);
+  require_positive("hmc_temperature", options_.hmc_temperature);
+  require_at_least_one("looks", options_.looks);
   placement_asked(options_.placement);
   if (options_.metric == "distribution" || options_.metric == "acf") {
     refuse(
-        "recommend: --metric must be an error along trajectories, path, state, exchange, energy or "
-        "acceptance, got {}",
-        options_.metric);
+        "recommend: {} must be an error along trajectories, path, state, exchange, energy or acceptance, got "
+        "{}",
+        spelled("metric"), options_.metric);
   }
   const double nominal = 1e-3 * options_.horizon;
   system_->require_measure(
@@ -94,8 +95,8 @@ void recommendation::plan_families() {
     consider(std::move(contender));
   }
   if (!fixes)
-    refuse("--fix must name parameters of a family that is learned here, got {}",
-           listed(options_.learning.fix));
+    refuse_value("fix", "must name parameters of a family that is learned here, got {}",
+                 listed(options_.learning.fix));
   const bool asked = !options_.families.empty() || !options_.learning.fix.empty();
   if (all_.size() == before && asked) {
     refuse("cannot recommend {}: {}", left_out_.back().first, left_out_.back().second);
@@ -138,9 +139,9 @@ void recommendation::consider(candidate contender) {
     if (options_.budget) {
       if (contender.step > options_.horizon * (1.0 + 1e-9)) {  // the rounding that steps_within() allows
         return leave_out(
-            fmt::format("--budget must be at least {:g}, for one step within --horizon, got {}",
+            fmt::format("{} must be at least {:g}, for one step within {}, got {}", spelled("budget"),
                         contender.source.evaluations_per_step / options_.horizon + processing_of(contender),
-                        *options_.budget));
+                        spelled("horizon"), *options_.budget));
       }
       plan_at(contender.step, options_.trajectories, 0);
       if (!contender.is_learned()) {

@@ -46,32 +46,37 @@ std::optional<int> recommendation::next_of(const bracket& search) {
   return *search.below + (search.above - *search.below) / 2;
 }
 
-void recommendation::find_steps(const std::vector<candidate*>& all) {
+bool recommendation::search_on(const std::vector<candidate*>& all, bool on_few) {
   constexpr std::int64_t few = 24;
-  while (true) {
-    std::vector<candidate*> on_few;
-    std::vector<candidate*> on_all;
-    std::vector<std::pair<candidate*, int>> tried;
-    for (candidate* contender : all) {
-      const auto k = next_of(contender->search);
-      if (!k) continue;
-      contender->search.is_fine = contender->search.is_fine || contender->search.below == k;
-      probe(*contender, *k);
-      tried.emplace_back(contender, *k);
-      (contender->search.is_fine ? on_all : on_few).push_back(contender);
-    }
-    if (tried.empty()) break;
-    const auto seed = seed_for(role::held_out, common_.seed);
-    measure(on_few, std::min(few, options_.trajectories), seed);
-    measure(on_all, options_.trajectories, seed);
-    for (const auto& [contender, k] : tried) judge(*contender, k);
+  std::vector<std::pair<candidate*, int>> tried;
+  std::vector<candidate*> contenders;
+  for (candidate* contender : all) {
+    const auto k = next_of(contender->search);
+    if (!k || contender->is_left_behind) continue;
+    if (on_few && (contender->search.is_fine || contender->search.below == k)) continue;
+    contender->search.is_fine = !on_few;
+    probe(*contender, *k, on_few ? few : options_.learning.trajectories);
+    tried.emplace_back(contender, *k);
+    contenders.push_back(contender);
+  }
+  measure(contenders, on_few ? std::min(few, options_.trajectories) : options_.trajectories,
+          seed_for(role::held_out, common_.seed));
+  for (const auto& [contender, k] : tried) judge(*contender, k);
+  return !tried.empty();
+}
+
+void recommendation::find_steps(const std::vector<candidate*>& all) {
+  while (search_on(all, true)) {
+  }
+  leave_behind_by_cost(all);
+  while (search_on(all, false)) {
   }
   for (candidate* contender : all) {
     if (contender->search.is_found) {
       contender->error = {};  // of the trajectories on which the step was chosen
       continue;
     }
-    if (contender->search.is_given_up) continue;
+    if (contender->search.is_given_up || contender->is_left_behind) continue;
     contender->search.is_given_up = true;
     contender->reason =
         fmt::format("no step down to {:.2g} has an error below {:g}{}", contender->step, *options_.error,
@@ -89,19 +94,46 @@ void recommendation::step_down(candidate& contender) {
   contender.confirmed.reset();
   find_steps({&contender});
   if (!contender.reason.empty()) return;
-  measure_on_test({&contender});
+  measure_on_test({&contender}, options_.trajectories);
+}
+
+/// Those are left behind whose steps are too small to win by evaluations or by seconds. What few trajectories
+/// say of a step may be wrong by a point of the grid, and so may that of the best.
+void recommendation::leave_behind_by_cost(const std::vector<candidate*>& racing) const {
+  const double slack = grid_ratio * grid_ratio;
+  candidate* least_evaluations = nullptr;
+  candidate* least_seconds = nullptr;
+  for (candidate* one : racing) {
+    if (!one->search.below || one->is_left_behind) continue;
+    one->step = grid_step(*one, *one->search.below);
+    one->evaluations_per_time = one->source.evaluations_per_step / one->step + processing_of(*one);
+    one->seconds_per_time = seconds_of_step(*one) / one->step + seconds_of_processing(*one);
+    if (!least_evaluations || one->evaluations_per_time < least_evaluations->evaluations_per_time)
+      least_evaluations = one;
+    if (!least_seconds || one->seconds_per_time < least_seconds->seconds_per_time) least_seconds = one;
+  }
+  for (candidate* one : racing) {
+    if (!one->search.below || one->is_left_behind) continue;
+    const double evaluations = one->evaluations_per_time / least_evaluations->evaluations_per_time;
+    const double seconds = one->seconds_per_time / least_seconds->seconds_per_time;
+    if (evaluations <= slack || seconds <= slack) continue;
+    one->is_left_behind = true;
+    one->reason = fmt::format(
+        "left behind on {} of {} trajectories: it takes {:.3g} times the evaluations of {}",
+        one->error.trajectories, options_.trajectories, evaluations, least_evaluations->source.typed);
+  }
 }
 
 /// What is learned at a step is the start for the next.
-void recommendation::probe(candidate& contender, int k) {
+void recommendation::probe(candidate& contender, int k, std::int64_t trajectories) {
   contender.step = grid_step(contender, k);
   const auto& thetas = contender.search.thetas;
   const auto nearest =
       std::ranges::min_element(thetas, {}, [&](const auto& known) { return std::abs(known.first - k); });
   if (nearest == thetas.end()) {
-    prepare(contender);
+    prepare(contender, trajectories);
   } else {
-    prepare(contender, nearest->second, !contender.search.is_fine);
+    prepare(contender, trajectories, nearest->second, !contender.search.is_fine);
   }
   if (contender.learned && contender.learned->fit.usable)
     contender.search.thetas[k] = theta_of(contender.learned->fit);

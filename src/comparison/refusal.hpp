@@ -11,6 +11,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "spelling.hpp"
+
 namespace nysalt::program {
 
 /// A number in a message: of twelve digits where no format is given, so that 0.6 reads so where arithmetic
@@ -69,6 +71,13 @@ std::string message(fmt::format_string<type_in_message<A>...> text, const A&... 
 template <class... A>
 [[noreturn]] void refuse(fmt::format_string<type_in_message<A>...> text, const A&... values) {
   throw refusal(message(text, values...));
+}
+
+/// Refuses the value of a parameter: `text` is what follows the name.
+template <class... A>
+[[noreturn]] void refuse_value(std::string_view field, fmt::format_string<type_in_message<A>...> text,
+                               const A&... values) {
+  throw refusal(spelled(field) + " " + message(text, values...));
 }
 
 /// "a, b, c"

@@ -48,32 +48,33 @@ sampling_choice::sampling_choice(std::unique_ptr<prepared_problem> system, sampl
 }
 
 void sampling_choice::require_sound_options() {
-  require_positive("--length", options_.length);
-  require_positive("--hmc-temperature", options_.temperature);
-  require_positive("--times-larger", options_.times_larger);
+  require_positive("length", options_.length);
+  require_positive("hmc_temperature", options_.temperature);
+  require_positive("times_larger", options_.times_larger);
   if (!(options_.acceptance > 0.0 && options_.acceptance < 1.0)) {
-    refuse("--acceptance must be between 0 and 1, got {}", options_.acceptance);
+    refuse_value("acceptance", "must be between 0 and 1, got {}", options_.acceptance);
   }
   constexpr std::int64_t fewest = 16;  // that a standard error needs
   if (options_.trajectories < fewest) {
-    refuse("--trajectories must be at least {}, got {}", fewest, options_.trajectories);
+    refuse_value("trajectories", "must be at least {}, got {}", fewest, options_.trajectories);
   }
   const model& target = system_->definition().system;
   if (target.bath().acts()) {
-    refuse("--for sampling: {} must have no bath, in which H is not kept; leave --friction away",
-           system_->description());
+    refuse("{}: {} must have no bath, in which H is not kept; leave {} away", spelled("purpose", "sampling"),
+           system_->description(), spelled("friction"));
   }
   if (!has_quadratic_kinetic(target) || !target.facts().has_potential) {
-    refuse("--for sampling: {} must have a potential and a kinetic energy that is quadratic in p",
-           system_->description());
+    refuse("{}: {} must have a potential and a kinetic energy that is quadratic in p",
+           spelled("purpose", "sampling"), system_->description());
   }
   if (options_.families.empty()) options_.families = {"bab3", "bab4", "bab5", "bab6", "fd_chin"};
   learning_options& how = options_.learning;
   if (!how.horizon) how.horizon = 2.0 * options_.length;
   if (!how.purpose.empty() && how.purpose != for_sampling)
-    refuse("--for must be sampling for Hybrid Monte Carlo, got {}; leave --for away", how.purpose);
-  settle_purpose(how, target.bath(), "--learn-", for_sampling);
-  require_sound(how, "--learn-");
+    refuse_value("purpose", "must be sampling for Hybrid Monte Carlo, got {}; leave {} away", how.purpose,
+                 spelled("purpose"));
+  settle_purpose(how, target.bath(), "learning.", for_sampling);
+  require_sound(how, "learning.");
 }
 
 void sampling_choice::plan_candidates() {
@@ -150,10 +151,10 @@ void sampling_choice::run_pilot() {
   const double reduction = potential_scale_reduction(potentials);
   constexpr double converged = 1.1;
   if (!(reduction < converged)) {
-    warnings_.push_back(fmt::format(
-        "pilot chains are not shown to agree: R of the potential is {:.3g}; take a larger --length, or "
-        "--start FILE.csv with the draws of nysalt sample",
-        reduction));
+    warnings_.push_back(
+        fmt::format("pilot chains are not shown to agree: R of the potential is {:.3g}; take a larger {}, or "
+                    "{} FILE.csv with the draws of nysalt sample",
+                    reduction, spelled("length"), spelled("start")));
   }
   std::vector<vector<double, Eigen::Dynamic>> learned_from;
   std::vector<vector<double, Eigen::Dynamic>> judged_on;
@@ -270,11 +271,14 @@ void sampling_choice::learn_and_rank(const choice_observer& keep) {
     if (candidate.is_learned()) to_learn.push_back(candidate.source.typed);
   }
   tell_of_best();
+  shown_.count(to_learn.size(), "families");
   for (const auto& name : to_learn) {
+    shown_.next();
     auto& candidate = *std::ranges::find_if(all_, [&](const auto& one) { return one.source.typed == name; });
     learn(candidate, farther * best * candidate.source.evaluations_per_step);
     tell_of_best();
   }
+  shown_.count(0, {});
   shown_.part("steps of all words");
   for (auto& candidate : all_) {
     if (!candidate.found) continue;

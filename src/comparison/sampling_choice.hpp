@@ -52,7 +52,8 @@ class sampling_choice {
   std::string verdict() const;
   const std::vector<std::string>& warnings() const { return warnings_; }
   json document() const;
-  std::string readable() const;
+  std::string readable(const text_form& form = {}) const;
+  static json schema();
   /// The word to take; nothing if there is none.
   std::optional<chosen_method> chosen() const;
 

@@ -63,7 +63,7 @@ json scheme_document(const std::vector<learned_scheme>& learned, const prepared_
        fit.is_of_data ? at_steps([](const fit_summary& one) { return one.held_out_loss; }) : json(nullptr)},
       {"usable", not_usable == learned.end()},
       {"reason", not_usable == learned.end() ? "" : not_usable->fit.reason},
-      {"judgement", at_steps([](const fit_summary& one) { return to_json(one.judgement); })},
+      {"judgement", at_steps([](const fit_summary& one) { return as_json(one.judgement); })},
       {"coordinates", fit.coordinates},
       {"reference", at_steps([](const fit_summary& one) { return one.reference; })},
       {"starts", fit.ensemble},

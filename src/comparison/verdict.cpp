@@ -127,15 +127,6 @@ std::vector<double> without_start_up(const std::vector<double>& costs, double to
   return result;
 }
 
-std::vector<best_at_cost> some_of(const std::vector<best_at_cost>& found, std::size_t most) {
-  if (found.size() <= most) return found;
-  std::vector<best_at_cost> chosen;
-  for (std::size_t i = 0; i < most; ++i) {
-    chosen.push_back(found[i * (found.size() - 1) / (most - 1)]);
-  }
-  return chosen;
-}
-
 std::string named(const std::vector<ranked_method>& methods) {
   constexpr std::size_t enough = 3;
   const std::size_t shown = methods.size() > enough ? enough - 1 : methods.size();
@@ -188,35 +179,60 @@ std::string words_of(const range_of_costs& range) {
 }
 
 std::string leaders_of(const range_of_costs& range) {
-  if (range.best.empty()) return "none is ranked";
   return named(range.best) + (range.best.size() > 1 ? " (which error bars do not separate)" : "");
 }
 
-/// ": the error of the next is 2.1 ± 0.1 to 9 ± 1 times larger"
-std::string lead_of(const std::vector<best_at_cost>& found, const std::string& error) {
+/// "2,265", "11.7": of ratios from one on.
+std::string grouped(double ratio) {
+  if (ratio < 1000.0 || ratio >= 1e9) return fmt::format("{:.3g}", ratio);
+  std::string text = fmt::format("{:.0f}", ratio);
+  for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3)
+    text.insert(static_cast<std::size_t>(at), ",");
+  return text;
+}
+
+/// Of one method that leads at all costs: "`a` is best: at 100 to 200 evaluations its error is 2 to 9 times
+/// smaller than that of the next, `b`". At costs below these no other method is ranked.
+std::string lead_of(const std::vector<best_at_cost>& found, const std::string& unit,
+                    const std::string& error) {
+  const std::string leader = named(found.front().best);
+  std::vector<double> costs;
   std::vector<estimate> ratios;
   std::set<std::string> seconds;
   for (const auto& one : found) {
-    if (!one.next) continue;
+    const estimate ratio =
+        one.next ? error_ratio(*one.next, one.best.front()) : estimate{.mean = std::nan("")};
+    if (std::isnan(ratio.mean)) continue;
+    costs.push_back(one.cost);
+    ratios.push_back(ratio);
     seconds.insert(one.next->method);
-    ratios.push_back(error_ratio(*one.next, one.best.front()));
   }
-  std::erase_if(ratios, [](const estimate& ratio) { return std::isnan(ratio.mean); });
-  if (ratios.empty()) return {};
+  if (ratios.empty()) {
+    return fmt::format("{} is best {} {}", leader, words_of({found.front().cost, found.back().cost, {}}),
+                       unit);
+  }
   const auto [least, largest] = std::ranges::minmax_element(ratios, {}, &estimate::mean);
-  const std::string low = with_error(*least);
-  const std::string high = with_error(*largest);
-  const std::string span = low == high ? low : low + " to " + high;
-  const std::string other = seconds.size() == 1 ? "`" + *seconds.begin() + "`" : "the next";
-  return fmt::format(": the {} of {} is {} times larger", error, other, span);
+  const std::string low = grouped(least->mean);
+  const std::string high = grouped(largest->mean);
+  std::string text = fmt::format("{} is best: at {:.4g}", leader, costs.front());
+  if (costs.size() > 1) text += fmt::format(" to {:.4g}", costs.back());
+  text += fmt::format(" {} its {} is {} times smaller than that of the next", unit, error,
+                      low == high ? with_error(*least) : low + " to " + high);
+  if (seconds.size() == 1) text += ", `" + *seconds.begin() + "`";
+  if (!found.front().next)
+    text += fmt::format("; at less, from {:.4g} on, no other is ranked", found.front().cost);
+  return text;
 }
 
 }  // namespace
 
-std::string verdict_of(const std::vector<best_at_cost>& found, const std::string& unit,
+std::string verdict_of(const std::vector<best_at_cost>& at_all_costs, const std::string& unit,
                        const std::string& error) {
-  if (std::ranges::all_of(found, [](const best_at_cost& one) { return one.best.empty(); }))
-    return "No method is ranked: there is nothing to say on who is best.";
+  // What can be afforded at a cost can be at a larger one: where none is ranked are the least costs.
+  const auto first =
+      std::ranges::find_if(at_all_costs, [](const best_at_cost& one) { return !one.best.empty(); });
+  if (first == at_all_costs.end()) return "No method is ranked: there is nothing to say on who is best.";
+  const std::vector<best_at_cost> found(first, at_all_costs.end());
   const auto ranges = ranges_of(found);
   std::set<std::string> ranked;
   for (const auto& one : found) {
@@ -244,12 +260,14 @@ std::string verdict_of(const std::vector<best_at_cost>& found, const std::string
     }
     text += fmt::format(" {}.", unit);
   } else if (ranges.front().best.size() == 1) {
-    text = fmt::format("Nothing beats {} {} {}{}.", named(ranges.front().best), words_of(ranges.front()),
-                       unit, lead_of(found, error));
+    text = lead_of(found, unit, error) + ".";
   } else {
     text = fmt::format("The best are {} {} {}: error bars do not separate them.", named(ranges.front().best),
                        words_of(ranges.front()), unit);
   }
+  if (first != at_all_costs.begin())
+    text +=
+        fmt::format(" None is ranked {}.", words_of({at_all_costs.front().cost, std::prev(first)->cost, {}}));
   const bool has_error_bars = std::ranges::all_of(found, &best_at_cost::has_error_bars);
   if (!has_error_bars && !is_only_row)
     text += " Some errors have no error bar, and differences may be chance.";
@@ -269,10 +287,10 @@ std::vector<std::set<std::string>> sequence_of_leaders(const std::vector<best_at
 
 std::string verdict_of_both(const std::vector<best_at_cost>& by_evaluations,
                             std::vector<best_at_cost> by_seconds, const std::string& error) {
-  std::string text = verdict_of(by_evaluations, "force evaluations per unit time", error);
+  std::string text = verdict_of(by_evaluations, evaluations_per_time, error);
   if (sequence_of_leaders(by_evaluations) == sequence_of_leaders(by_seconds)) return text;
   for (auto& one : by_seconds) one.cost *= 1e9;
-  std::string of_seconds = verdict_of(by_seconds, "ns per unit time", error);
+  std::string of_seconds = verdict_of(by_seconds, "ns a unit of time", error);
   of_seconds.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(of_seconds.front())));
   return text + " In seconds: " + of_seconds;
 }

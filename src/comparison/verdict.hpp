@@ -46,11 +46,11 @@ std::vector<best_at_cost> best_at_costs(const std::vector<ranked_method>& all, d
 /// that exceed it by no more than that evaluation, within the factor `tolerance`.
 std::vector<double> without_start_up(const std::vector<double>& costs, double tolerance, double evaluation);
 
-/// Up to `most` of them, the first and the last among these.
-std::vector<best_at_cost> some_of(const std::vector<best_at_cost>& found, std::size_t most);
+/// The unit of costs in force evaluations, in words.
+constexpr const char* evaluations_per_time = "evaluations a unit of time";
 
-/// One sentence, or two, on who is best at which cost; method names are between backquotes. `unit`, such as
-/// "force evaluations per unit time", is that of the costs, `error` what is compared.
+/// One sentence, or two, on who is best at which cost; method names are between backquotes. `unit` is that of
+/// the costs, in words, `error` what is compared.
 std::string verdict_of(const std::vector<best_at_cost>& found, const std::string& unit,
                        const std::string& error = "error");
 

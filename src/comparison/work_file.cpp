@@ -176,7 +176,8 @@ void work_file::refuse_edited(const std::string& part) const {
 
 bool work_file::is_due() const { return clock::now() - written_at_ >= 20 * writing_; }
 
-void work_file::keep(const std::string& part, const json& result) {
+void work_file::keep(const std::string& part, json result) {
+  name_infinities(result);
   lines_[part] = line_of(part, result);
   is_written_ = false;
   on_first(all_ranks(), [&] {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "json.hpp"
+#include "described.hpp"
 #include "nysalt/atomic_file.hpp"
 
 namespace nysalt::program {
@@ -56,7 +56,7 @@ class work_file {
   /// Nothing was finished, now or before.
   bool is_empty() const { return lines_.empty(); }
   /// The result of a part, by the name of the part: read(json) of what was kept, or else that of work(), of
-  /// which to_json() is kept. Throws write_failure if it cannot be written, and refusal where read() throws:
+  /// which as_json() is kept. Throws write_failure if it cannot be written, and refusal where read() throws:
   /// read() must take nothing of which a later use goes wrong, as another version may have written the file.
   auto once(const std::string& part, const auto& read, const auto& work) {
     if (has(part)) {
@@ -67,7 +67,7 @@ class work_file {
       }
     }
     auto result = work();
-    if (!path_.empty()) keep(part, to_json(result));
+    if (!path_.empty()) keep(part, as_json(result));
     return result;
   }
 
@@ -88,7 +88,7 @@ class work_file {
  private:
   std::string text_of_file();
   json read(std::string_view text);
-  void keep(const std::string& part, const json& result);
+  void keep(const std::string& part, json result);
   void write(nysalt::atomic_file& next);
 
   using clock = std::chrono::steady_clock;

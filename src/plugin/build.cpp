@@ -60,9 +60,7 @@ bool compile(const fs::path& source, const dependencies& files, const std::strin
   }
   command.push_back(fmt::format("-DNYSALT_PLUGIN_SOURCE=\"{}\"", name_of(contents)));
   command.push_back(files.front().string());
-  for (const char* flag : {"-x", "none", "-Wl,--as-needed", "-Wl,-z,defs", "-Wl,--exclude-libs,ALL", "-o"}) {
-    command.emplace_back(flag);
-  }
+  for (const char* flag : {"-x", "none", "-o"}) command.emplace_back(flag);
   command.push_back(made.path().string());
   command.insert(command.end(), how.libraries.begin(), how.libraries.end());
   progress shown;
@@ -130,7 +128,7 @@ fs::path kept_source(const std::string& text) {
 std::string library_of(const std::string& source, const std::string& output) {
   if (!is_source(source)) refuse("{}: a source must end in .hpp", source);
   fs::path to = output.empty() ? fs::path(source).stem() += ".so" : fs::path(output);
-  if (to.extension() != ".so") refuse("--output must end in .so, got {}", to.string());
+  if (to.extension() != ".so") refuse_value("output", "must end in .so, got {}", to.string());
   if (!to.has_parent_path()) to = "." / to;
   return to.string();
 }

@@ -118,8 +118,8 @@ class translation {
                           const std::string& remedy = {}) const {
     const std::string found =
         at_ < text_.size() ? fmt::format("'{}'", std::string(text_.substr(at_, 12))) : "the end of the text";
-    refuse("--potential: {} must {}, got {} at character {}{}{}", what, condition, found, at_ + 1,
-           remedy.empty() ? "" : "; ", remedy);
+    refuse("{}: {} must {}, got {} at character {}{}{}", spelled("potential"), what, condition, found,
+           at_ + 1, remedy.empty() ? "" : "; ", remedy);
   }
   void skip() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
@@ -233,7 +233,9 @@ class translation {
     if (!code.empty()) return code;
     at_ = from;
     wrong(fmt::format("'{}'", typed),
-          "be a function, a coordinate (--variables) or a parameter (--parameter)", known_names(typed));
+          fmt::format("be a function, a coordinate ({}) or a parameter ({})", spelled("variables"),
+                      spelled("parameter")),
+          known_names(typed));
   }
   /// Of what has exactly that name; empty if nothing has.
   std::string code_of(const std::string& known, std::size_t from) {

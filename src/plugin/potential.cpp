@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "comparison/checks.hpp"
 #include "comparison/number.hpp"
 #include "comparison/refusal.hpp"
 #include "formula.hpp"
@@ -28,30 +29,29 @@ std::vector<variable> variables_of(const std::vector<std::string>& typed) {
     const auto bracket = text.find('[');
     variable next{text.substr(0, bracket), first, 1, bracket != std::string::npos};
     if (next.is_list) {
-      if (!text.ends_with(']')) refuse("--variables must be names or name[number], got '{}'", text);
+      if (!text.ends_with(']')) refuse_value("variables", "must be names or name[number], got '{}'", text);
       next.count =
-          number_of<std::int64_t>("--variables", text.substr(bracket + 1, text.size() - bracket - 2));
+          number_of<std::int64_t>(spelled("variables"), text.substr(bracket + 1, text.size() - bracket - 2));
     }
     if (!is_name(next.name))
-      refuse("--variables must be names of letters, digits and _, got '{}'", next.name);
+      refuse_value("variables", "must be names of letters, digits and _, got '{}'", next.name);
     if (next.count < 1 || next.count > most_coordinates - first) {
-      refuse("--variables must be at least 1 and at most {} coordinates", most_coordinates);
+      refuse_value("variables", "must be at least 1 and at most {} coordinates", most_coordinates);
     }
     first += next.count;
     all.push_back(next);
   }
   if (all.empty())
-    refuse("--potential must come with --variables; give the names of its coordinates, joined by commas");
+    refuse_value("potential", "must come with {}; give the names of its coordinates, joined by commas",
+                 spelled("variables"));
   return all;
 }
 
 std::vector<double> masses_of(const typed_potential& typed, std::int64_t count) {
-  for (const double mass : typed.masses) {
-    if (!(mass > 0.0) || !std::isfinite(mass)) refuse("--mass must be positive and finite, got {}", mass);
-  }
+  for (const double mass : typed.masses) require_positive("mass", mass);
   const auto given = std::ssize(typed.masses);
   if (given != 0 && given != 1 && given != count) {
-    refuse("--mass must be one, or one for each of {} coordinates, got {}", count, given);
+    refuse_value("mass", "must be one, or one for each of {} coordinates, got {}", count, given);
   }
   std::vector<double> all(static_cast<std::size_t>(count), given == 1 ? typed.masses.front() : 1.0);
   if (given == count) all = typed.masses;
@@ -61,19 +61,22 @@ std::vector<double> masses_of(const typed_potential& typed, std::int64_t count) 
 std::vector<double> centre_of(const typed_potential& typed, const std::vector<variable>& variables,
                               std::int64_t count) {
   std::vector<double> centre(static_cast<std::size_t>(count), 0.0);
-  for (const auto& [name, text] : values_of(typed.around, "--around")) {
+  for (const auto& [name, text] : values_of(typed.around, spelled("around"))) {
     const auto bracket = name.find('[');
     const auto found = std::ranges::find(variables, name.substr(0, bracket), &variable::name);
-    if (found == variables.end()) refuse("--around: names must be coordinates, got '{}'", name);
-    const double value = number_of<double>("--around", text);
+    const auto require = [&](bool is_coordinate) {
+      if (!is_coordinate) refuse("{}: names must be coordinates, got '{}'", spelled("around"), name);
+    };
+    require(found != variables.end());
+    const double value = number_of<double>(spelled("around"), text);
     if (bracket == std::string::npos) {
       std::fill_n(centre.begin() + found->first, found->count, value);
       continue;
     }
-    if (!found->is_list || !name.ends_with(']'))
-      refuse("--around: names must be coordinates, got '{}'", name);
-    const auto i = number_of<std::int64_t>("--around", name.substr(bracket + 1, name.size() - bracket - 2));
-    if (i < 1 || i > found->count) refuse("--around: names must be coordinates, got '{}'", name);
+    require(found->is_list && name.ends_with(']'));
+    const auto i =
+        number_of<std::int64_t>(spelled("around"), name.substr(bracket + 1, name.size() - bracket - 2));
+    require(i >= 1 && i <= found->count);
     centre[static_cast<std::size_t>(found->first + i - 1)] = value;
   }
   return centre;
@@ -120,25 +123,26 @@ std::vector<std::pair<std::string, std::string>> values_of(const std::vector<std
 }
 
 std::vector<std::pair<std::string, std::string>> parameters_of(const typed_potential& typed) {
-  auto all = values_of(typed.parameters, "--parameter");
+  auto all = values_of(typed.parameters, spelled("parameter"));
   for (auto& [name, value] : all) name = in_lower_case(name);
   return all;
 }
 
 std::string source_of(const typed_potential& typed) {
   constexpr std::size_t most = 10'000;
-  if (typed.text.size() > most) refuse("--potential must be at most {} characters", most);
+  if (typed.text.size() > most) refuse_value("potential", "must be at most {} characters", most);
   const auto variables = variables_of(typed.variables);
   const std::int64_t count = variables.back().first + variables.back().count;
   std::vector<std::string> parameters;
   for (const auto& [name, value] : parameters_of(typed)) {
     if (name == "deviation_q" || name == "deviation_p") continue;
     if (!is_plain_name(name)) {
-      refuse("--parameter must have a name of lower-case letters, digits and _, a letter first, got '{}'",
-             name);
+      refuse_value("parameter",
+                   "must have a name of lower-case letters, digits and _, a letter first, got '{}'", name);
     }
     if (is_reserved_name(name))
-      refuse("--parameter must have a name that is not one of nysalt's own, got '{}'; choose another", name);
+      refuse_value("parameter", "must have a name that is not one of nysalt's own, got '{}'; choose another",
+                   name);
     parameters.push_back(name);
   }
   std::vector<std::string> names = parameters;
@@ -146,10 +150,8 @@ std::string source_of(const typed_potential& typed) {
   for (const auto& name : names) {
     const bool is_taken = is_name_of_grammar(name) || std::ranges::count(names, name) > 1;
     if (is_taken)
-      refuse(
-          "--variables and --parameter must have different names, other than those of functions, got "
-          "'{}'; choose another",
-          name);
+      refuse("{} and {} must have different names, other than those of functions, got '{}'; choose another",
+             spelled("variables"), spelled("parameter"), name);
   }
   std::string text = typed.text;
   std::ranges::replace_if(
@@ -157,7 +159,8 @@ std::string source_of(const typed_potential& typed) {
   const std::string code = translated(text, variables, parameters);
   for (const auto& name : parameters) {
     if (has_word(code, "p_" + name)) continue;
-    refuse("--parameter must be of the potential, got {}, which is not in it; leave {} away", name, name);
+    refuse_value("parameter", "must be of the potential, got {}, which is not in it; leave {} away", name,
+                 name);
   }
   const auto masses = masses_of(typed, count);
   const auto centre = centre_of(typed, variables, count);

@@ -2,6 +2,7 @@
 // The subcommands. Each prints its results and returns the program's exit code.
 #pragma once
 
+#include "comparison/json.hpp"
 #include "settings.hpp"
 
 namespace nysalt::program {
@@ -11,6 +12,10 @@ inline constexpr int bad_input = 2;
 inline constexpr int no_result =
     3;  // every trajectory diverged, the fit is not usable, or no method is accepted
 inline constexpr int not_written = 4;  // the disk is full, or the standard output is closed
+
+json schema_of_run();
+json schema_of_sample();
+json schema_of_stability();
 
 int build(const build_command& command, const common_settings& common);
 int cite(const cite_command& command, const common_settings& common);

@@ -22,75 +22,41 @@ constexpr std::int64_t first_trajectories = 50;
 
 std::vector<double> steps_of(const learn_command& command) {
   if (command.step.has_value() == !command.steps.empty()) {
-    refuse("learn: --step or --steps must be given, and not both; give --steps for a curve");
+    refuse("learn: {} or {} must be given, and not both; give {} for a curve", spelled("step"),
+           spelled("steps"), spelled("steps"));
   }
   std::vector<double> steps = command.steps;
   if (command.step) steps.push_back(*command.step);
   for (const double step : steps) {
-    require_positive(command.step ? "--step" : "--steps", step);
-    steps_within("--horizon", command.learning.horizon_at(step), step);
+    require_positive(command.step ? "step" : "steps", step);
+    steps_within("horizon", command.learning.horizon_at(step), step);
   }
-  require_different("--steps", steps, [](double one, double next) { return next - one <= 1e-8 * one; });
+  require_different("steps", steps, [](double one, double next) { return next - one <= 1e-8 * one; });
   return steps;
 }
 
-json document_of(const learned_scheme& learned, const prepared_problem& system,
-                 const std::optional<rival_judgement>& rival, std::optional<placement> where,
-                 const std::string& purpose) {
-  const fit_summary& fit = learned.fit;
-  json result = fit_json(fit);
-  result["system"] = system.description();
-  result["coordinates"] = fit.coordinates;
-  result["held_out_samples"] = fit.held_out_samples;
-  result["trajectories"] = fit.trajectories;
-  result["reference"] = fit.reference;
-  result["reference_error"] = fit.reference_checked ? json(fit.reference_error) : json(nullptr);
-  result["condition"] = fit.condition;
-  result["flat_directions"] = fit.flat_directions;
-  result["dropped_coordinates"] = fit.dropped;
-  result["iterations"] = fit.iterations;
-  result["starts_tried"] = fit.starts_tried;
-  result["in_valley"] = fit.is_in_valley;
-  result["guard"] = fit.guard;
-  result["held_by_guard"] = fit.is_held_by_guard;
-  result["unguarded"] = fit.unguarded.empty() ? json(nullptr) : json(fit.unguarded);
-  result["loses_fewest"] = to_json(rival);
-  result["frequency"] = nullptr;
-  if (fit.fitted_frequency > 0.0)
-    result["frequency"] = {{"value", fit.fitted_frequency}, {"source", fit.source_of_frequency}};
-  result["gaps"] = json::array();
-  for (const auto& [low, high] : fit.gaps) result["gaps"].push_back({low, high});
-  result["starts"] = fit.ensemble;
-  result["enough"] = nullptr;
-  if (learned.course) {
-    json stops = json::array();
-    for (const auto& [trajectories, share, deciding] : learned.course->stops) {
-      stops.push_back(
-          {{"trajectories", trajectories}, {"excess_share", share}, {"deciding_trajectories", deciding}});
-    }
-    result["enough"] = {{"reached", learned.course->is_reached}, {"stops", stops}};
-  }
-  result["energy_range"] =
-      learned.energies ? json{learned.energies->low, learned.energies->high} : json(nullptr);
-  result["seed"] = fit.seed;
-  result["placement"] = where ? json(to_string(*where)) : json(nullptr);
-  result["purpose"] = purpose.empty() ? json(nullptr) : json(purpose);
-  return result;
-}
+/// What `learn` finds.
+struct learned_fits {
+  std::vector<learned_fit> fits;
+  std::vector<std::string> warnings;
+  std::string output{};  // the scheme file, if that was written
+};
 
 }  // namespace
 
+NYSALT_DESCRIBED(learned_fits, fits, warnings, output)
+
 fitted_family::fitted_family(const learn_command& command, const common_settings& common)
     : command_(command), common_(common), system_(make_system(command.system)) {
-  settle_purpose(command_.learning, system_->heat_bath(), "--");
-  require_sound(command_.learning, "--");
+  settle_purpose(command_.learning, system_->heat_bath(), "");
+  require_sound(command_.learning, "");
   steps_ = steps_of(command_);
   if (command.enough) {
-    require_positive("--enough", *command.enough);
+    require_positive("enough", *command.enough);
     const loss_kind& loss = *loss_named(command_.learning.loss).kind;
     if (!loss.asks_data()) {
-      refuse("--enough must come with a loss that learns from trajectories, got {}; leave --enough out",
-             loss.name);
+      refuse_value("enough", "must come with a loss that learns from trajectories, got {}; leave {} out",
+                   loss.name, spelled("enough"));
     }
   }
   method_source source;
@@ -124,14 +90,15 @@ const learned_scheme* fitted_family::unusable() const {
   return bad == learned_.end() ? nullptr : &*bad;
 }
 
+json fitted_family::schema() { return whole_schema<learned_fits>("nysalt learn"); }
+
 json fitted_family::document() const {
-  json fits = json::array();
+  learned_fits result{{}, warnings_};
   for (std::size_t k = 0; k < learned_.size(); ++k) {
-    fits.push_back(document_of(learned_[k], *system_, losing_fewest_[k], plan_.where, purpose()));
+    result.fits.push_back(fit_of(learned_[k], plan_.how, plan_.where));
+    result.fits.back().losing_fewest = losing_fewest_[k];
   }
-  json result = command_.step ? fits.front() : json{{"fits", fits}};
-  result["warnings"] = warnings_;
-  return result;
+  return whole_document(result);
 }
 
 json fitted_family::scheme() const { return scheme_document(learned_, *system_, plan_); }

@@ -40,6 +40,7 @@ class fitted_family {
 
   /// The fit, as JSON.
   json document() const;
+  static json schema();
   /// The scheme file.
   json scheme() const;
 

@@ -119,7 +119,7 @@ columns_of_starts columns_of(const std::string& file, const std::vector<std::str
     const std::string& name = names[k];
     if (const auto at = place_of(name, coordinates, count)) {
       auto& column = found[at->is_momentum ? 1 : 0][static_cast<std::size_t>(at->index)];
-      if (column != none) refuse("--start {}: columns must differ, got {} by two names", file, name);
+      if (column != none) refuse_value("start", "{}: columns must differ, got {} by two names", file, name);
       column = k;
       continue;
     }
@@ -132,8 +132,8 @@ columns_of_starts columns_of(const std::string& file, const std::vector<std::str
             made.observables.end()) {
       continue;
     }
-    refuse("--start {}: column {} must be one of {}, got '{}'; leave the column away", file, k + 1,
-           names_of_places(coordinates, count), name);
+    refuse_value("start", "{}: column {} must be one of {}, got '{}'; leave the column away", file, k + 1,
+                 names_of_places(coordinates, count), name);
   }
   const auto missing = [&](const std::vector<std::size_t>& of) {
     return std::ranges::find(of, none) - of.begin();
@@ -162,7 +162,7 @@ given_states at_one_step(const std::string& file, std::optional<std::int64_t> as
     const auto known = chosen.find(trajectory);
     if (known == chosen.end() || known->second.first <= step) chosen[trajectory] = {step, row};
   }
-  if (chosen.empty()) refuse("--start-step must be a step that {} has, got {}", file, *asked);
+  if (chosen.empty()) refuse_value("start_step", "must be a step that {} has, got {}", file, *asked);
   given_states result;
   for (const auto& [trajectory, at] : chosen) result.push_back(std::move(all[at.second]));
   return result;
@@ -174,8 +174,8 @@ given_states states_in_arrays(written_arrays& all, const columns_of_starts& colu
   constexpr std::int64_t most_numbers = std::int64_t{1} << 22U;  // as of a table
   const std::int64_t columns_read = std::ssize(columns.q) + std::ssize(columns.p);
   if (all.trajectories() > most_numbers / columns_read) {
-    refuse("--start {}: states must have at most {} numbers, got {} trajectories of {}", file, most_numbers,
-           all.trajectories(), columns_read);
+    refuse_value("start", "{}: states must have at most {} numbers, got {} trajectories of {}", file,
+                 most_numbers, all.trajectories(), columns_read);
   }
   const auto count = static_cast<Eigen::Index>(columns.q.size());
   const auto state_at = [&](std::int64_t trajectory, std::int64_t sample) {
@@ -199,7 +199,7 @@ given_states states_in_arrays(written_arrays& all, const columns_of_starts& colu
       break;
     }
   }
-  if (result.empty() && asked) refuse("--start-step must be a step that {} has, got {}", file, *asked);
+  if (result.empty() && asked) refuse_value("start_step", "must be a step that {} has, got {}", file, *asked);
   return result;
 }
 
@@ -221,21 +221,21 @@ phase_point<double, Eigen::Dynamic> state_of(const std::string& text,
     is_empty = false;
     const auto equals = part.find('=');
     if (equals == std::string_view::npos || equals == 0) {
-      refuse("--at must be name=value,...;name=value,..., got '{}'", part);
+      refuse_value("at", "must be name=value,...;name=value,..., got '{}'", part);
     }
     const std::string name(without_blanks(part.substr(0, equals)));
     const auto at = place_of(name, coordinates, count);
     if (!at) {
-      refuse("--at: names must be of {}, got '{}'", names_of_places(coordinates, count), name);
+      refuse("{}: names must be of {}, got '{}'", spelled("at"), names_of_places(coordinates, count), name);
     }
     auto said = is_said[at->is_momentum ? 1 : 0][static_cast<std::size_t>(at->index)];
-    if (said) refuse("--at: names must differ, got {} twice", name);
+    if (said) refuse("{}: names must differ, got {} twice", spelled("at"), name);
     said = true;
-    const auto value = number_of<double>("--at", std::string(without_blanks(part.substr(equals + 1))));
-    if (!std::isfinite(value)) refuse("--at: values must be finite, got {}={}", name, value);
+    const auto value = number_of<double>(spelled("at"), std::string(without_blanks(part.substr(equals + 1))));
+    if (!std::isfinite(value)) refuse("{}: values must be finite, got {}={}", spelled("at"), name, value);
     (at->is_momentum ? x.p : x.q)[at->index] = value;
   }
-  if (is_empty) refuse("--at must be a state such as q1=1,p1=0.5, got '{}'", text);
+  if (is_empty) refuse_value("at", "must be a state such as q1=1,p1=0.5, got '{}'", text);
   return x;
 }
 
@@ -264,17 +264,17 @@ initial_states starts_in(const std::string& file, const initial_value_problem& m
   const auto header = [&](const std::vector<std::string>& names) {
     columns = columns_of(file, names, made, coordinates);
     if (spread > 0.0 && columns.p.empty()) {
-      refuse("--spread must come with momenta in {}, as those of positions are drawn; leave --spread away",
-             file);
+      refuse_value("spread", "must come with momenta in {}, as those of positions are drawn; leave {} away",
+                   file, spelled("spread"));
     }
   };
   if (is_of_arrays(file)) {
-    written_arrays all("--start", file);
+    written_arrays all(spelled("start"), file);
     header(all.observables());
     states = states_in_arrays(all, columns, file, step);
     step.reset();
   } else {
-    read_csv("--start", file, header, [&](csv_row& row) {
+    read_csv(spelled("start"), file, header, [&](csv_row& row) {
       phase_point<double, Eigen::Dynamic> x{Eigen::VectorXd(count), Eigen::VectorXd::Zero(count)};
       for (std::size_t i = 0; i < columns.q.size(); ++i)
         x.q[static_cast<Eigen::Index>(i)] = row.number(columns.q[i]);
@@ -288,8 +288,8 @@ initial_states starts_in(const std::string& file, const initial_value_problem& m
   if (!labels.empty()) {
     states = at_one_step(file, step, labels, std::move(states));
   } else if (step) {
-    refuse("--start-step must come with an output of run, got {}, which has no columns trajectory and step",
-           file);
+    refuse_value("start_step",
+                 "must come with an output of run, got {}, which has no columns trajectory and step", file);
   }
   if (!columns.p.empty()) return starts_at(std::move(states), made, spread);
   std::vector<vector<double, Eigen::Dynamic>> positions;
@@ -297,7 +297,7 @@ initial_states starts_in(const std::string& file, const initial_value_problem& m
   try {
     return thermal_positions(made.system, std::move(positions), temperature);
   } catch (const std::invalid_argument& problem) {
-    refuse("cannot take --start {}: {}", file, problem.what());
+    refuse("cannot take {} {}: {}", spelled("start"), file, problem.what());
   }
 }
 

@@ -105,7 +105,10 @@ json families_json() {
 }  // namespace
 
 json listing(const std::string& own_system) {
-  json all{{"systems", systems_json(own_system)}, {"methods", methods_json()}, {"families", families_json()}};
+  json all{{"version", version_of_documents},
+           {"systems", systems_json(own_system)},
+           {"methods", methods_json()},
+           {"families", families_json()}};
   for (const auto& [name, meaning] : metrics)
     all["metrics"].push_back({{"name", name}, {"meaning", meaning}});
   return all;

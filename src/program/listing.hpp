@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "comparison/json.hpp"
+#include "comparison/described.hpp"
 
 namespace nysalt::program {
 

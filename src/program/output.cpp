@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -43,6 +44,15 @@ void print(std::string_view text) {
   if (errno == EPIPE && failed_write) std::rethrow_exception(failed_write);
   if (errno == EPIPE) std::_Exit(0);  // the reader has seen enough
   throw nysalt::detail::write_failure("cannot write the standard output: it is closed, or the disk is full");
+}
+
+text_form form_of(const common_settings& common) {
+  text_form form{.is_verbose = common.verbose};
+  constexpr std::size_t least = 60;  // columns, of which a table of results takes as many
+  winsize terminal{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &terminal) == 0 && terminal.ws_col > 0)
+    form.width = std::clamp<std::size_t>(terminal.ws_col, least, form.width);
+  return form;
 }
 
 std::string line_of_written(std::string_view file) { return fmt::format("Written: {}\n", of_letters(file)); }

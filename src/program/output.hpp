@@ -12,11 +12,15 @@
 #include "comparison/prepared_problem.hpp"
 #include "comparison/work_file.hpp"
 #include "report/result_file.hpp"
+#include "report/terminal.hpp"
 
 namespace nysalt::program {
 
 /// Prints to standard output. Throws refusal if it cannot be written; a reader who went away is no error.
 void print(std::string_view text);
+
+/// How results are printed: in 110 columns, or those of the terminal where it has fewer.
+text_form form_of(const common_settings& common);
 
 /// The line that says that a file was written; of the name what terminals take for commands is replaced.
 std::string line_of_written(std::string_view file);

@@ -41,7 +41,7 @@ void refuse_missing_values(const CLI::App& app, int argc, char** argv) {
   }
   if (word == "reproduce") {
     refuse(
-        "unknown command '{}': nysalt_paper of the source tree makes the paper's results; run ./dev "
+        "unknown command '{}': a script of the source tree makes the paper's results; run ./dev "
         "reproduce there",
         word);
   }

@@ -127,7 +127,8 @@ struct sample_command {
 };
 
 struct list_command {
-  std::string system;  // the file of one, listed too; empty: none
+  std::string system;   // the file of one, listed too; empty: none
+  std::string schemas;  // the folder for JSON Schema files; empty: none are written
 };
 
 struct build_command {

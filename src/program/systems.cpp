@@ -15,6 +15,7 @@
 #include "../plugin/cache.hpp"
 #include "../plugin/plugin.hpp"
 #include "bundled_systems.hpp"
+#include "comparison/checks.hpp"
 #include "comparison/did_you_mean.hpp"
 #include "comparison/number.hpp"
 #include "comparison/observables.hpp"
@@ -33,45 +34,46 @@ namespace {
 
 bath bath_of(const bath_settings& settings, bool takes_temperature) {
   if (settings.sigma && settings.temperature) {
-    refuse("--sigma must come without --temperature; give one of them (kT = sigma^2/(2 friction))");
+    refuse_value("sigma", "must come without {}; give one of them (kT = sigma^2/(2 friction))",
+                 spelled("temperature"));
   }
   if (!settings.friction) {
-    if (settings.sigma) refuse("--sigma must come with --friction; give 0 for none");
-    if (settings.temperature && !takes_temperature) refuse("--temperature must come with --friction");
+    if (settings.sigma) refuse_value("sigma", "must come with {}; give 0 for none", spelled("friction"));
+    if (settings.temperature && !takes_temperature)
+      refuse_value("temperature", "must come with {}", spelled("friction"));
     return bath::of_sigma(0.0, 0.0);
   }
   if (!settings.sigma && !settings.temperature) {
-    refuse("--friction must come with --sigma or --temperature; give 0 for damping without noise");
+    refuse_value("friction", "must come with {} or {}; give 0 for damping without noise", spelled("sigma"),
+                 spelled("temperature"));
   }
-  const auto require = [](const char* option, double value) {
+  const auto require = [](const char* field, double value) {
     if (value >= 0.0 && std::isfinite(value)) return;
-    refuse("{} must be finite and not negative, got {}", option, value);
+    refuse_value(field, "must be finite and not negative, got {}", value);
   };
-  require("--friction", *settings.friction);
+  require("friction", *settings.friction);
   if (settings.temperature) {
-    require("--temperature", *settings.temperature);
+    require("temperature", *settings.temperature);
     if (!std::isfinite(2.0 * *settings.friction * *settings.temperature)) {
-      refuse("--friction and --temperature must have a finite product, got {} and {}; give smaller ones",
-             *settings.friction, *settings.temperature);
+      refuse("{} and {} must have a finite product, got {} and {}; give smaller ones", spelled("friction"),
+             spelled("temperature"), *settings.friction, *settings.temperature);
     }
     return bath::of_temperature(*settings.friction, *settings.temperature);
   }
-  require("--sigma", *settings.sigma);
+  require("sigma", *settings.sigma);
   if (*settings.friction > 0.0 &&
       !std::isfinite(*settings.sigma * *settings.sigma / (2.0 * *settings.friction))) {
-    refuse(
-        "--friction and --sigma must have a finite kT = sigma^2/(2 friction), got {} and {}; give other ones",
-        *settings.friction, *settings.sigma);
+    refuse("{} and {} must have a finite kT = sigma^2/(2 friction), got {} and {}; give other ones",
+           spelled("friction"), spelled("sigma"), *settings.friction, *settings.sigma);
   }
   return bath::of_sigma(*settings.friction, *settings.sigma);
 }
 
 double spread_of(const std::optional<double>& asked, start where) {
   if (!asked) return 1.0;
-  if (!(*asked > 0.0) || !std::isfinite(*asked)) {
-    refuse("--spread must be positive and finite, got {}", *asked);
-  }
-  if (where != start::law) refuse("--spread must come with --start law, which --spread scales");
+  require_positive("spread", *asked);
+  if (where != start::law)
+    refuse_value("spread", "must come with {}, which {} scales", spelled("start", "law"), spelled("spread"));
   return *asked;
 }
 
@@ -84,19 +86,18 @@ start start_of(const system_settings& settings, const bath& heat_bath) {
   const bool is_warm = heat_bath.acts() && heat_bath.has_temperature() && heat_bath.temperature() > 0.0;
   if (gives_states(settings)) {
     if (asked.empty()) return start::law;
-    refuse("--at must come without --start, got --start {}; give one of them", asked);
+    refuse_value("at", "must come without {}, got {} {}; give one of them", spelled("start"),
+                 spelled("start"), asked);
   }
   if (asked.empty()) return is_warm ? start::gibbs : start::law;
   if (asked == "law" || is_file_of_starts(asked)) return start::law;
   if (asked != "gibbs" && asked != "trajectory") {
-    refuse(
-        "unknown start '{}': --start is one of law, gibbs, trajectory, or a file NAME.csv, NAME.h5 or "
-        "NAME.npy",
-        asked);
+    refuse("unknown start '{}': {} is one of law, gibbs, trajectory, or a file NAME.csv, NAME.h5 or NAME.npy",
+           asked, spelled("start"));
   }
   if (!is_warm) {
-    refuse("--start {} must come with a bath of a temperature above 0; give --friction and --temperature",
-           asked);
+    refuse_value("start", "{} must come with a bath of a temperature above 0; give {} and {}", asked,
+                 spelled("friction"), spelled("temperature"));
   }
   return asked == "gibbs" ? start::gibbs : start::trajectory;
 }
@@ -116,7 +117,8 @@ std::function<initial_states(const initial_value_problem&)> given_starts_of(cons
       return starts_in(settings.start, made, coordinates(), settings.start_step, temperature, spread);
     };
   }
-  if (settings.start_step) refuse("--start-step must come with --start FILE, an output of run");
+  if (settings.start_step)
+    refuse_value("start_step", "must come with {} FILE, an output of run", spelled("start"));
   if (!settings.states.empty()) {
     return [=](const initial_value_problem& made) { return starts_at(settings.states, made, spread); };
   }
@@ -131,9 +133,7 @@ std::function<initial_states(const initial_value_problem&)> given_starts_of(cons
 surroundings surroundings_of(const system_settings& settings) {
   const bath heat_bath = bath_of(settings.bath, is_file_of_starts(settings.start));
   const start where = start_of(settings, heat_bath);
-  if (settings.frequency && !(*settings.frequency > 0.0 && std::isfinite(*settings.frequency))) {
-    refuse("--frequency must be positive and finite, got {}", *settings.frequency);
-  }
+  if (settings.frequency) require_positive("frequency", *settings.frequency);
   const double spread = spread_of(settings.spread, where);
   auto starts = given_starts_of(settings, heat_bath);
   const double of_law = starts ? 1.0 : spread;
@@ -148,7 +148,7 @@ surroundings surroundings_of(const system_settings& settings) {
 
 /// The typed value of a parameter, as its declaration has it.
 parameter_value value_of(const detail::declared_parameter& parameter, const std::string& text) {
-  const std::string by = "--parameter ";
+  const std::string by = spelled("parameter") + " ";
   const std::string option = by + parameter.name;
   if (parameter.is_text()) return text;
   parameter_value value = parameter.is_whole() ? parameter_value(number_of<std::int64_t>(option, text))
@@ -165,7 +165,8 @@ parameter_value value_of(const detail::declared_parameter& parameter, const std:
 std::map<std::string, std::string> typed_values(const system_settings& settings) {
   auto all = settings.parameters;
   for (const auto& [name, text] : parameters_of(settings.potential)) {
-    if (!all.emplace(name, text).second) refuse("--parameter must have different names, got {} twice", name);
+    if (!all.emplace(name, text).second)
+      refuse_value("parameter", "must have different names, got {} twice", name);
   }
   return all;
 }
@@ -174,7 +175,7 @@ void require_options(const system_settings& settings, const std::map<std::string
                      const system_declaration& declared) {
   std::vector<std::string> takes;
   for (const auto& parameter : declared.parameters) takes.push_back(parameter.name);
-  if (declared.has_spread) takes.push_back("--spread");
+  if (declared.has_spread) takes.push_back(spelled("spread"));
   const auto require = [&](const std::string& name) {
     if (std::ranges::find(takes, name) != takes.end()) return;
     const std::string near = nearest_name(name, takes);
@@ -186,7 +187,7 @@ void require_options(const system_settings& settings, const std::map<std::string
   };
   for (const auto& [name, text] : typed) require(name);
   const bool is_given = gives_states(settings) || is_file_of_starts(settings.start);
-  if (settings.spread && !is_given) require("--spread");
+  if (settings.spread && !is_given) require(spelled("spread"));
 }
 
 /// Adds coordinates and momenta by the names of the coordinates to the observables.
@@ -225,14 +226,18 @@ std::string source_of_kind(const system_declaration& declared, const parameter_v
 const system_declaration& declaration_in(const system_settings& settings) {
   if (settings.declared != nullptr) return *settings.declared;
   const auto& potential = settings.potential;
-  if (!potential.text.empty()) return plugin_at(kept_source(source_of(potential)).string(), "--potential");
+  if (!potential.text.empty())
+    return plugin_at(kept_source(source_of(potential)).string(), spelled("potential"));
   const bool has_more =
       !potential.variables.empty() || !potential.masses.empty() || !potential.around.empty();
-  if (has_more) refuse("--variables, --mass and --around must come with --potential");
+  if (has_more)
+    refuse("{}, {} and {} must come with {}", spelled("variables"), spelled("mass"), spelled("around"),
+           spelled("potential"));
   if (settings.name.empty()) {
-    refuse(
-        "--system must be given; name one that nysalt list shows, or a file of your own, or give a formula "
-        "as --potential");
+    refuse_value(
+        "system",
+        "must be given; name one that nysalt list shows, or a file of your own, or give a formula as {}",
+        spelled("potential"));
   }
   return declaration_of(settings.name);
 }

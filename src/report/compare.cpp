@@ -13,7 +13,7 @@
 
 namespace nysalt {
 
-using program::with_cpp_messages;
+using program::with_cpp_exceptions;
 
 class comparison::measurement {
  public:
@@ -64,15 +64,11 @@ std::vector<comparison::row> comparison::rows() const {
   return result;
 }
 
-std::string comparison::text() const {
-  return program::with_arguments(readable(found_->all), program::in_cpp);
-}
+std::string comparison::text() const { return readable(found_->all); }
 
 std::string comparison::json() const { return program::text_of(document_of(found_->all)); }
 
-std::vector<std::string> comparison::warnings() const {
-  return program::with_cpp_terms(found_->all.warnings());
-}
+std::vector<std::string> comparison::warnings() const { return found_->all.warnings(); }
 
 void comparison::write(const std::filesystem::path& folder) const {
   make_folders(folder);
@@ -81,7 +77,7 @@ void comparison::write(const std::filesystem::path& folder) const {
 
 comparison compare(const initial_value_problem& problem, const comparison_options& options,
                    const common_options& common) {
-  return with_cpp_messages([&] {
+  return with_cpp_exceptions([&] {
     const program::told_caller told(common);
     const auto found = std::make_shared<comparison::measurement>(problem, options, common);
     program::work_file nowhere;
@@ -93,7 +89,7 @@ comparison compare(const initial_value_problem& problem, const comparison_option
 comparison report(const initial_value_problem& problem, comparison_options options,
                   const std::filesystem::path& folder, const common_options& common) {
   options.energies = true;
-  return with_cpp_messages([&] {
+  return with_cpp_exceptions([&] {
     const program::told_caller told(common);
     const auto found = std::make_shared<comparison::measurement>(problem, options, common);
     auto question = found->all.question();

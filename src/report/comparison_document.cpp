@@ -1,252 +1,250 @@
 // SPDX-License-Identifier: BSL-1.0
 // The results of a comparison for machines: a JSON document, and a table of comma-separated values.
-#include <fmt/format.h>
-
+#include <array>
 #include <cmath>
 
-#include "comparison/judging.hpp"
 #include "comparison_report.hpp"
 #include "comparison_tables.hpp"
+#include "method_row.hpp"
 
 namespace nysalt::program {
 
 namespace {
 
-std::string in_full(double x) { return std::isnan(x) ? std::string() : fmt::format("{}", x); }
-std::string in_full(const std::optional<double>& x) { return x ? in_full(*x) : std::string(); }
-
-json number(const std::optional<double>& x) { return x && std::isfinite(*x) ? json(*x) : json(nullptr); }
-
-json row_json(const comparison& all, std::size_t m, const row& line) {
+method_row row_of(const comparison& all, std::size_t m, const row& line) {
   const asked_metric& metric = all.metrics()[m];
   const measurement& one = line.measurements[m];
   const baseline& against = baseline_of(all, m, line);
-  json marks = json::array();
-  for (const mark found : marks_of(all, m, line)) marks.push_back(to_string(found));
-  json result{{"metric", metric.text()},
-              {"method", line.method},
-              {"step", line.nominal},
-              {"step_size", line.step},
-              {"evaluations_per_time", line.evaluations_per_time},
-              {"seconds_per_time", line.seconds_per_time.least},
-              {"seconds_per_time_median", line.seconds_per_time.median},
-              {metric.value(), one.value.mean},
-              {"standard_error", one.value.standard_error},
-              {"survivors", all.options().trajectories - one.diverged},
-              {"diverged", one.diverged},
-              {"diverged_at", to_json(one.diverged_at)},
-              {"judgement", line.judged ? to_json(*line.judged) : json(nullptr)},
-              {"reference_error", metric.is_of_law() ? json(nullptr) : number(against.reference_error)},
-              {"marks", marks}};
-  if (line.frequency)
-    result["frequency"] = {{"value", line.frequency->value}, {"source", line.frequency->source}};
-  if (!one.reason.empty()) result["reason"] = one.reason;
+  method_row result{.metric = metric.text(),
+                    .method = line.method,
+                    .step = line.nominal,
+                    .step_size = line.step,
+                    .evaluations_per_time = line.evaluations_per_time,
+                    .seconds_per_time = line.seconds_per_time.least,
+                    .seconds_per_time_median = line.seconds_per_time.median,
+                    .standard_error = one.value.standard_error,
+                    .survivors = all.options().trajectories - one.diverged,
+                    .diverged = one.diverged,
+                    .diverged_at = one.diverged_at,
+                    .reason = one.reason,
+                    .learned = line.is_learned,
+                    .null_model = against.null_model,
+                    .floor = against.floor,
+                    .predictable_until = against.predictable_until,
+                    .frequency = line.frequency,
+                    .judgement = line.judged};
+  (metric.is_acceptance() ? result.acceptance : result.error) = one.value.mean;
+  for (const mark found : marks_of(all, m, line)) result.marks.push_back(to_string(found));
+  if (!metric.is_of_law()) result.reference_error = against.reference_error;
+  if (line.coefficients) {
+    const nysalt::word& word = line.coefficients->letters();
+    result.order = line.coefficients->order;
+    result.reversible = line.coefficients->symmetric;
+    result.rotation = word.rotates();
+    result.evaluations_per_step = word.evaluations_per_step;
+  }
   if (one.spread) {
-    json quantiles = json::object();
-    for (std::size_t i = 0; i < detail::shown_quantiles.size(); ++i) {
-      quantiles[fmt::format("{:g} %", 100.0 * detail::shown_quantiles[i])] = number(one.spread->quantiles[i]);
-    }
-    result["median"] = number(one.spread->median.mean);
-    result["median_standard_error"] = number(one.spread->median.standard_error);
-    result["quantiles"] = quantiles;
-    result["deciding"] = number(one.spread->largest.deciding);
-    result["enough_trajectories"] = number(one.spread->largest.enough());
+    const auto& at = one.spread->quantiles;
+    result.quantile_5 = at[0];
+    result.quantile_25 = at[1];
+    result.quantile_75 = at[3];
+    result.quantile_95 = at[4];
+    result.median = one.spread->median.mean;
+    result.median_standard_error = one.spread->median.standard_error;
+    result.deciding = one.spread->largest.deciding;
+    result.enough_trajectories = one.spread->largest.enough();
   }
-  if (!metric.is_of_law() || !one.law) return result;
-  if (against.floor) result["floor"] = *against.floor;
-  result["mean"] = one.law->mean.mean;
-  result["mean_standard_error"] = one.law->mean.standard_error;
-  result["effective_sample_size"] = one.law->effective_sample_size;
-  if (!one.law->kinetic_temperature) return result;
-  result["kinetic_temperature"] = *one.law->kinetic_temperature;
-  result["half_step_kinetic_temperature"] = *one.law->half_step_kinetic_temperature;
-  return result;
-}
-
-json references_json(const comparison& all) {
-  json result = json::array();
-  for (const auto& [key, context] : all.measured_baselines()) {
-    if (context.reference.empty()) continue;
-    json one{{"metric", all.metrics()[key.first].text()},
-             {"step_size", key.second},
-             {"reference", context.reference},
-             {"error", number(context.reference_error)},
-             {"null_model", number(context.null_model)}};
-    if (context.predictable_until) one["predictable_until"] = number(context.predictable_until);
-    if (context.floor) one["floor"] = *context.floor;
-    if (context.law) one["mean"] = context.law->mean.mean;
-    if (context.law && context.law->kinetic_temperature) {
-      one["kinetic_temperature"] = *context.law->kinetic_temperature;
-      one["half_step_kinetic_temperature"] = *context.law->half_step_kinetic_temperature;
-    }
-    result.push_back(one);
+  if (metric.is_of_law() && one.law) {
+    result.mean = one.law->mean.mean;
+    result.mean_standard_error = one.law->mean.standard_error;
+    result.effective_sample_size = one.law->effective_sample_size;
+    result.kinetic_temperature = one.law->kinetic_temperature;
+    result.half_step_kinetic_temperature = one.law->half_step_kinetic_temperature;
   }
   return result;
 }
 
-json crossing_json(const threshold_crossing& crossing) {
-  constexpr std::array kinds{"found", "bracketed", "below all", "above from first"};
-  return {{"kind", kinds[static_cast<std::size_t>(crossing.kind)]},
-          {"at", crossing.x},
-          {"standard_error", number(crossing.standard_error)}};
-}
-
-json best_json(const comparison& all, std::size_t m) {
-  json result = json::array();
-  for (const best_at_cost& one : best_by(all, m, evaluations_of)) {
-    const auto named_at = [](const ranked_method& method) {
-      return json{{"method", method.method}, {"step", method.step}};
-    };
-    json best = json::array();
-    for (const ranked_method& method : one.best) best.push_back(named_at(method));
-    json at{{"evaluations_per_time", one.cost},
-            {"best", best},
-            {"next", nullptr},
-            {"ratio", nullptr},
-            {"standard_error", nullptr}};
-    if (one.next) {
-      const estimate ratio = error_ratio(*one.next, one.best.front());
-      at["next"] = named_at(*one.next);
-      at["ratio"] = number(ratio.mean);
-      at["standard_error"] = number(ratio.standard_error);
-    }
-    result.push_back(at);
-  }
-  return result;
-}
-
-json rankings_json(const comparison& all) {
-  json result = json::array();
-  const auto named = [](const std::vector<const row*>& rows) {
-    json names = json::array();
-    for (const row* line : rows) names.push_back({{"method", line->method}, {"step", line->nominal}});
-    return names;
-  };
+std::vector<method_row> all_rows(const comparison& all) {
+  std::vector<method_row> result;
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
-    json levels = json::array();
-    for (const double level : levels_for(all, m)) {
-      if (all.metrics()[m].is_acceptance()) break;
-      json costs = json::array();
-      for (const cost_at_level& cost : costs_at(all, m, level)) {
-        costs.push_back({{"method", cost.method},
-                         {"evaluations_per_time", crossing_json(cost.evaluations)},
-                         {"seconds_per_time", crossing_json(cost.seconds)}});
-      }
-      levels.push_back({{"level", level}, {"methods", costs}});
-    }
-    result.push_back({{"metric", all.metrics()[m].text()},
-                      {"ranked_by", is_by_median(all, m) ? "median" : "mean"},
-                      {"verdict", plain_verdict(all, m)},
-                      {"best_at_costs", best_json(all, m)},
-                      {"front_by_evaluations", named(pareto_front(all, m, evaluations_of))},
-                      {"front_by_seconds", named(pareto_front(all, m, seconds_of))},
-                      {"levels", levels}});
+    for (const row& line : all.rows()) result.push_back(row_of(all, m, line));
   }
   return result;
+}
+
+/// What the rows of a step are seen against, by a metric.
+struct reference_of_rows : baseline {
+  std::string metric;
+  double step_size;
+};
+
+std::vector<reference_of_rows> references_of(const comparison& all) {
+  std::vector<reference_of_rows> result;
+  for (const auto& [key, context] : all.measured_baselines()) {
+    if (!context.reference.empty()) result.push_back({context, all.metrics()[key.first].text(), key.second});
+  }
+  return result;
+}
+
+/// NaN and nothing where it is not compared by.
+drawn_law law_of(const baseline& context) { return context.law.value_or(drawn_law()); }
+
+struct ranked_metric {
+  const comparison& all;
+  std::size_t metric;
+};
+
+std::vector<ranked_metric> rankings_of(const comparison& all) {
+  std::vector<ranked_metric> result;
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) result.push_back({all, m});
+  return result;
+}
+
+struct costs_at_level {
+  double level;
+  std::vector<cost_at_level> methods;
+};
+
+std::vector<costs_at_level> levels_of(const ranked_metric& one) {
+  std::vector<costs_at_level> result;
+  if (one.all.metrics()[one.metric].is_acceptance()) return result;
+  for (const double level : levels_for(one.all, one.metric))
+    result.push_back({level, costs_at(one.all, one.metric, level)});
+  return result;
+}
+
+struct method_at_step {
+  std::string method;
+  double step;
+};
+
+template <double cost(const row&)>
+std::vector<method_at_step> front_of(const ranked_metric& one) {
+  std::vector<method_at_step> result;
+  for (const row* line : pareto_front(one.all, one.metric, cost))
+    result.push_back({line->method, line->nominal});
+  return result;
+}
+
+estimate next_to_best(const best_at_cost& one) {
+  return one.next ? error_ratio(*one.next, one.best.front()) : estimate();
+}
+
+template <class Value>
+std::optional<Value> where_asked(const comparison& all, const auto& is_asked, const Value& value) {
+  return only_if(std::ranges::any_of(all.metrics(), is_asked), value);
+}
+
+std::vector<kept<learned_fit>> fits_of(const comparison& all) {
+  std::vector<kept<learned_fit>> result;
+  for (const learned_row& one : all.fits()) result.push_back(one.fit);
+  return result;
+}
+
+/// Of each of these fits; null of one that is not usable.
+std::vector<json> schemes_of(const comparison& all) {
+  std::vector<json> result;
+  for (const learned_row& one : all.fits()) result.push_back(one.scheme);
+  return result;
+}
+
+std::optional<equal_bins> histogram_of(const comparison& all) {
+  for (std::size_t m = all.metrics().size(); m-- > 0;) {
+    if (all.bins(m)) return all.bins(m);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
-json document_of(const comparison& all) {
-  const comparison_options& options = all.options();
-  json metrics = json::array();
-  json rows = json::array();
-  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
-    metrics.push_back(all.metrics()[m].text());
-    for (const row& line : all.rows()) rows.push_back(row_json(all, m, line));
-  }
-  json fits = json::array();
-  for (const learned_row& fit : all.fits()) fits.push_back(fit.document);
-  json left_out = json::array();
-  for (const auto& [name, reason] : all.left_out())
-    left_out.push_back({{"method", name}, {"reason", reason}});
-  const std::string& purpose = options.learning.purpose;
-  json result{{"system", all.system().description()},
-              {"starts", all.system().starts()},
-              {"metrics", metrics},
-              {"horizon", all.horizon()},
-              {"trajectories", options.trajectories},
-              {"equal_cost", options.equal_cost},
-              {"seed", all.common().seed},
-              {"purpose", purpose.empty() ? json(nullptr) : json(purpose)},
-              {"references", references_json(all)},
-              {"rows", rows},
-              {"rankings", rankings_json(all)},
-              {"fits", fits},
-              {"left_out", left_out},
-              {"warnings", all.warnings()},
-              {"peak_memory", peak_memory()}};
-  if (!options.prices.empty()) result["prices"] = options.prices;
-  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
-    const auto& bins = all.bins(m);
-    if (bins) result["histogram"] = {{"low", bins->low}, {"high", bins->high}, {"bins", bins->count}};
-    if (all.metrics()[m].is_acceptance()) result["hmc_temperature"] = options.hmc_temperature;
-    if (all.metrics()[m].name == "acf") result["longest_lag"] = options.longest_lag;
-  }
-  return result;
+constexpr auto members(of<equal_bins>) {
+  return std::tuple(NYSALT_MEMBERS(equal_bins, low, high), item{"bins", &equal_bins::count});
+}
+constexpr auto members(of<reference_of_rows>) {
+  using reference = reference_of_rows;
+  return std::tuple(
+      NYSALT_MEMBERS(reference, metric, step_size, reference), item{"error", &reference::reference_error},
+      NYSALT_MEMBERS(reference, null_model, predictable_until, floor),
+      item{"mean", [](const reference& one) { return law_of(one).mean.mean; }},
+      item{"kinetic_temperature", [](const reference& one) { return law_of(one).kinetic_temperature; }},
+      item{"half_step_kinetic_temperature",
+           [](const reference& one) { return law_of(one).half_step_kinetic_temperature; }});
+}
+NYSALT_DESCRIBED(method_at_step, method, step)
+NYSALT_DESCRIBED(ranked_method, method, step)
+constexpr auto members(of<best_at_cost>) {
+  return std::tuple(
+      item{"evaluations_per_time", &best_at_cost::cost}, NYSALT_MEMBERS(best_at_cost, best, next),
+      item{"ratio", [](const best_at_cost& one) { return next_to_best(one).mean; }},
+      item{"standard_error", [](const best_at_cost& one) { return next_to_best(one).standard_error; }});
+}
+constexpr auto members(of<threshold_crossing>) {
+  return std::tuple(item{"kind",
+                         [](const threshold_crossing& crossing) {
+                           constexpr std::array kinds{"found", "bracketed", "below all", "above from first"};
+                           return kinds[static_cast<std::size_t>(crossing.kind)];
+                         }},
+                    item{"at", &threshold_crossing::x},
+                    item{"standard_error", &threshold_crossing::standard_error});
+}
+constexpr auto members(of<cost_at_level>) {
+  return std::tuple(item{"method", &cost_at_level::method},
+                    item{"evaluations_per_time", &cost_at_level::evaluations},
+                    item{"seconds_per_time", &cost_at_level::seconds});
+}
+NYSALT_DESCRIBED(costs_at_level, level, methods)
+constexpr auto members(of<ranked_metric>) {
+  return std::tuple(
+      item{"metric", [](const ranked_metric& one) { return one.all.metrics()[one.metric].text(); }},
+      item{"ranked_by",
+           [](const ranked_metric& one) { return is_by_median(one.all, one.metric) ? "median" : "mean"; }},
+      item{"verdict", [](const ranked_metric& one) { return plain_verdict(one.all, one.metric); }},
+      item{"best_at_costs",
+           [](const ranked_metric& one) { return best_by(one.all, one.metric, evaluations_of); }},
+      item{"front_by_evaluations", front_of<evaluations_of>}, item{"front_by_seconds", front_of<seconds_of>},
+      item{"levels", levels_of});
+}
+constexpr auto members(of<comparison>) {
+  return std::tuple(item{"system", [](const comparison& all) { return all.system().description(); }},
+                    item{"starts", [](const comparison& all) { return all.system().starts(); }},
+                    item{"metrics",
+                         [](const comparison& all) {
+                           std::vector<std::string> texts;
+                           for (const asked_metric& metric : all.metrics()) texts.push_back(metric.text());
+                           return texts;
+                         }},
+                    item{"horizon", &comparison::horizon},
+                    item{"trajectories", [](const comparison& all) { return all.options().trajectories; }},
+                    item{"equal_cost", [](const comparison& all) { return all.options().equal_cost; }},
+                    item{"seed", [](const comparison& all) { return all.common().seed; }},
+                    item{"purpose", [](const comparison& all) { return all.options().learning.purpose; }},
+                    item{"prices", [](const comparison& all) { return all.options().prices; }},
+                    item{"histogram", histogram_of},
+                    item{"hmc_temperature",
+                         [](const comparison& all) {
+                           return where_asked(all, &asked_metric::is_acceptance,
+                                              all.options().hmc_temperature);
+                         }},
+                    item{"longest_lag",
+                         [](const comparison& all) {
+                           return where_asked(
+                               all, [](const asked_metric& metric) { return metric.name == "acf"; },
+                               all.options().longest_lag);
+                         }},
+                    item{"references", references_of}, item{"rows", all_rows}, item{"rankings", rankings_of},
+                    item{"fits", fits_of}, item{"schemes", schemes_of},
+                    item{"left_out", [](const comparison& all) { return left_out_of(all.left_out()); }},
+                    NYSALT_MEMBERS(comparison, warnings),
+                    item{"peak_memory", [](const comparison&) { return peak_memory(); }});
 }
 
+json document_of(const comparison& all) { return whole_document(all); }
+json schema_of_comparison() { return whole_schema<comparison>("nysalt compare"); }
+
 std::string csv_of(const comparison& all) {
-  table result({"metric",
-                "method",
-                "step",
-                "step_size",
-                "evaluations_per_time",
-                "seconds_per_time",
-                "seconds_per_time_median",
-                "value",
-                "standard_error",
-                "diverged",
-                "reference_error",
-                "null_model",
-                "floor",
-                "predictable_until",
-                "marks",
-                "reason",
-                "survivors",
-                "quantile_5",
-                "quantile_25",
-                "median",
-                "quantile_75",
-                "quantile_95",
-                "median_standard_error",
-                "deciding",
-                "enough_trajectories",
-                "verdict"});
-  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
-    for (const row& line : all.rows()) {
-      const measurement& one = line.measurements[m];
-      const baseline& against = baseline_of(all, m, line);
-      const method_error::distribution spread = spread_of(one);
-      const auto& quantiles = spread.quantiles;
-      result.add({all.metrics()[m].text(),
-                  line.method,
-                  in_full(line.nominal),
-                  in_full(line.step),
-                  in_full(line.evaluations_per_time),
-                  in_full(line.seconds_per_time.least),
-                  in_full(line.seconds_per_time.median),
-                  in_full(one.value.mean),
-                  in_full(one.value.standard_error),
-                  fmt::format("{}", one.diverged),
-                  all.metrics()[m].is_of_law() ? std::string() : in_full(against.reference_error),
-                  in_full(against.null_model),
-                  in_full(against.floor),
-                  in_full(against.predictable_until),
-                  joined_marks(all, m, line),
-                  one.reason,
-                  fmt::format("{}", all.options().trajectories - one.diverged),
-                  in_full(quantiles[0]),
-                  in_full(quantiles[1]),
-                  in_full(quantiles[2]),
-                  in_full(quantiles[3]),
-                  in_full(quantiles[4]),
-                  in_full(spread.median.standard_error),
-                  in_full(spread.largest.deciding),
-                  one.spread ? in_full(spread.largest.enough()) : std::string(),
-                  line.judged ? std::string(to_string(line.judged->verdict)) : std::string()});
-    }
-  }
+  const json schema = schema_of<method_row>();
+  table result(row_of_table(json(), schema).names);
+  for (const method_row& one : all_rows(all)) result.add(row_of_table(as_json(one), schema).cells);
   return result.csv();
 }
 

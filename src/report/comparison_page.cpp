@@ -44,20 +44,6 @@ std::string with_capital(std::string title) {
   return title;
 }
 
-std::string listed_plainly(const std::vector<ranked_method>& methods) {
-  std::string text = named(methods);
-  std::erase(text, '`');
-  return text;
-}
-
-std::string listed_front(const std::vector<const row*>& front) {
-  std::string text;
-  for (const row* line : front) {
-    text += fmt::format("{}`{}` at {:g}", text.empty() ? "" : ", ", line->method, line->nominal);
-  }
-  return text.empty() ? "none" : text;
-}
-
 /// A cost, or between which rows or beyond which it lies.
 std::string text_of(const threshold_crossing& crossing, double unit) {
   const auto number = [&](double x) { return fmt::format("{:.4g}", x * unit); };
@@ -95,7 +81,7 @@ std::string repaid_after(const comparison& all, const cost_at_level& cost,
   });
   double spent = 0.0;
   for (const auto& fit : all.fits()) {
-    if (fit.method == cost.method) spent = std::max(spent, fit.evaluations);
+    if (fit.method == cost.method) spent = std::max(spent, fit.learning_evaluations);
   }
   if (best == costs.end() || spent == 0.0 ||
       cost.evaluations.kind != threshold_crossing::crossing_kind::found)
@@ -134,37 +120,22 @@ std::string left_out(const comparison& all, std::size_t m) {
   return text.empty() ? text : fmt::format(" Not ranked at any step: {}.", text);
 }
 
-/// The verdict of each metric in a sentence, and of all in one table.
+/// The verdict of each metric in a sentence.
 void add_verdict(page& report, const comparison& all) {
-  const bool is_one = all.metrics().size() == 1;
-  std::vector<std::string> names{"evaluations/time, at most", "best", "step", "error", "next", "next / best"};
-  if (!is_one) names.insert(names.begin(), "metric");
-  table best(names, is_one ? 2 : 3);
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
-    const auto found = best_by(all, m, evaluations_of);
-    const std::string sentence =
-        verdict_of_both(found, best_by(all, m, seconds_of), errors_compared(all, m)) + left_out(all, m);
-    report.text(is_one ? sentence : fmt::format("**{}**: {}", quantity(all, m), sentence));
-    for (const best_at_cost& one : some_of(found, is_one ? 4 : 3)) {
-      if (one.best.empty()) continue;  // the sentence says so
-      const ranked_method& first = one.best.front();
-      std::vector<std::string> cells{
-          fmt::format("{:.4g}", one.cost),
-          listed_plainly(one.best) + (one.best.size() > 1 ? " (not separated)" : ""),
-          fmt::format("{:g}", first.step),
-          std::isnan(first.standard_error)
-              ? fmt::format("{:.2e}", first.error)
-              : fmt::format("{:.2e} ± {:.0e}", first.error, first.standard_error),
-          one.next ? one.next->method : "-",
-          one.next ? with_error(error_ratio(*one.next, first)) : "-"};
-      if (!is_one) cells.insert(cells.begin(), quantity(all, m));
-      best.add(std::move(cells));
-    }
+    // What stays in view is short.
+    const std::string sentence = verdict_by_evaluations(all, m);
+    const std::string both = verdict_of_both(best_by(all, m, evaluations_of), best_by(all, m, seconds_of),
+                                             errors_compared(all, m));
+    report.verdict(all.metrics().size() == 1 ? sentence
+                                             : fmt::format("**{}**: {}", quantity(all, m), sentence));
+    const std::string further = both.substr(sentence.size()) + left_out(all, m);
+    if (!further.empty()) report.text(further.substr(1));
   }
-  if (!best.empty()) report.table(std::move(best));
 }
 
 void add_ranking(page& report, const comparison& all, std::size_t m) {
+  report.table(ranking_of(all, m));
   const bool is_ranked_at_all =
       std::ranges::any_of(all.rows(), [&](const row& line) { return is_ranked(all, m, line); });
   if (!is_ranked_at_all) {
@@ -183,17 +154,13 @@ void add_ranking(page& report, const comparison& all, std::size_t m) {
     if (is_by_median(all, m)) report.text("Of the median over trajectories.");
     report.table(level_table(all, m, level));
   }
-  report.subheading("Best at its cost");
-  report.list({"in evaluations: " + listed_front(pareto_front(all, m, evaluations_of)),
-               "in seconds: " + listed_front(pareto_front(all, m, seconds_of))});
 }
 
 void add_metric(page& report, const comparison& all, std::size_t m) {
   report.heading(with_capital(quantity(all, m)));
   for (auto& picture : pictures_of_errors(all, m)) {
     const std::string caption = (is_by_median(all, m) ? "median " : "") + quantity(all, m) + " against " +
-                                picture.panels.front().x_label +
-                                "; bars are standard errors, hollow points are not ranked";
+                                picture.panels.front().x_label + "; bars are standard errors";
     report.picture(std::move(picture), caption);
   }
   if (const auto drawn = drawn_methods(all, m).size(); drawn < all.options().methods.size()) {
@@ -228,17 +195,17 @@ void add_energies(page& report, const comparison& all) {
   if (pictures.empty()) return;
   report.heading("Energy and survivors along time");
   for (auto& picture : pictures) {
-    const std::string caption =
-        picture.panels.front().title + ": root mean square of H(t) - H(0) over the trajectories that survive";
+    const panel& shown = picture.panels.front();
+    const std::string what =
+        shown.log_log ? "root mean square of H(t) - H(0) over the trajectories that survive" : shown.y_label;
+    const std::string caption = shown.title + ": " + what;
     report.picture(std::move(picture), caption);
   }
 }
 
 /// "usable", "not usable", or "nothing gained over chin4a".
 std::string verdict_of(const learned_row& fit) {
-  if (!fit.usable) return std::string(to_string(verdict::not_usable));
-  if (!fit.gains_nothing) return std::string(to_string(verdict::usable));
-  return std::string(to_string(verdict::nothing_gained)) + (fit.rival.empty() ? "" : " over " + fit.rival);
+  return fit.verdict + (fit.gains_nothing() && !fit.rival.empty() ? " over " + fit.rival : "");
 }
 
 void add_fits(page& report, const comparison& all) {
@@ -254,8 +221,8 @@ void add_fits(page& report, const comparison& all) {
     const auto number = [](double x) {
       return std::isfinite(x) ? fmt::format("{:.3g}", x) : std::string("-");
     };
-    fits.add({fit.method, number(fit.step), parameters, number(fit.one_step_error), number(fit.evaluations),
-              number(fit.seconds), verdict_of(fit),
+    fits.add({fit.method, number(fit.step), parameters, number(fit.one_step_error),
+              number(fit.learning_evaluations), number(fit.seconds), verdict_of(fit),
               fit.usable ? fmt::format("{}/{}", folder_of_schemes, scheme_file(fit.method, fit.step)) : "-"});
   }
   report.table(std::move(fits));
@@ -380,10 +347,9 @@ std::vector<std::string> write_report(const comparison& all, const std::filesyst
   write_document(folder / "report.json", document, all.common());
   write_result(folder / "report.html", html_of(report_of(all), warnings));
   for (const auto& fit : all.fits()) {
-    const json scheme = fit.scheme();
-    if (scheme.is_null()) continue;
+    if (fit.scheme.is_null()) continue;
     make_folders(folder / folder_of_schemes);
-    write_document(folder / folder_of_schemes / scheme_file(fit.method, fit.step), scheme, all.common());
+    write_document(folder / folder_of_schemes / scheme_file(fit.method, fit.step), fit.scheme, all.common());
   }
   return warnings;
 }

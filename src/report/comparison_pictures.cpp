@@ -48,7 +48,8 @@ std::vector<level> levels_of(const comparison& all, std::size_t m) {
   std::vector<level> result;
   if (is_by_median(all, m)) return result;
   for (const auto& [name, value] : free_of_cost(all, m)) {
-    if (value > 0.0) result.push_back({name, value});
+    const bool is_null = name == "null model";
+    if (value > 0.0) result.push_back({is_null ? name + ": stays as at the start" : name, value});
   }
   return result;
 }
@@ -139,7 +140,7 @@ std::vector<figure> pictures_of_energies(const comparison& all) {
                  .log_log = true,
                  .curves = {},
                  .linear_x = true};
-    panel survivors{.title = "",
+    panel survivors{.title = errors.title,
                     .x_label = "time",
                     .y_label = "share of trajectories that survive",
                     .curves = {},
@@ -159,12 +160,9 @@ std::vector<figure> pictures_of_energies(const comparison& all) {
       all_survive = all_survive && course.surviving.back() == 1.0;
     }
     if (errors.curves.empty()) continue;
-    figure picture{.name = plain(fmt::format("energy_at_{}", nominal)), .panels = {errors}};
-    if (!all_survive) {
-      picture.panels.push_back(survivors);
-      picture.width *= 2;
-    }
-    result.push_back(std::move(picture));
+    result.push_back({.name = plain(fmt::format("energy_at_{}", nominal)), .panels = {errors}});
+    if (!all_survive)
+      result.push_back({.name = plain(fmt::format("survivors_at_{}", nominal)), .panels = {survivors}});
   }
   return result;
 }

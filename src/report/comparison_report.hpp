@@ -7,12 +7,15 @@
 #include <vector>
 
 #include "comparison/comparison.hpp"
+#include "terminal.hpp"
 
 namespace nysalt::program {
 
 /// The results of a comparison for machines, and for people.
 json document_of(const comparison& all);
-std::string readable(const comparison& all);
+json schema_of_comparison();
+/// First who is best, then the rows by rank; details where they are asked for.
+std::string readable(const comparison& all, const text_form& form = {});
 /// In the folder of a report.
 constexpr const char* folder_of_schemes = "schemes";
 constexpr const char* work_of_report = "report.work";  // of finished parts, until the report is written

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "comparison/purpose.hpp"
 #include "comparison/refusal.hpp"
@@ -36,8 +37,7 @@ std::string errors_compared(const comparison& all, std::size_t m) {
 }
 
 std::string verdict_by_evaluations(const comparison& all, std::size_t m) {
-  return verdict_of(best_by(all, m, evaluations_of), "force evaluations per unit time",
-                    errors_compared(all, m));
+  return verdict_of(best_by(all, m, evaluations_of), evaluations_per_time, errors_compared(all, m));
 }
 
 std::string plain_verdict(const comparison& all, std::size_t m) {
@@ -238,31 +238,126 @@ std::vector<std::string> sentences_of_methods(const comparison& all) {
   return result;
 }
 
-std::string readable(const comparison& all) {
+namespace {
+
+/// A row, and how it compares with the best that costs no more.
+struct placed_row {
+  const row* line;
+  double ratio;  // of its error to that of the best; NaN: it is not compared
+  bool is_best;  // or not separated from it
+};
+
+placed_row place_of(const comparison& all, std::size_t m, const row& line,
+                    const std::vector<best_at_cost>& found) {
+  placed_row result{&line, std::nan(""), false};
+  if (!is_ranked(all, m, line)) return result;
+  const auto is_of_row = [&](const ranked_method& one) {
+    return one.method == line.method && one.step == line.nominal;
+  };
+  const double own = ranked_value(all, m, line).mean;
+  for (const best_at_cost& one : found) {
+    if (one.cost < line.evaluations_per_time || one.best.empty()) continue;
+    const bool is_best = std::ranges::any_of(one.best, is_of_row);
+    // Costs of one rung may differ by the evaluation of the start: a row is seen where it leads, if it does.
+    if (std::isnan(result.ratio) || (is_best && !result.is_best))
+      result = {&line, std::max(1.0, own / one.best.front().error), is_best};
+    if (is_best) break;
+  }
+  return result;
+}
+
+/// The rows, those first that are best at their cost, those last that are not ranked.
+std::vector<placed_row> rows_by_rank(const comparison& all, std::size_t m) {
+  const auto found = best_by(all, m, evaluations_of);
+  std::vector<placed_row> result;
+  for (const row& line : all.rows()) result.push_back(place_of(all, m, line, found));
+  const auto group = [&](const placed_row& one) {
+    const bool is_there = one.line->measurements[m].reason.empty();
+    return one.is_best ? 0 : !std::isnan(one.ratio) ? 1 : is_there ? 2 : 3;
+  };
+  std::ranges::stable_sort(result, [&](const placed_row& a, const placed_row& b) {
+    if (group(a) != group(b)) return group(a) < group(b);
+    if (group(a) == 1) return a.ratio < b.ratio;
+    return group(a) == 0 && ranked_value(all, m, *a.line).mean < ranked_value(all, m, *b.line).mean;
+  });
+  return result;
+}
+
+}  // namespace
+
+table ranking_of(const comparison& all, std::size_t m) {
+  const bool accepts = all.metrics()[m].is_acceptance();
+  table result(
+      {"rank", "method", "step", "evaluations/time",
+       (is_by_median(all, m) ? "median " : "") + all.metrics()[m].value(), "times the best", "marks"},
+      2);
+  std::set<std::string> ahead;  // methods
+  for (const auto& [line, ratio, is_best] : rows_by_rank(all, m)) {
+    const estimate value = ranked_value(all, m, *line);
+    std::string shown =
+        accepts && std::isfinite(value.mean) ? fmt::format("{:.4f}", value.mean) : in_short(value.mean);
+    if (std::isfinite(value.standard_error)) shown += fmt::format(" ± {:.0e}", value.standard_error);
+    const bool is_there = line->measurements[m].reason.empty();
+    result.add({is_best             ? "1"
+                : std::isnan(ratio) ? "-"
+                                    : fmt::format("{}", ahead.size() + 1 - ahead.count(line->method)),
+                line->method, fmt::format("{:g}", line->nominal),
+                fmt::format("{:.1f}", line->evaluations_per_time), shown,
+                std::isnan(ratio) || std::isinf(ratio) ? "-" : fmt::format("{:.3g}", ratio),
+                is_there ? joined_marks(all, m, *line) : "no value"});
+    ahead.insert(line->method);
+  }
+  return result;
+}
+
+namespace {
+
+/// "null: no better than the null model; tail: few trajectories decide the mean"
+std::string short_meanings_of_marks(const comparison& all, std::size_t m) {
+  std::string text;
+  for (const std::string& one : meanings_of_marks(all, m)) {
+    text += (text.empty() ? "" : "; ") + one.substr(0, one.find_first_of(";:", one.find(':') + 1));
+  }
+  return text;
+}
+
+/// All columns of the rows, what they are seen against, and all notes.
+std::string details_of(const comparison& all, std::size_t m) {
+  std::string text;
+  if (const table against = baselines_of(all, m); !against.empty()) text += against.text() + "\n";
+  text += rows_of(all, m).text();
+  for (const auto& sentence : meanings_of_marks(all, m)) text += sentence + "\n";
+  for (const auto& sentence : reasons_of(all, m)) text += sentence + "\n";
+  if (const table beside = equal_cost_table(all, m); !beside.empty()) text += "\n" + beside.text();
+  return text;
+}
+
+}  // namespace
+
+std::string readable(const comparison& all, const text_form& form) {
   const comparison_options& options = all.options();
-  std::string text = fmt::format("{}, {} trajectories over {:g}", all.system().description(),
-                                 options.trajectories, all.horizon());
-  text += fmt::format("\nstarts: {}\n", all.system().starts());
-  if (options.equal_cost) text += "steps are per force evaluation: equal steps, equal cost\n";
-  if (!options.prices.empty()) text += sentence_of_prices(options.prices) + "\n";
+  const bool is_one = all.metrics().size() == 1;
+  std::string text;
   for (std::size_t m = 0; m < all.metrics().size(); ++m) {
-    text += fmt::format("\n{}\n\n", quantity(all, m));
-    if (const std::string verdict = plain_verdict(all, m); !verdict.empty()) text += verdict + "\n\n";
-    if (const table against = baselines_of(all, m); !against.empty()) text += against.text() + "\n";
-    text += rows_of(all, m).text();
-    for (const auto& sentence : meanings_of_marks(all, m)) text += sentence + "\n";
-    for (const auto& sentence : reasons_of(all, m)) text += sentence + "\n";
-    if (const table beside = equal_cost_table(all, m); !beside.empty()) {
-      text += fmt::format("\n{}", beside.text());
-    }
+    text += wrapped((is_one ? "" : quantity(all, m) + ": ") + plain_verdict(all, m), form.width);
   }
-  for (const auto& sentence : sentences_of_methods(all)) text += "\n" + sentence;
-  if (!sentences_of_methods(all).empty()) text += "\n";
+  text += wrapped(fmt::format("\n{}, {} trajectories over {:g}; starts: {}", all.system().description(),
+                              options.trajectories, all.horizon(), all.system().starts()),
+                  form.width);
+  if (options.equal_cost)
+    text += wrapped("steps are per force evaluation: equal steps, equal cost", form.width);
+  if (!options.prices.empty()) text += wrapped(sentence_of_prices(options.prices), form.width);
+  for (std::size_t m = 0; m < all.metrics().size(); ++m) {
+    text += fmt::format("\n{}\n\n{}", quantity(all, m), ranking_of(all, m).text(form.width));
+    text += wrapped_plainly(short_meanings_of_marks(all, m), form.width);
+    if (form.is_verbose) text += "\n" + details_of(all, m);
+  }
   if (!all.fits().empty()) {
-    text += fmt::format("\n{}\n", report_of_purpose(options.learning));
     const auto advice = advice_on_purpose(all.metrics(), options.learning.purpose);
-    if (!advice.empty()) text += advice + "\n";
+    text += "\n" + wrapped(report_of_purpose(options.learning) + "\n" + advice, form.width);
   }
+  if (!form.is_verbose) return text;
+  for (const auto& sentence : sentences_of_methods(all)) text += "\n" + sentence;
   return text + fmt::format("\npeak memory: {} MB\n", (peak_memory() + 500'000) / 1'000'000);
 }
 

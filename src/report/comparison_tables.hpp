@@ -28,6 +28,10 @@ std::string plain_verdict(const comparison& all, std::size_t metric);
 /// The marks of a finding, joined by commas.
 std::string joined_marks(const comparison& all, std::size_t metric, const row& line);
 
+/// What matters of the rows of a metric, those first that are best at their cost, those last that are not
+/// ranked.
+table ranking_of(const comparison& all, std::size_t metric);
+
 /// The rows of a metric, and what costs nothing: null model and floor.
 table rows_of(const comparison& all, std::size_t metric);
 std::vector<std::pair<std::string, double>> free_of_cost(const comparison& all, std::size_t metric);

@@ -8,32 +8,6 @@
 
 namespace nysalt {
 
-std::string html_escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 std::string markdown_escaped(std::string_view text) {
   constexpr std::string_view read = "\\`*[]<>&|#~";
   const auto in_word = [&](std::size_t i) {

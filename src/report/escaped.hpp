@@ -8,8 +8,6 @@
 namespace nysalt {
 
 /// In the text of an element, or in an attribute between quotes.
-std::string html_escaped(std::string_view text);
-
 /// Outside code: a backslash before what GitHub's Markdown would read; a line break becomes a blank. An
 /// underscore inside a word stays bare, as Markdown reads it so and names of methods have them.
 std::string markdown_escaped(std::string_view text);

@@ -22,7 +22,7 @@ struct curve {
 
 /// A horizontal line to compare with: the null model, the floor of sampling.
 struct level {
-  std::string label;  ///< written at the line
+  std::string label;  ///< name in the key; empty: none
   double y;           ///< where the line is
 };
 
@@ -53,8 +53,8 @@ struct panel {
 struct figure {
   std::string name;           ///< of the files: letters, digits, _ and -
   std::vector<panel> panels;  ///< side by side
-  int width = 800;            ///< in pixels; a key beside a panel is added to it
-  int height = 520;           ///< in pixels
+  int width = 640;            ///< in pixels, of which a telephone has more than half
+  int height = 400;           ///< in pixels; a key below the panels is added to it
 };
 
 }  // namespace nysalt

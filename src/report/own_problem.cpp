@@ -25,11 +25,6 @@ told_caller::told_caller(const common_options& common) {
   work_.emplace(caller_);
 }
 
-std::vector<std::string> with_cpp_terms(std::vector<std::string> warnings) {
-  for (auto& text : warnings) text = with_arguments(text, in_cpp);
-  return warnings;
-}
-
 common_settings settings_of(const common_options& common) {
   common_settings settings;
   static_cast<common_options&>(settings) = common;

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "comparison/argument_names.hpp"
 #include "comparison/prepared_problem.hpp"
 #include "comparison/progress.hpp"
 #include "comparison/refusal.hpp"
@@ -32,15 +31,12 @@ class told_caller {
   std::optional<work_for> work_;  // nothing: the caller asks for nothing
 };
 
-/// Warnings in terms of C++.
-std::vector<std::string> with_cpp_terms(std::vector<std::string> warnings);
-
-/// The result of work(); a refusal becomes std::invalid_argument, in terms of C++.
-auto with_cpp_messages(const auto& work) {
+/// The result of work(); a refusal becomes std::invalid_argument.
+auto with_cpp_exceptions(const auto& work) {
   try {
     return work();
   } catch (const refusal& problem) {
-    throw std::invalid_argument(with_arguments(problem.what(), in_cpp));
+    throw std::invalid_argument(problem.what());
   }
 }
 

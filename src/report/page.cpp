@@ -23,6 +23,8 @@ void page::subheading(std::string text) { blocks_.push_back(heading_block{3, std
 
 void page::text(std::string paragraph) { blocks_.push_back(text_block{std::move(paragraph)}); }
 
+void page::verdict(std::string paragraph) { blocks_.push_back(text_block{std::move(paragraph), true}); }
+
 void page::list(std::vector<std::string> items) { blocks_.push_back(list_block{std::move(items)}); }
 
 void page::table(nysalt::table rows) { blocks_.push_back(table_block{std::move(rows)}); }

@@ -30,6 +30,8 @@ class page {
   void subheading(std::string text);
   /// A paragraph: a sentence or several.
   void text(std::string paragraph);
+  /// The same of what the page is for. On a page of HTML the first such stays in view.
+  void verdict(std::string paragraph);
   /// A list with a dot before each item.
   void list(std::vector<std::string> items);
   /// A table; words of its cells are set as they are.
@@ -42,8 +44,8 @@ class page {
 
   /// GitHub's Markdown; a picture is `PICTURES/NAME.svg` with its caption, which is repeated below.
   std::string markdown(const std::string& pictures = "") const;
-  /// One page that needs no other file, no script and no network: the pictures that draw() left in the
-  /// folder are in it. Where one is missing a sentence says so.
+  /// One page by the template in share/report, that needs no other file, no script and no network: the
+  /// pictures that draw() left in the folder are in it. Where one is missing a sentence says so.
   std::string html(const std::filesystem::path& pictures) const;
   /// The pictures, in the order of the page.
   const std::vector<figure>& figures() const { return figures_; }

@@ -17,7 +17,8 @@ struct heading_block {
 };
 /// A paragraph.
 struct text_block {
-  std::string text;  ///< sentences
+  std::string text;         ///< sentences
+  bool is_verdict = false;  ///< the first of these stays in view
 };
 /// Items with a dot before each.
 struct list_block {

@@ -12,7 +12,6 @@
 
 #include "comparison/child_process.hpp"
 #include "plot_script.hpp"
-#include "svg.hpp"
 
 namespace nysalt {
 
@@ -49,16 +48,16 @@ bool draw(const figure& f, const std::filesystem::path& folder, const std::vecto
   write_file(folder / (f.name + ".gp"), detail::plot_script(f));
   for (const std::string& kind : kinds) {
     const std::filesystem::path picture = folder / (f.name + "." + kind);
-    const program::child_result made = program::run_child(
-        {"gnuplot", "--default-settings", "-e", fmt::format("kind='{}'", kind), "./" + f.name + ".gp"},
-        folder, program::error_output::dropped);
+    const program::child_result made =
+        program::run_child({"gnuplot", "-d", "-e", fmt::format("kind='{}'", kind), "./" + f.name + ".gp"},
+                           folder, program::error_output::dropped);
     if (!made.succeeded() || !is_whole_picture(made.output, kind)) {
       remove_picture(picture);
       drawn = false;
       continue;
     }
     try {
-      write_file(picture, kind == "svg" ? finished_svg(made.output, f) : made.output);
+      write_file(picture, made.output);
     } catch (...) {
       remove_picture(picture);
       throw;

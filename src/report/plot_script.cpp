@@ -10,24 +10,14 @@
 #include <vector>
 
 #include "curve_drawing.hpp"
-#include "plot_range.hpp"
-#include "plot_ticks.hpp"
+#include "page_files.hpp"
 #include "quoted.hpp"
 
 namespace nysalt::detail {
 
 namespace {
 
-/// Unseen, over the points: finished_svg() replaces curve and point by what they are.
-std::string values_of(const curve& one, const std::string& name, std::size_t block) {
-  constexpr std::size_t most = 60;  // of a curve: more would lie on each other
-  const std::size_t every = one.x.size() / most + 1;
-  return fmt::format(
-      "'{0}.dat' index {1} every {2} using 1:2:(sprintf('{1}.%d', {2} * int($0))) with labels hypertext "
-      "point "
-      "pt 7 ps 2.5 lc rgb '#ff000000' notitle",
-      name, block, every);
-}
+constexpr const char* style_of_levels = "lc '#777777' lw 1.2 dt (7,5)";
 
 /// Fronts first, so that they lie behind, and what is emphasised last.
 std::string plot_command(const panel& plot, const std::string& name, std::size_t first_block) {
@@ -46,8 +36,12 @@ std::string plot_command(const panel& plot, const std::string& name, std::size_t
   draw_if([](const curve& c) { return !c.front && !c.emphasised; });
   draw_if([](const curve& c) { return !c.front && c.emphasised; });
   for (std::size_t j = 0; j < plot.curves.size(); ++j) elements.push_back(key_entry(plot, j));
-  for (std::size_t j = 0; j < plot.curves.size(); ++j) {
-    if (!plot.curves[j].front) elements.push_back(values_of(plot.curves[j], name, first_block + j));
+  if (std::ranges::any_of(plot.curves, has_hollow))
+    elements.push_back("keyentry with points lc '#555555' pt 6 title 'hollow: not ranked'");
+  for (const auto& level : plot.levels) {
+    if (!level.label.empty())
+      elements.push_back(
+          fmt::format("keyentry with lines {} title {}", style_of_levels, quoted(level.label)));
   }
   const auto labels = labels_of_intervals(plot);
   for (std::size_t j = 0; j < labels.size(); ++j) {
@@ -57,19 +51,12 @@ std::string plot_command(const panel& plot, const std::string& name, std::size_t
   return elements.empty() ? "" : fmt::format("plot {}\n", fmt::join(elements, ", \\\n  "));
 }
 
-/// More than six entries would hide points: then the key is beside the panel.
-bool has_key_beside(const panel& plot) { return plot.curves.size() > 6; }
-
-/// The width of a key beside the panel, in pixels: a sample of 60, and some 7.5 a character.
-int key_width(const figure& f) {
-  double width = 0.0;
-  for (const auto& panel : f.panels) {
-    if (!has_key_beside(panel)) continue;
-    for (const auto& curve : panel.curves) {
-      width = std::max(width, 60.0 + 7.5 * static_cast<double>(curve.label.size()));
-    }
-  }
-  return static_cast<int>(width) * static_cast<int>(f.panels.size());
+/// Of the key below the panels, in pixels: two or more entries of 22 a line.
+int key_height(const figure& f) {
+  std::size_t most = 0;
+  for (const auto& panel : f.panels)
+    most = std::max(most, panel.curves.size() + panel.levels.size() + labels_of_intervals(panel).size());
+  return 22 * static_cast<int>((most + 1) / 2);
 }
 
 /// Behind all else; the later over the earlier.
@@ -86,47 +73,42 @@ std::string shading(const panel& plot) {
   return text;
 }
 
-std::string axes(const panel& axis_pair) {
-  std::string text = fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", quoted(axis_pair.title),
-                                 quoted(axis_pair.x_label), quoted(axis_pair.y_label));
+/// What share/report/axes.gp takes; an axis is logarithmic if it has a positive point.
+std::string axes_in_question(const panel& plot, const std::string& data, std::size_t first) {
+  const auto has_positive = [&](std::vector<double> curve::*field) {
+    return std::ranges::any_of(plot.curves, [&](const curve& one) {
+      return std::ranges::any_of(one.*field, [](double x) { return std::isfinite(x) && x > 0.0; });
+    });
+  };
+  const bool log_x = plot.log_log && !plot.linear_x && has_positive(&curve::x) && has_positive(&curve::y);
+  const bool log_y = plot.log_log && !plot.linear_y && has_positive(&curve::y);
+  constexpr double none = -999.0;  // below the logarithm of any number
+  double lowest = -none;
+  double highest = none;
+  for (const auto& level : plot.levels) {
+    if (!(level.y > 0.0)) continue;
+    lowest = std::min(lowest, std::log10(level.y));
+    highest = std::max(highest, std::log10(level.y));
+  }
+  return fmt::format(
+             "data = '{}'\nfirst = {}\nlast = {}\nlog_x = {}\nlog_y = {}\nlowest = {}\nhighest = {}\n", data,
+             first, first + plot.curves.size() - 1, log_x ? 1 : 0, log_y ? 1 : 0, lowest, highest) +
+         std::string(page_files::axes);
+}
+
+std::string axes(const panel& axis_pair, const std::string& data, std::size_t first) {
   const bool log_y = axis_pair.log_log && !axis_pair.linear_y;
-  text += fmt::format("unset logscale\nset format x '%g'\nset format y '{}'\n", log_y ? "%.0te%T" : "%g");
-  const bool log_x = axis_pair.log_log && !axis_pair.linear_x;
-  if (log_x || log_y) text += fmt::format("set logscale {}{}\n", log_x ? "x" : "", log_y ? "y" : "");
-  // Whole decades would leave much of a logarithmic axis empty.
-  const log_range costs = log_x ? range_of_costs(axis_pair) : log_range();
-  if (costs.is_empty()) {
-    text += "set autoscale x\nset xtics autofreq\n";
-  } else {
-    text += fmt::format("set xrange [{:.6g}:{:.6g}]\n{}", costs.low, costs.high,
-                        ticks_command('x', {costs.low, costs.high}));
-  }
-  text += has_key_beside(axis_pair) ? "set key outside right top vertical Left reverse samplen 4\n"
-                                    : "set key outside top center horizontal Right noreverse samplen 4\n";
-  text += "unset label\nunset arrow\n" + shading(axis_pair);
-  bool at_right = true;  // levels may be close: their names are at the two ends in turn
+  std::string text = fmt::format(
+      "set title {}\nset xlabel {} offset 0,1\nset ylabel {}\nset format x '%g'\nset format y '{}'\n"
+      "set key outside bottom center horizontal Left reverse samplen 3\nunset label\nunset arrow\n",
+      quoted(axis_pair.title), quoted(axis_pair.x_label), quoted(axis_pair.y_label),
+      log_y ? "%.0te%T" : "%g");
+  text += shading(axis_pair) + axes_in_question(axis_pair, data, first) + "\n";
   for (const auto& level : axis_pair.levels) {
-    text += fmt::format(
-        "set arrow from graph 0, first {0:.10g} to graph 1, first {0:.10g} nohead back "
-        "lc '#777777' lw 1.2 dt (7,5)\n",
-        level.y);
-    text +=
-        fmt::format("set label {} at graph {}, first {:.10g} {} offset 0,0.5 tc '#555555' font ',10' front\n",
-                    quoted(level.label), at_right ? 0.99 : 0.01, level.y, at_right ? "right" : "left");
-    at_right = !at_right;
+    text += fmt::format("set arrow from graph 0, first {0:.10g} to graph 1, first {0:.10g} nohead back {1}\n",
+                        level.y, style_of_levels);
   }
-  text += "set ytics autofreq\n";
-  if (!log_y || axis_pair.y_range != "[*:*]") return text + fmt::format("set yrange {}\n", axis_pair.y_range);
-  const log_range range = range_of_logarithms(axis_pair);
-  if (!range.is_empty()) text += ticks_command('y', {range.low, range.high});
-  if (range.outside > 0) {
-    text += fmt::format(
-        "set label '{} beyond the frame' at graph 0.01, graph 0.03 left tc '#555555' font ',10'\n",
-        range.outside);
-  }
-  return text + fmt::format("set yrange {}\n", range.is_empty()
-                                                   ? "[*:*]"
-                                                   : fmt::format("[{:.3g}:{:.3g}]", range.low, range.high));
+  return axis_pair.y_range == "[*:*]" ? text : text + fmt::format("set yrange {}\n", axis_pair.y_range);
 }
 
 }  // namespace
@@ -153,18 +135,18 @@ std::string plot_data(const figure& f) {
 std::string plot_script(const figure& f) {
   std::string text = fmt::format(
       "# gnuplot -e \"kind='svg'; target='{0}.svg'\" {0}.gp\n"
-      "if (kind eq 'svg') {{ set terminal svg size {1},{2} dashlength 1.3 background 'white' font 'sans,13' "
+      "if (kind eq 'svg') {{ set terminal svg size {1},{2} dashlength 1.3 background 'white' font 'sans,14' "
       "noenhanced }}\n"
       "if (kind eq 'png') {{ set terminal pngcairo size {1},{2} pointscale 1.5 dashlength 2 background "
       "'white' font 'sans,11' noenhanced "
       "}}\n"
       "if (exists('target')) {{ set output target }}\nset grid lw 0.5 lc '#cccccc'\nset key opaque box lc "
       "'#cccccc'\nset samples 2\n",
-      f.name, f.width + key_width(f), f.height);
+      f.name, f.width, f.height + key_height(f));
   if (f.panels.size() > 1) text += fmt::format("set multiplot layout 1,{}\n", f.panels.size());
   std::size_t block = 0;
   for (const auto& panel : f.panels) {
-    text += axes(panel) + plot_command(panel, f.name, block);
+    text += axes(panel, f.name + ".dat", block) + plot_command(panel, f.name, block);
     block += panel.curves.size();
   }
   return text + (f.panels.size() > 1 ? "unset multiplot\n" : "");

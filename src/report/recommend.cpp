@@ -70,9 +70,7 @@ double recommendation::step() const {
   return best ? best->step : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::string recommendation::text() const {
-  return program::with_arguments(found_->readable(), program::in_cpp);
-}
+std::string recommendation::text() const { return found_->readable(); }
 
 std::string recommendation::json() const { return program::text_of(found_->document()); }
 
@@ -82,13 +80,11 @@ std::optional<std::string> recommendation::method_file() const {
   return std::move(best->text);
 }
 
-std::vector<std::string> recommendation::warnings() const {
-  return program::with_cpp_terms(found_->warnings());
-}
+std::vector<std::string> recommendation::warnings() const { return found_->warnings(); }
 
 recommendation recommend(const initial_value_problem& problem, const recommendation_options& options,
                          const common_options& common) {
-  return program::with_cpp_messages([&] {
+  return program::with_cpp_exceptions([&] {
     const program::told_caller told(common);
     return recommendation(std::make_shared<const best_for_runs>(problem, options, common));
   });
@@ -96,7 +92,7 @@ recommendation recommend(const initial_value_problem& problem, const recommendat
 
 recommendation recommend_for_sampling(const initial_value_problem& problem, const sampling_options& options,
                                       const common_options& common) {
-  return program::with_cpp_messages([&] {
+  return program::with_cpp_exceptions([&] {
     const program::told_caller told(common);
     return recommendation(std::make_shared<const best_for_sampling>(problem, options, common));
   });

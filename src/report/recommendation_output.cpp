@@ -6,8 +6,11 @@
 #include "comparison/learning.hpp"
 #include "comparison/method_file.hpp"
 #include "comparison/purpose.hpp"
+#include "comparison/ranking.hpp"
 #include "comparison/recommendation.hpp"
+#include "method_row.hpp"
 #include "table.hpp"
+#include "terminal.hpp"
 
 namespace nysalt::program {
 
@@ -28,9 +31,11 @@ std::string multiple_of(double ratio, double tolerance, const char* what, const 
 
 }  // namespace
 
-std::string recommendation::as_options(const candidate& contender) const {
-  const std::string where = options_.placement.empty() ? "" : " --placement " + options_.placement;
-  return fmt::format("--method {} --step {:.12g}{}", contender.source.typed, contender.step, where);
+std::string recommendation::as_settings(const candidate& contender) const {
+  std::vector<std::string> settings{spelled("method", contender.source.typed),
+                                    spelled("step", contender.step)};
+  if (!options_.placement.empty()) settings.push_back(spelled("placement", options_.placement));
+  return spelled_together(settings);
 }
 
 /// The cost of one relative to the other: "as many evaluations and 1.3 times the seconds".
@@ -61,7 +66,7 @@ std::string recommendation::advice_of(const contest& among) const {
   }
   if (learned == nullptr) {
     return fmt::format("A classical method wins: {}{}. No learned method is accepted.",
-                       as_options(*classical), bound_of(among, *classical));
+                       as_settings(*classical), bound_of(among, *classical));
   }
   if (classical == nullptr) {
     return fmt::format("Take {} at step {:.12g}{}: no classical method is accepted.", learned->source.typed,
@@ -76,7 +81,7 @@ std::string recommendation::advice_of(const contest& among) const {
             : fmt::format(" (the ratio of their errors is {:.3g}, 95 %: {:.3g} to {:.3g})", ratio.value,
                           ratio.low, ratio.high);
     return fmt::format("A tie: {} and {} do not differ significantly{}. The latter needs no learning: {}{}.",
-                       learned->source.typed, classical->source.typed, within, as_options(*classical),
+                       learned->source.typed, classical->source.typed, within, as_settings(*classical),
                        bound_of(among, *classical));
   }
   const bool is_learned = best == learned;
@@ -88,7 +93,7 @@ std::string recommendation::advice_of(const contest& among) const {
                                  in_words(is_learned ? ratio : ratio.inverse()), rival, costs(*best, other))
                    : fmt::format("it takes {} of {}{}", costs(*best, other), rival, bound_of(among, *best));
   if (is_learned) return fmt::format("Take {} at step {:.12g}: {}.", best->source.typed, best->step, why);
-  return fmt::format("A classical method wins: {}; {}.", as_options(*best), why);
+  return fmt::format("A classical method wins: {}; {}.", as_settings(*best), why);
 }
 
 /// Whether seconds say the same as evaluations, and if not, who wins by them.
@@ -116,9 +121,10 @@ std::string recommendation::advice_on_seconds() const {
   }
   return fmt::format(
       " By seconds another wins: in the same {:.0f} ns per unit time the error of {} is {}, at {:.2g} "
-      "times the evaluations (--budget-seconds {:.3g}).",
+      "times the evaluations ({} {:.3g}).",
       1e9 * first->seconds_per_time, method_at_step, in_words(ratio),
-      fast->evaluations_per_time / first->evaluations_per_time, first->seconds_per_time);
+      fast->evaluations_per_time / first->evaluations_per_time, spelled("budget_seconds"),
+      first->seconds_per_time);
 }
 
 /// The cost of observations of a processed method, where one is advised.
@@ -126,9 +132,9 @@ std::string recommendation::advice_on_observations() const {
   const candidate* best = asked().taken();
   if (best == nullptr || best->source.evaluations_to_observe == 0) return {};
   return fmt::format(
-      " {} is counted with {} observation{} of each trajectory (--looks): every further one takes {} "
+      " {} is counted with {} observation{} of each trajectory ({}): every further one takes {} "
       "evaluations.",
-      best->source.typed, options_.looks, options_.looks == 1 ? "" : "s",
+      best->source.typed, options_.looks, options_.looks == 1 ? "" : "s", spelled("looks"),
       best->source.evaluations_to_observe);
 }
 
@@ -155,32 +161,32 @@ std::string recommendation::quantity() const {
   return options_.metric + " error";
 }
 
-json recommendation::row_json(const contest& among, const candidate& contender) const {
-  const bool has_error = contender.reason.empty() && !contender.error.scores.empty();
-  json row{{"method", contender.source.typed},
-           {"learned", contender.is_learned()},
-           {"order", contender.order},
-           {"reversible", contender.symmetric},
-           {"rotation", contender.rotates},
-           {"evaluations_per_step", contender.source.evaluations_per_step},
-           {"step_size", contender.step},
-           {"evaluations_per_time", contender.evaluations_per_time},
-           {"seconds_per_time", contender.seconds_per_time},
-           {"error", contender.error.mean.mean},
-           {"standard_error", contender.error.mean.standard_error},
-           {"tail", contender.error.is_heavy},
-           {"error_of_95_percent",
-            has_error && contender.is_eligible() ? json(quantile_of(contender.error)) : json(nullptr)},
-           {"diverged", contender.error.diverged},
-           {"reference_error", contender.reference_error ? json(*contender.reference_error) : json(nullptr)},
-           {"confirmed", nullptr}};
+method_row recommendation::row_of(const contest& among, const candidate& contender) const {
+  const measured_error& error = contender.error;
+  method_row row{.metric = metric().text(),
+                 .method = contender.source.typed,
+                 .step = contender.step,
+                 .step_size = contender.step,
+                 .evaluations_per_time = contender.evaluations_per_time,
+                 .seconds_per_time = contender.seconds_per_time,
+                 .error = error.mean.mean,
+                 .standard_error = error.mean.standard_error,
+                 .survivors = error.trajectories - error.diverged,
+                 .diverged = error.diverged,
+                 .reason = contender.reason,
+                 .learned = contender.is_learned(),
+                 .order = contender.order,
+                 .reversible = contender.symmetric,
+                 .rotation = contender.rotates,
+                 .evaluations_per_step = contender.source.evaluations_per_step,
+                 .reference_error = contender.reference_error,
+                 .frequency = frequency_of(contender.source, *system_)};
+  if (error.is_heavy) row.marks.push_back(to_string(mark::tail));
+  if (contender.is_ranked()) row.quantile_95 = quantile_of(error);
   if (contender.confirmed && contender.reason.empty()) {
-    row["confirmed"] = {{"error", among.statistic(contender.confirmed->scores)},
-                        {"upper_bound", among.statistic.upper_bound(contender.confirmed->scores)}};
+    const auto& scores = contender.confirmed->scores;
+    row.confirmed = {among.statistic(scores), among.statistic.upper_bound(scores)};
   }
-  if (const auto frequency = frequency_of(contender.source, *system_))
-    row["frequency"] = {{"value", frequency->value}, {"source", frequency->source}};
-  if (!contender.reason.empty()) row["reason"] = contender.reason;
   return row;
 }
 
@@ -188,101 +194,167 @@ double recommendation::quantile_of(const measured_error& error) const {
   return statistic(true)(error.scores);
 }
 
-json recommendation::contest_json(const contest& among) const {
+namespace {
+
+/// Who wins at one cost or error, and by how much: classical over learned.
+struct contest_result {
+  std::string verdict;
+  std::string winner;
+  std::string best_learned;
+  std::string best_classical;
+  std::string judged_by;
+  std::optional<ratio_estimate> error_ratio{};
+  std::optional<double> evaluations_ratio{};
+  std::optional<double> seconds_ratio{};
+  std::vector<method_row> rows{};
+};
+
+struct recommendation_result : recommendation_options, contest_result {
+  std::string system;
+  std::string starts;
+  std::uint64_t seed;
+  std::string advice;
+  contest_result by_seconds;
+  std::vector<learned_fit> fits;
+  std::vector<left_out_method> left_out;
+  std::vector<std::string> warnings;
+  std::string output{};  // the file of the method to take, if that was written
+};
+
+contest_result result_of(const contest& among) {
   const auto name_of = [](const candidate* contender) {
-    return contender == nullptr ? json(nullptr) : json(contender->source.typed);
+    return contender == nullptr ? std::string() : contender->source.typed;
   };
   const candidate* learned = among.best_of(true);
   const candidate* classical = among.best_of(false);
-  json result{{"verdict", among.verdict()},
-              {"winner", name_of(among.winner())},
-              {"best_learned", name_of(learned)},
-              {"best_classical", name_of(classical)},
-              {"judged_by", among.statistic.is_quantile ? "quantile" : "mean"},
-              {"error_ratio", nullptr},
-              {"evaluations_ratio", nullptr},
-              {"seconds_ratio", nullptr}};
+  contest_result result{among.verdict(), name_of(among.winner()), name_of(learned), name_of(classical),
+                        among.statistic.is_quantile ? "quantile" : "mean"};
   if (learned == nullptr || classical == nullptr) return result;
-  const ratio_estimate ratio = among.error_ratio(*classical, *learned);
-  result["error_ratio"] = {{"value", ratio.value}, {"low", ratio.low}, {"high", ratio.high}};
-  result["evaluations_ratio"] = classical->evaluations_per_time / learned->evaluations_per_time;
-  result["seconds_ratio"] = classical->seconds_per_time / learned->seconds_per_time;
+  result.error_ratio = among.error_ratio(*classical, *learned);
+  result.evaluations_ratio = classical->evaluations_per_time / learned->evaluations_per_time;
+  result.seconds_ratio = classical->seconds_per_time / learned->seconds_per_time;
   return result;
 }
+
+}  // namespace
+
+NYSALT_DESCRIBED(ratio_estimate, value, low, high)
+NYSALT_DESCRIBED(contest_result, verdict, winner, best_learned, best_classical, judged_by, error_ratio,
+                 evaluations_ratio, seconds_ratio, rows)
+constexpr auto members(of<recommendation_result>) {
+  using result = recommendation_result;
+  return std::tuple(NYSALT_MEMBERS(result, system, starts, metric, observable, budget, budget_seconds, error,
+                                   horizon, trajectories, seed),
+                    item{"purpose", [](const result& all) { return all.learning.purpose; }},
+                    NYSALT_MEMBERS(result, verdict, winner, best_learned, best_classical, judged_by,
+                                   error_ratio, evaluations_ratio, seconds_ratio, advice, by_seconds, rows,
+                                   fits, left_out, warnings, output));
+}
+
+json recommendation::schema() { return whole_schema<recommendation_result>("nysalt recommend"); }
 
 json recommendation::document() const {
-  json rows = json::array();
-  json fits = json::array();
-  for (const auto& contender : asked().all) {
-    rows.push_back(row_json(asked(), contender));
+  const auto with_rows = [&](const contest& among) {
+    contest_result result = result_of(among);
+    for (const candidate& contender : among.all) result.rows.push_back(row_of(among, contender));
+    return result;
+  };
+  recommendation_result result{options_,
+                               with_rows(asked()),
+                               system_->description(),
+                               system_->starts(),
+                               common_.seed,
+                               advice(),
+                               with_rows(*by_seconds_),
+                               {},
+                               left_out_of(left_out_),
+                               warnings_};
+  if (options_.metric != "path") result.observable.clear();
+  for (const candidate& contender : asked().all) {
     if (!contender.learned) continue;
-    json fit{{"method", contender.source.typed}};
-    fit.update(fit_json(contender.learned->fit));
-    fits.push_back(fit);
+    result.fits.push_back(
+        fit_of(*contender.learned, options_.learning, contender.where, contender.source.typed));
   }
-  json left_out = json::array();
-  for (const auto& [name, reason] : left_out_) left_out.push_back({{"method", name}, {"reason", reason}});
-  const auto number = [](const std::optional<double>& value) { return value ? json(*value) : json(nullptr); };
-  const std::string& purpose = options_.learning.purpose;
-  json result{{"system", system_->description()},
-              {"starts", system_->starts()},
-              {"metric", options_.metric},
-              {"observable", options_.metric == "path" ? json(options_.observable) : json(nullptr)},
-              {"budget", number(options_.budget)},
-              {"budget_seconds", number(options_.budget_seconds)},
-              {"error", number(options_.error)},
-              {"horizon", options_.horizon},
-              {"trajectories", options_.trajectories},
-              {"seed", common_.seed},
-              {"purpose", purpose.empty() ? json(nullptr) : json(purpose)}};
-  result.update(contest_json(asked()));
-  result["advice"] = advice();
-  result["by_seconds"] = contest_json(*by_seconds_);
-  json in_seconds = json::array();
-  for (const auto& contender : by_seconds_->all) in_seconds.push_back(row_json(*by_seconds_, contender));
-  result["by_seconds"]["rows"] = in_seconds;
-  result["rows"] = rows;
-  result["fits"] = fits;
-  result["left_out"] = left_out;
-  result["warnings"] = warnings_;
-  return result;
+  return whole_document(result);
 }
 
-std::string recommendation::readable() const {
+namespace {
+
+std::string in_short(const char* format, double x) {
+  return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : std::string("-");
+}
+
+}  // namespace
+
+std::string recommendation::readable(const text_form& form) const {
   const contest& among = asked();
-  std::string text = fmt::format("{}, {} fresh trajectories over {:g}, {}", system_->description(),
-                                 options_.trajectories, options_.horizon, quantity());
-  if (options_.budget) text += fmt::format(", {:g} evaluations per unit time", *options_.budget);
-  if (options_.budget_seconds) text += fmt::format(", {:g} ns per unit time", 1e9 * *options_.budget_seconds);
-  if (options_.error) text += fmt::format(" below {:g}", *options_.error);
-  text += fmt::format("\nstarts: {}\n{}\n", system_->starts(), report_of_purpose(options_.learning));
+  std::string question = fmt::format("{}, {} fresh trajectories over {:g}, {}", system_->description(),
+                                     options_.trajectories, options_.horizon, quantity());
+  if (options_.budget) question += fmt::format(", {:g} evaluations per unit time", *options_.budget);
+  if (options_.budget_seconds)
+    question += fmt::format(", {:g} ns per unit time", 1e9 * *options_.budget_seconds);
+  if (options_.error) question += fmt::format(" below {:g}", *options_.error);
+  question += fmt::format("; starts: {}\n{}\n", system_->starts(), report_of_purpose(options_.learning));
   const asked_metric judged_by = metric();
-  if (const auto note = advice_on_purpose({&judged_by, 1}, options_.learning.purpose); !note.empty()) {
-    text += note + "\n";
-  }
-  text += "\n";
-  table ranking({"method", "order", "step", "evaluations/time", "ns/time", "error", "standard error",
-                 "95 % err below", "diverged"});
-  const auto number = [](const char* format, double x) {
-    return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : std::string("-");
-  };
+  question += advice_on_purpose({&judged_by, 1}, options_.learning.purpose);
+
+  constexpr std::size_t shown = 12;  // of the candidates by rank: the others are details
+  const candidate* best = among.best();
+  table ranking({"rank", "method", "step", "evaluations/time", "ns/time",
+                 among.statistic.is_quantile ? "95 % err below" : "error", "ratio", "marks"},
+                2);
   for (const auto& contender : among.all) {
-    const bool has_quantile = contender.is_eligible();
-    const double quantile = has_quantile ? quantile_of(contender.error) : std::nan("");
-    ranking.add(
-        {contender.source.typed, fmt::format("{}", contender.order), number("{:.4g}", contender.step),
-         number("{:.1f}", contender.evaluations_per_time), number("{:.0f}", 1e9 * contender.seconds_per_time),
-         number("{:.2e}", contender.error.mean.mean),
-         contender.error.is_heavy ? "tail" : number("{:.1e}", contender.error.mean.standard_error),
-         number("{:.2e}", quantile), fmt::format("{}/{}", contender.error.diverged, options_.trajectories)});
+    const std::size_t k = ranking.size();
+    if (!form.is_verbose && k == shown) break;
+    const bool is_ranked = contender.is_eligible();
+    const bool has_error = contender.is_ranked();
+    std::string error = in_short("{:.2e}", has_error ? among.error_of(contender) : contender.error.mean.mean);
+    if (!among.statistic.is_quantile && std::isfinite(contender.error.mean.standard_error))
+      error += fmt::format(" ± {:.0e}", contender.error.mean.standard_error);
+    const double ratio = !has_error     ? std::nan("")
+                         : among.budget ? among.error_of(contender) / among.error_of(*best)
+                                        : among.cost_of(contender) / among.cost_of(*best);
+    std::string marks = contender.is_learned() ? "learned" : "";
+    const auto add = [&](bool is_there, const char* mark) {
+      if (is_there) marks += (marks.empty() ? "" : " ") + std::string(mark);
+    };
+    add(contender.error.is_heavy, "tail");
+    add(contender.error.diverged > 0, "diverged");
+    add(contender.is_left_behind, "behind");
+    add(!contender.reason.empty() && !contender.is_left_behind, "refused");
+    ranking.add({is_ranked ? fmt::format("{}", k + 1) : "-", contender.source.typed,
+                 in_short("{:.4g}", contender.step), in_short("{:.1f}", contender.evaluations_per_time),
+                 in_short("{:.0f}", 1e9 * contender.seconds_per_time), error, in_short("{:.3g}", ratio),
+                 marks});
   }
-  text += ranking.text();
+  std::string text = wrapped(advice() + "\n\n" + question, form.width) + "\n" + ranking.text(form.width);
+  if (ranking.size() < among.all.size())
+    text += fmt::format("and {} more, in the details\n", among.all.size() - ranking.size());
   if (among.statistic.is_quantile) {
-    text +=
-        "tail: this mean rests on few trajectories; ranked by what 95 of 100 trajectories err less than\n";
+    text += wrapped(
+        "tail: the mean error rests on few trajectories; ranked by what 95 of 100 trajectories err less than",
+        form.width);
   }
+  if (std::ranges::any_of(among.all, &candidate::is_left_behind)) {
+    text += wrapped(fmt::format("behind: left behind, judged on fewer than {} trajectories, on which {}",
+                                options_.trajectories,
+                                options_.error ? "the cost was too far above the least"
+                                               : "the error was larger than the least by more than chance"),
+                    form.width);
+  }
+  if (!form.is_verbose) return text;
+  table all({"method", "order", "mean error", "standard error", "95 % err below", "diverged"});
   for (const auto& contender : among.all) {
-    if (!contender.reason.empty()) text += fmt::format("{}: {}\n", contender.source.typed, contender.reason);
+    all.add({contender.source.typed, fmt::format("{}", contender.order),
+             in_short("{:.2e}", contender.error.mean.mean),
+             in_short("{:.1e}", contender.error.mean.standard_error),
+             in_short("{:.2e}", contender.is_eligible() ? quantile_of(contender.error) : std::nan("")),
+             fmt::format("{}/{}", contender.error.diverged, options_.trajectories)});
+  }
+  text += "\n" + all.text();
+  for (const auto& contender : among.all) {
+    if (!contender.reason.empty() && !contender.is_left_behind)
+      text += fmt::format("{}: {}\n", contender.source.typed, contender.reason);
   }
   std::map<std::string, std::string> by_reason;
   for (const auto& [name, reason] : left_out_) {
@@ -290,7 +362,7 @@ std::string recommendation::readable() const {
     names += names.empty() ? name : ", " + name;
   }
   for (const auto& [reason, names] : by_reason) text += fmt::format("left out: {}: {}\n", names, reason);
-  return text + "\n" + advice() + "\n";
+  return text;
 }
 
 }  // namespace nysalt::program

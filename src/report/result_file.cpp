@@ -89,7 +89,7 @@ void write_document(const fs::path& file, json document, const common_settings& 
 }
 
 std::string deciding_options(const std::string& options) {
-  constexpr std::array others{"json", "output", "plot", "resume", "threads"};
+  constexpr std::array others{"json", "output", "plot", "resume", "threads", "verbose"};
   std::istringstream lines(options);
   std::string result;
   for (std::string line; std::getline(lines, line);) {

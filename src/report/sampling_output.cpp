@@ -2,16 +2,15 @@
 // Results of a recommendation for sampling, as JSON and as text.
 #include <cmath>
 
-#include "comparison/learned_row.hpp"
 #include "comparison/method_file.hpp"
 #include "comparison/sampling_choice.hpp"
+#include "method_row.hpp"
 #include "table.hpp"
+#include "terminal.hpp"
 
 namespace nysalt::program {
 
 namespace {
-
-json finite_or_null(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 std::string in_words(const sampling_ratio& ratio) {
   return fmt::format("{:.3f} +- {:.1g}", ratio.value, ratio.standard_error);
@@ -44,8 +43,8 @@ std::string sampling_choice::advice() const {
   if (best->found->is_longest) {
     return fmt::format(
         "Take {}: even trajectories of one step are accepted more often than asked; a longer "
-        "--length costs nothing.",
-        what);
+        "{} costs nothing.",
+        what, spelled("length"));
   }
   const auto* learned = best_of(true);
   const auto* classical = best_of(false);
@@ -79,94 +78,118 @@ std::optional<chosen_method> sampling_choice::chosen() const {
                                    : table_text(best->source.typed, method_at(*best, step), step, *system_)};
 }
 
+namespace {
+
+/// A word at the step at which it is accepted as often as asked.
+struct sampling_row {
+  std::string method;
+  bool learned;
+  int evaluations_per_step;
+  std::optional<double> step_size{};
+  std::optional<double> step_per_evaluation{};
+  std::optional<double> standard_error{};
+  bool is_longest = false;
+  std::optional<double> learned_at{};
+  std::optional<sampling_ratio> over_verlet{};
+  std::string reason{};
+};
+
+struct sampling_result : sampling_options {
+  std::string system;
+  std::string states;
+  std::uint64_t seed;
+  std::string verdict;
+  std::string winner;
+  std::string best_learned;
+  std::string best_classical;
+  std::optional<sampling_ratio> ratio;       // of the best that was learned to the best classical word
+  std::optional<sampling_ratio> diagnostic;  // of mclachlan2v to verlet
+  std::string advice;
+  std::vector<sampling_row> rows;
+  std::vector<learned_fit> fits;
+  std::vector<left_out_method> left_out;
+  std::vector<std::string> warnings;
+  std::string output{};  // the file of the word to take, if that was written
+};
+
+}  // namespace
+
+NYSALT_DESCRIBED(sampling_ratio, value, standard_error)
+NYSALT_DESCRIBED(sampling_row, method, learned, evaluations_per_step, step_size, step_per_evaluation,
+                 standard_error, is_longest, learned_at, over_verlet, reason)
+NYSALT_DESCRIBED(sampling_result, system, states, length, acceptance, temperature, times_larger, trajectories,
+                 seed, verdict, winner, best_learned, best_classical, ratio, diagnostic, advice, rows, fits,
+                 left_out, warnings, output)
+
+json sampling_choice::schema() { return whole_schema<sampling_result>("nysalt recommend --for sampling"); }
+
 json sampling_choice::document() const {
   const auto name_of = [](const sampling_candidate* one) {
-    return one == nullptr ? json(nullptr) : json(one->source.typed);
+    return one == nullptr ? std::string() : one->source.typed;
+  };
+  const auto ratio_if_both = [&](const sampling_candidate* a, const sampling_candidate* b) {
+    return a == nullptr || b == nullptr ? std::nullopt : std::optional(ratio_of(*a, *b));
   };
   const auto* learned = best_of(true);
   const auto* classical = best_of(false);
   const auto* verlet = named("verlet");
-  const auto as_json = [](const sampling_ratio& ratio) {
-    return json{{"value", finite_or_null(ratio.value)},
-                {"standard_error", finite_or_null(ratio.standard_error)}};
-  };
-  json result{{"system", system_->description()},
-              {"states", states_ ? states_->description() : std::string()},
-              {"length", options_.length},
-              {"acceptance", options_.acceptance},
-              {"temperature", options_.temperature},
-              {"times_larger", options_.times_larger},
-              {"trajectories", options_.trajectories},
-              {"seed", common_.seed},
-              {"verdict", verdict()},
-              {"winner", name_of(taken())},
-              {"best_learned", name_of(learned)},
-              {"best_classical", name_of(classical)},
-              {"ratio", nullptr},
-              {"diagnostic", nullptr},
-              {"advice", advice()}};
-  if (learned != nullptr && classical != nullptr) result["ratio"] = as_json(ratio_of(*learned, *classical));
-  if (const auto* two = named("mclachlan2v"); two != nullptr && verlet != nullptr) {
-    result["diagnostic"] = as_json(ratio_of(*two, *verlet));
-  }
-  json rows = json::array();
-  json fits = json::array();
+  sampling_result result{options_,
+                         system_->description(),
+                         states_ ? states_->description() : std::string(),
+                         common_.seed,
+                         verdict(),
+                         name_of(taken()),
+                         name_of(learned),
+                         name_of(classical),
+                         ratio_if_both(learned, classical),
+                         ratio_if_both(named("mclachlan2v"), verlet),
+                         advice(),
+                         {},
+                         {},
+                         left_out_of(left_out_),
+                         warnings_};
   for (const auto& one : all_) {
-    json row{{"method", one.source.typed},
-             {"learned", one.is_learned()},
-             {"evaluations_per_step", one.source.evaluations_per_step},
-             {"step_size", nullptr},
-             {"step_per_evaluation", nullptr},
-             {"standard_error", nullptr},
-             {"is_longest", false},
-             {"learned_at", one.plan ? json(one.plan->step) : json(nullptr)},
-             {"over_verlet", nullptr}};
+    sampling_row row{one.source.typed, one.is_learned(), one.source.evaluations_per_step};
+    if (one.plan) row.learned_at = one.plan->step;
+    row.reason = one.reason;
     if (one.is_eligible()) {
-      row["step_size"] = one.found->step;
-      row["step_per_evaluation"] = one.step_of_evaluation();
-      row["standard_error"] = finite_or_null(one.step_of_evaluation() * one.found->log_step.standard_error);
-      row["is_longest"] = one.found->is_longest;
-      if (verlet != nullptr) row["over_verlet"] = as_json(ratio_of(one, *verlet));
+      row.step_size = one.found->step;
+      row.step_per_evaluation = one.step_of_evaluation();
+      row.standard_error = one.step_of_evaluation() * one.found->log_step.standard_error;
+      row.is_longest = one.found->is_longest;
+      row.over_verlet = ratio_if_both(&one, verlet);
     }
-    if (!one.reason.empty()) row["reason"] = one.reason;
-    rows.push_back(row);
-    if (!one.learned) continue;
-    json fit{{"method", one.source.typed}};
-    fit.update(fit_json(one.learned->fit));
-    fits.push_back(fit);
+    result.rows.push_back(row);
+    if (one.learned) result.fits.push_back(fit_of(*one.learned, one.plan->how, one.plan->where, row.method));
   }
-  json left_out = json::array();
-  for (const auto& [name, reason] : left_out_) left_out.push_back({{"method", name}, {"reason", reason}});
-  result["rows"] = rows;
-  result["fits"] = fits;
-  result["left_out"] = left_out;
-  result["warnings"] = warnings_;
-  return result;
+  return whole_document(result);
 }
 
-std::string sampling_choice::readable() const {
-  std::string text =
+std::string sampling_choice::readable(const text_form& form) const {
+  std::string question =
       fmt::format("{}: Hybrid Monte Carlo at kT = {:g}, trajectories of mean length {:g}, acceptance {:g}",
                   system_->description(), options_.temperature, options_.length, options_.acceptance);
   if (options_.times_larger != 1.0)
-    text += fmt::format(", a system {:g} times larger", options_.times_larger);
-  text += fmt::format("\n{} states of {}\n{}\n\n", options_.trajectories,
-                      states_ ? states_->description() : std::string(), diagnostic());
-  table rows({"method", "evaluations", "step", "step/evaluation", "standard error", "over verlet"});
+    question += fmt::format(", a system {:g} times larger", options_.times_larger);
+  question += fmt::format("; {} states of {}\n{}", options_.trajectories,
+                          states_ ? states_->description() : std::string(), diagnostic());
+  table rows({"rank", "method", "evaluations", "step", "step/evaluation", "over verlet", "marks"}, 2);
   const auto* verlet = named("verlet");
   for (const auto& one : all_) {
     if (!one.is_eligible()) continue;
-    rows.add({one.source.typed, fmt::format("{}", one.source.evaluations_per_step),
-              fmt::format("{:.4g}", one.found->step), fmt::format("{:.4g}", one.step_of_evaluation()),
-              fmt::format("{:.1e}", one.step_of_evaluation() * one.found->log_step.standard_error),
-              verlet == nullptr ? "-" : in_words(ratio_of(one, *verlet))});
+    const double step = one.step_of_evaluation();
+    rows.add({fmt::format("{}", rows.size() + 1), one.source.typed,
+              fmt::format("{}", one.source.evaluations_per_step), fmt::format("{:.4g}", one.found->step),
+              fmt::format("{:.4g} ± {:.0e}", step, step * one.found->log_step.standard_error),
+              verlet == nullptr ? "-" : in_words(ratio_of(one, *verlet)), one.is_learned() ? "learned" : ""});
   }
-  text += rows.text();
+  std::string text = wrapped(advice() + "\n\n" + question, form.width) + "\n" + rows.text(form.width);
+  if (!form.is_verbose) return text;
   for (const auto& one : all_) {
     if (!one.reason.empty()) text += fmt::format("{}: {}\n", one.source.typed, one.reason);
   }
   for (const auto& [name, reason] : left_out_) text += fmt::format("left out: {}: {}\n", name, reason);
-  return text + "\n" + advice() + "\n";
+  return text;
 }
 
 }  // namespace nysalt::program

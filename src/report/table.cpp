@@ -14,8 +14,37 @@
 #include <vector>
 
 #include "escaped.hpp"
+#include "terminal.hpp"
 
 namespace nysalt {
+
+namespace {
+
+/// With "..." for the middle.
+std::string shortened(const std::string& word, std::size_t columns) {
+  const std::size_t kept = columns - 3;
+  const auto part = [&](std::size_t from, std::size_t count) {
+    std::size_t at = 0;
+    const auto next = [&] {
+      do ++at;
+      while (at < word.size() && (static_cast<unsigned char>(word[at]) & 0xc0U) == 0x80U);
+    };
+    while (from-- > 0) next();
+    const std::size_t begin = at;
+    while (count-- > 0) next();
+    return word.substr(begin, at - begin);
+  };
+  return part(0, kept / 2) + "..." + part(columns_of(word) - (kept - kept / 2), kept - kept / 2);
+}
+
+/// Whether the whole text is a number, "inf" or "nan", which may have a sign.
+bool is_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double ignored = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ignored);
+  return end == text.data() + text.size() && error != std::errc::invalid_argument;
+}
+}  // namespace
 
 table::table(std::vector<std::string> columns, std::size_t left)
     : columns_(std::move(columns)), left_(left) {}
@@ -28,7 +57,23 @@ void table::add(std::vector<std::string> cells) {
   rows_.push_back(std::move(cells));
 }
 
-std::string table::text() const { return lay_out("", "  ", "", '-'); }
+std::string table::text(std::size_t width) const {
+  table narrow(*this);
+  for (;;) {
+    std::string result = narrow.lay_out("", "  ", "", '-');
+    const std::size_t taken = columns_of(std::string_view(result).substr(0, result.find('\n')));
+    std::string* longest = nullptr;
+    for (auto& row : narrow.rows_) {
+      for (std::size_t j = 0; j < left_; ++j) {
+        if (longest == nullptr || columns_of(row[j]) > columns_of(*longest)) longest = &row[j];
+      }
+    }
+    constexpr std::size_t least = 12;  // columns, of which a name is still one
+    if (taken <= width || longest == nullptr || columns_of(*longest) <= least) return result;
+    *longest = shortened(
+        *longest, std::max(least, columns_of(*longest) - std::min(taken - width, columns_of(*longest))));
+  }
+}
 
 std::string table::markdown() const {
   table safe(*this);
@@ -37,23 +82,6 @@ std::string table::markdown() const {
     for (auto& cell : row) cell = markdown_escaped(cell);
   }
   return safe.lay_out("| ", " | ", " |", '-');
-}
-
-std::string table::html() const {
-  std::string result = "<table>\n<thead>\n";
-  const auto line = [&](const std::vector<std::string>& cells, const char* tag) {
-    result += "<tr>";
-    for (std::size_t j = 0; j < cells.size(); ++j) {
-      constexpr std::size_t on_a_line = 30;  // bytes: what is longer is a list
-      const char* kind = j < left_ ? "" : cells[j].size() > on_a_line ? " class=\"n long\"" : " class=\"n\"";
-      result += fmt::format("<{0}{1}>{2}</{0}>", tag, kind, html_escaped(cells[j]));
-    }
-    result += "</tr>\n";
-  };
-  line(columns_, "th");
-  result += "</thead>\n<tbody>\n";
-  for (const auto& row : rows_) line(row, "td");
-  return result + "</tbody>\n</table>\n";
 }
 
 std::string table::csv() const {
@@ -69,16 +97,6 @@ std::string table::csv() const {
   for (const auto& row : rows_) line(row);
   return result;
 }
-
-namespace {
-/// Whether the whole text is a number, "inf" or "nan", which may have a sign.
-bool is_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double ignored = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ignored);
-  return end == text.data() + text.size() && error != std::errc::invalid_argument;
-}
-}  // namespace
 
 std::string table::quoted(const std::string& cell) {
   // A spreadsheet takes a text that begins so for a formula, and some do behind blanks; numbers begin with +
@@ -98,8 +116,8 @@ std::string table::quoted(const std::string& cell) {
 std::string table::lay_out(const char* left, const char* between, const char* right, char rule) const {
   std::vector<std::size_t> widths;
   for (std::size_t j = 0; j < columns_.size(); ++j) {
-    widths.push_back(columns_[j].size());
-    for (const auto& row : rows_) widths[j] = std::max(widths[j], row[j].size());
+    widths.push_back(columns_of(columns_[j]));
+    for (const auto& row : rows_) widths[j] = std::max(widths[j], columns_of(row[j]));
   }
   std::string result;
   const auto line = [&](const std::vector<std::string>& cells) {

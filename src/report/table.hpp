@@ -16,15 +16,17 @@ class table {
   /// Adds a row. Throws std::invalid_argument unless there is a cell for each column.
   void add(std::vector<std::string> cells);
 
-  bool empty() const { return rows_.empty(); }  ///< whether there is no row
+  const std::vector<std::string>& columns() const { return columns_; }         ///< their names
+  const std::vector<std::vector<std::string>>& rows() const { return rows_; }  ///< as many cells in each
+  std::size_t left() const { return left_; }                                   ///< number of columns of words
+  bool empty() const { return rows_.empty(); }                                 ///< whether there is no row
+  std::size_t size() const { return rows_.size(); }                            ///< number of rows
 
-  /// Columns aligned by blanks, with a rule below their names.
-  std::string text() const;
+  /// Columns aligned by blanks, with a rule below their names. Where that is wider than `width`, the middle
+  /// of the longest words on the left is left out.
+  std::string text(std::size_t width = std::string::npos) const;
   /// GitHub's Markdown, aligned too; cells are escaped.
   std::string markdown() const;
-
-  /// An HTML table; cells of numbers are of class n.
-  std::string html() const;
 
   /// RFC 4180: cells with commas, quotes or line breaks are quoted.
   std::string csv() const;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "work_precision.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,28 +9,6 @@
 #include <vector>
 
 namespace nysalt {
-
-table work_precision_table(const std::vector<work_precision_row>& rows, const std::string& value) {
-  std::vector<std::string> columns{"method", "step",           "evaluations/time", "ns/time",
-                                   value,    "standard error", "diverged"};
-  const bool has_floor =
-      std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.floor.has_value(); });
-  if (has_floor) columns.insert(columns.end() - 1, "floor");
-  table result(columns);
-  const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{:.2e}", x) : std::string("-"); };
-  for (const auto& row : rows) {
-    std::vector<std::string> cells{row.method,
-                                   fmt::format("{:g}", row.step),
-                                   fmt::format("{:.1f}", row.evaluations_per_time),
-                                   fmt::format("{:.0f}", 1e9 * row.seconds_per_time),
-                                   number(row.error.mean),
-                                   number(row.error.standard_error)};
-    if (has_floor) cells.push_back(row.floor ? number(*row.floor) : "-");
-    cells.push_back(fmt::format("{}/{}", row.diverged, row.trajectories));
-    result.add(std::move(cells));
-  }
-  return result;
-}
 
 panel work_precision_panel(std::vector<work_precision_row> rows, const std::string& emphasised,
                            const std::string& x_label, double work_precision_row::*cost) {

@@ -16,21 +16,16 @@ namespace nysalt {
 
 /// A method at a step: what it costs, and how far it errs.
 struct work_precision_row {
-  std::string method;                ///< name; rows of one name make a curve
-  double step;                       ///< h
-  double evaluations_per_time;       ///< force evaluations of a trajectory per unit time, counted
-  double seconds_per_time;           ///< measured, of a trajectory per unit time
-  estimate error;                    ///< NaN if every trajectory diverged
-  std::int64_t diverged;             ///< number of trajectories that did
-  std::int64_t trajectories;         ///< number of all
-  std::optional<double> floor = {};  ///< of sampling: what the error would be of a method without any
-  bool learned = false;              ///< whether it is to be emphasised
-  bool counts = true;                ///< false where the error says nothing: beyond a limit; drawn hollow
+  std::string method;           ///< name; rows of one name make a curve
+  double step;                  ///< h
+  double evaluations_per_time;  ///< force evaluations of a trajectory per unit time, counted
+  double seconds_per_time;      ///< measured, of a trajectory per unit time
+  estimate error;               ///< NaN if every trajectory diverged
+  std::int64_t diverged;        ///< number of trajectories that did
+  std::int64_t trajectories;    ///< number of all
+  bool learned = false;         ///< whether it is to be emphasised
+  bool counts = true;           ///< false where the error says nothing: beyond a limit; drawn hollow
 };
-
-/// A row each: evaluations and nanoseconds per unit time, error and its standard error, how many diverged,
-/// and the floor if there is one. `value` is what the errors are called, if they are others.
-table work_precision_table(const std::vector<work_precision_row>& rows, const std::string& value = "error");
 
 /// Error against a cost, a curve a method, from cheap to expensive; rows without a finite error leave a gap.
 /// What is learned is emphasised, and the method of that name. Levels and a front are for the caller to add.

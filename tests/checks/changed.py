@@ -28,7 +28,7 @@ LAYERS = [
     (["include/nysalt/analysis", "src/nysalt/analysis"], ["analysis"]),
     (["include/nysalt/hmc", "src/nysalt/sampling"], ["sampling"]),
     (["src/comparison", "src/report", "src/nysalt/exports", "share", "bench"], ["report", "bench", "parts_of_program"]),
-    (["src/program", "src/plugin", "src/reproduction", "examples"], ["programs", "smoke", "faults", "inputs"]),
+    (["src/program", "src/plugin", "examples"], ["programs", "smoke", "faults", "inputs"]),
     (["python"], ["python"]),
 ]
 PAGES = ["docs"]

@@ -72,7 +72,7 @@ test_named() {  # NAME...
     grep -qx "$name" <<<"$targets" && needed+=("$name")
   done
   ((${#needed[@]} == ${#names[@]})) || needed+=(nysalt_program)  # of the tests without a target some run it
-  ! grep -q '^\(long_\)\?python' <<<"${names[*]}" || needed+=(nysalt_python_neighbour)
+  ! grep -q '^\(long_\)\?\(python\|paper\)' <<<"${names[*]}" || needed+=(nysalt_python_neighbour)
   build "${needed[@]}"
   printf -v found '%s|' "${names[@]}"
   ctest --test-dir "build/$preset" --output-on-failure --no-tests=error -j "$(nproc)" -R "^(${found%|})\$"

@@ -133,7 +133,7 @@ std::vector<std::string> folders_in_a_circle(const texts& files) {
 }
 
 /// The folders of src, from the lowest to the highest.
-const std::vector<std::string> folders{"nysalt", "comparison", "report", "plugin", "program", "reproduction"};
+const std::vector<std::string> folders{"nysalt", "comparison", "report", "plugin", "program"};
 
 /// Every source that includes one of a higher folder, in words. What is named by a path from src begins with
 /// the folder; files of the same folder are named without it.

@@ -83,17 +83,26 @@ class Thrown(unittest.TestCase):
 
 
 class ThrownInACopy(unittest.TestCase):
-    def read(self, code):
+    def read(self, code, name="report/a.cpp", reader=messages.messages):
         with tempfile.TemporaryDirectory() as folder:
-            (Path(folder) / "src").mkdir()
-            (Path(folder) / "src/a.cpp").write_text(code)
-            return messages.messages(Path(folder))
+            file = Path(folder) / "src" / name
+            file.parent.mkdir(parents=True)
+            file.write_text(code)
+            return reader(Path(folder))
+
+    def test_name_options_in_programs_alone(self):
+        self.assertEqual(messages.options_named(root), [])
+        code = '// --steps\nrefuse("give one of "\n  "--steps");\n'
+        self.assertEqual(self.read(code, reader=messages.options_named), ["src/report/a.cpp: give one of --steps"])
+        self.assertEqual(self.read(code, "program/a.cpp", messages.options_named), [])
 
     def test_throws_and_refusals_are_read(self):
         for code, text in {
             'throw std::invalid_argument("run: steps must be >= 0");': "run: steps must be >= 0",
             'throw refusal{"cannot read \\"a\\""};': 'cannot read "a"',
             'refuse("unknown metric \'{}\': " "it is one of {}", name, list);': "unknown metric '{}': it is one of {}",
+            'refuse_value("bins", "must be {}", bins);': "bins must be {}",
+            'refuse_value(field, "must be {}", bins);': "{} must be {}",
             'refuse_export("{} must have no \')\' (\\"{}\\")", a(b("x y")), c);': "{} must have no ')' (\"{}\")",
             'require(x > 0 /* ( */, "x must be > 0");  // )': "x must be > 0",
             'fail(fmt::format("cannot write {}: {}", path, "the disk is full"));': "cannot write {}: {}",

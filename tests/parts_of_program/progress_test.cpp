@@ -62,6 +62,40 @@ BOOST_AUTO_TEST_CASE(a_log_has_a_line_of_what_takes_long_and_none_of_the_rest) {
   BOOST_TEST(said_by([] { std::this_thread::sleep_for(20ms); }) == "");  // nothing is under way
 }
 
+// Of 3 things after 2.1 s for the first, 4 s are left; nothing is said earlier.
+BOOST_AUTO_TEST_CASE(the_time_left_is_that_of_the_things_to_come) {
+  const std::string said = said_by([] {
+    progress shown(1ms);
+    shown.count(3, "families");
+    shown.next();
+    shown.part("learning a");
+    std::this_thread::sleep_for(2100ms);
+    shown.next();
+    shown.part("learning b");
+    std::this_thread::sleep_for(20ms);
+  });
+  BOOST_TEST(has(said, "nysalt: 2 of 3 families, 4 s left: learning b\n"), said);
+  BOOST_TEST(!has(said, "1 of 3 families, "), said);
+}
+
+BOOST_AUTO_TEST_CASE(things_are_counted_until_the_count_ends) {
+  const std::string said = said_by([] {
+    progress shown(1ms);
+    shown.count(2, "families");
+    for (const char* what : {"learning a", "learning b"}) {
+      shown.next();
+      shown.part(what);
+      std::this_thread::sleep_for(20ms);
+    }
+    shown.count(0, {});
+    shown.part("judging");
+    std::this_thread::sleep_for(20ms);
+  });
+  BOOST_TEST(has(said, "nysalt: 1 of 2 families: learning a\n"), said);
+  BOOST_TEST(has(said, "nysalt: 2 of 2 families: learning b\n"), said);
+  BOOST_TEST(has(said, "nysalt: judging ...\n"), said);
+}
+
 BOOST_AUTO_TEST_CASE(a_caller_hears_parts_and_shares_and_may_end_the_work) {
   std::vector<std::pair<std::string, double>> heard;
   const std::string said = said_by([&] {

@@ -195,20 +195,20 @@ BOOST_AUTO_TEST_CASE(work_files_of_others_are_refused_and_finished_parts_are_not
     for (const char* resume : {"", " --resume"}) refused(other, resume, "is no work file");
   }
   BOOST_TEST(whole.kept().find("\"part\":\"paths at 0.3\"") != std::string::npos);
-  for (const std::string result : {"5", "{\"behind\":{},\"findings\":[]}"}) {
+  for (const std::string result : {"5", "[{\"against\":{},\"measurements\":[]}]"}) {
     const auto edited = head + signed_line(R"({"part":"paths at 0.3","result":)" + result + "}") + "\n";
     require_refused(whole.resumed(edited), of_work + "the part 'paths at 0.3' is not whole, or was edited",
                     result);
     BOOST_TEST(contents(work) == edited);
   }
   // What was finished is taken from the work file: what stands there is what comes out.
-  const std::string before = "\"findings\":[{\"value\":[";
+  const std::string before = "\"measurements\":[{\"value\":{";
   const auto part = std::ranges::find_if(lines, [&](auto& line) { return line.find(before) < line.size(); });
   BOOST_TEST_REQUIRE((part != lines.end()));
-  part->insert(part->find(before) + before.size(), "12345.5,0.25],\"was\":[");
+  part->insert(part->find(before) + before.size(), "\"mean\":12345.5,\"standard_error\":0.25},\"was\":{");
   const auto again = whole.resumed(head + signed_line(*part) + "\n");
   BOOST_TEST_REQUIRE(again.code == 0, again.err);
-  BOOST_TEST(contents(whole.folder / "out/rows.csv").find(",12345.5,0.25,") != std::string::npos);
+  BOOST_TEST(contents(whole.folder / "out/rows.csv").find(",12345.5,,0.25,") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(an_edited_state_is_refused_or_gone_on_with) {

@@ -24,7 +24,7 @@ const json& row_of(const json& all, const std::string& method) {
   throw std::runtime_error("no row of " + method);
 }
 
-bool stands(const json& row) { return !row.contains("reason") && row["diverged"] == 0; }
+bool stands(const json& row) { return row["reason"].is_null() && row["diverged"] == 0; }
 
 /// A chain whose modes lie between 0.7 and 4 rad per unit time.
 const std::string chain = "--system linear_chain --masses 8 --spring 4 --length 2 ";
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(at_one_budget_all_cost_the_same_and_the_least_error_is_firs
       BOOST_TEST(step == evaluations / 80.0, boost::test_tools::tolerance(1e-15));
     }
     if (!stands(row)) continue;
-    const double ranked = row[all["judged_by"] == "mean" ? "error" : "error_of_95_percent"];
+    const double ranked = row[all["judged_by"] == "mean" ? "error" : "quantile_95"];
     BOOST_TEST(ranked >= last);
     last = ranked;
     // The budget and at most one evaluation more, to begin with.
@@ -84,13 +84,13 @@ BOOST_AUTO_TEST_CASE(at_one_budget_all_cost_the_same_and_the_least_error_is_firs
       "learn --system fpu --family nystrom --step 0.025 --horizon 5 --effort quick --trajectories 8 --seed "
       "3");
   for (const auto& one : all["fits"]) {
-    if (one["family"] == "nystrom") BOOST_TEST(one["parameters"] == fit["parameters"]);
+    if (one["family"] == "nystrom") BOOST_TEST(one["parameters"] == fit["fits"][0]["parameters"]);
   }
   // On the same trajectories, beside a finer reference: the two differ by the errors of both references.
+  const auto& row = row_of(all, "srkn6b");
   const auto by_compare = document(
       "compare --system fpu --methods srkn6b --steps 0.075 --horizon 5 --trajectories 24 --metric state "
       "--seed 3");
-  const auto& row = row_of(all, "srkn6b");
   BOOST_TEST(row["step_size"] == 0.075);
   const double own = row["reference_error"].get<double>() + 1e-9;
   BOOST_TEST(std::abs(row["error"].get<double>() - by_compare["rows"][0]["error"].get<double>()) <=

@@ -31,13 +31,15 @@ BOOST_AUTO_TEST_CASE(rows_that_are_wrong_are_found) {
            {"2 lisp | not: lisp", "not so: not: lisp"},
            {"0 list | out: no such words", "not so: out:"},
            {"0 list | not out: fpu", "not so: not out:"},
+           {"0 list | first: no such words", "not so: first:"},
+           {"0 $ echo 0123456789 | width: 9", "not so: width: 9"},
            {"0 $ echo >a | files:", "not so: files:"},
            {"0 $ echo >a | files: a b", "not so: files: a b"},
            {"0 $ echo x >a | holds a: y", "not so: holds a: y"},
            {json + " | golden: diverged 1e-9", "/step is 0.01, not 0.05"},
            {json + " --seed 2 | golden: run 1e-10", "/rows/0/3 is"},
            {json + " --trajectories 2 | golden: run 1e-10", "/trajectories is 2, not 1"},
-           {"0 list --json | golden: run 1e-10", " is {\"systems\""},
+           {"0 list --json | golden: run 1e-10", " is {\"version\""},
            {"0 $ sed 's/\"step\":/\"stop\":/' $source/golden/run.json | golden: run 1e-10",
             " has stop where step was"},
            {"0 $ sed 's/\"~number\"/null/' $source/golden/run.json | golden: run 1e-10", "/seconds is ~null"},
@@ -67,7 +69,7 @@ BOOST_AUTO_TEST_CASE(rows_that_are_right_are_not) {
       "# A comment.\nlet words = did you mean list?\n== first\nfile a b.txt = x\\x41\\n\nsh grep -q xA 'a "
       "b.txt'\n"
       "@ list\n0 {;--json} | not out: nothing\n@\n2 lisp | {words} | not: nothing\nx2 lisp | nothing\n"
-      "== second\n0 $ ls | files: | label: none\n0 $ true | out: \n",
+      "== second\n0 $ ls | files: | label: none\n0 $ true | out: \n0 $ echo ±±± | width: 3 | first: ±\n",
       "self");
   for (const auto& one : wrong) BOOST_TEST(false, one);
 }

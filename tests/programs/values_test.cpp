@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -189,7 +190,8 @@ BOOST_AUTO_TEST_CASE(stability_gives_the_windows_of_the_library) {
   const auto must_have = [](const std::string& arguments, const method& method) {
     const auto all = document("stability " + arguments);
     json expected = json::array();
-    for (const auto& [low, high] : stability_windows(method)) expected.push_back({low, high});
+    for (const auto& [low, high] : stability_windows(method))
+      expected.push_back({{"low", low}, {"high", high}});
     const auto evaluations = method.letters().evaluations_per_step;
     BOOST_TEST(all["windows"] == expected);
     BOOST_TEST(all["limit"] == stability_limit(method));
@@ -234,7 +236,7 @@ BOOST_AUTO_TEST_CASE(learn_gives_the_fit_of_the_library) {
   const auto printed = document(
       "learn --system fpu --family nystrom --seed 5 --step 0.02 --fine-step 1e-3 --trajectories 15 --horizon "
       "0.4 "
-      "--coordinates modes");
+      "--coordinates modes")["fits"][0];
   for (const auto& parameter : fit.parameters) {
     BOOST_TEST(printed["parameters"][parameter.name] == parameter.value);
     BOOST_TEST(std::isnan(parameter.standard_error));  // fifteen trajectories do not tell
@@ -265,7 +267,8 @@ BOOST_AUTO_TEST_CASE(no_test_starts_where_training_did) {
   const auto energy_from = [](role which) { return energy<double>(chain, law(seed_for(which, 1), 0)); };
   const auto learned =
       json_of(nysalt::test::run("learn --system fpu --family nystrom --step 0.02 --trajectories 1 --json"));
-  const auto training = learned["energy_range"].get<std::vector<double>>();
+  const auto& range = learned["fits"][0]["energy_range"];
+  const std::array<double, 2> training{range["low"], range["high"]};
   const auto test =
       document("run --system fpu --method verlet --step 0.02 --horizon 0.02 --observables energy");
   // Both hold exactly: the range has the start in it, and the first sample is the start.

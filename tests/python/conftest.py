@@ -2,6 +2,7 @@
 """The program beside the package, and Henon and Heiles' system by functions of Python."""
 import json
 import os
+import re
 import subprocess
 
 import pytest
@@ -23,7 +24,9 @@ def program(tmp_path):
 
 
 def without_times(document):
-    """What two computers, or one twice, agree on."""
+    """What two computers, or one twice, agree on; a text with arguments where the program names options."""
+    if isinstance(document, str):
+        return re.sub(r"--([a-z-]+)", lambda option: option[1].replace("-", "_"), document)
     if isinstance(document, dict):
         return {name: without_times(value) for name, value in document.items()
                 if "seconds" not in name and name != "peak_memory"}

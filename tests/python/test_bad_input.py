@@ -51,7 +51,7 @@ CASES = [
     (lambda: nysalt.learn(CHAIN, "nystrom", step=0.02, trajectories=10**30), "trajectories must be a whole number that can be counted"),
     (lambda: nysalt.learn(nysalt.system("kepler"), "nystrom", step=0.1, coordinates="modes"), "must declare modes for the modes coordinates, got none; take qp"),
     (lambda: run(method="verlett"), "unknown method 'verlett': did you mean verlet?"),
-    (lambda: run(method="learned:nystrom"), "learned:nystrom must be learned first: nysalt learn --system SYSTEM --family nystrom"),
+    (lambda: run(method="learned:nystrom"), r'learned:nystrom must be learned first: nysalt.learn\(system, family="nystrom", step=0.1'),
     (lambda: run(sample_every=0), "sample_every must be at least 1, got 0"),
     (lambda: run(out=[0.0]), "out must be a NumPy array of float64 to be filled, got list"),
     (lambda: run(out=np.zeros((2, 11, 1), np.float32)), "out must hold float64 to be filled, got float32"),

@@ -155,6 +155,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_in_terms_of_the_options) {
            {[](auto& o) { o.steps = {-0.1}; }, "steps must be"},
            {[](auto& o) { o.learning.trajectories = 0; }, "learning.trajectories must be"},
            {[](auto& o) { o.metrics = {"exchange"}; }, "exchange"},
+           {[](auto& o) { o.metrics = {}; }, "metrics must be"},
            {[](auto& o) { o.steps = {}; }, "steps"},
            {[](auto& o) { o.horizon = 0.01; }, "horizon"},
            {[](auto& o) { o.levels = {0.0}; }, "levels"}}) {
@@ -189,5 +190,6 @@ BOOST_AUTO_TEST_CASE(a_recommendation_names_a_method_and_its_step) {
                                       .held = {{"best.json", *file}}})
                         .rows();
   BOOST_TEST(rows.front().reason == "");
-  BOOST_CHECK_THROW(recommend(morse(), {.horizon = 4.0}), std::invalid_argument);
+  BOOST_TEST(test::refuses<std::invalid_argument>([] { recommend(morse(), {.horizon = 4.0}); },
+                                                  {"one of budget (", "budget_seconds (", "error ("}));
 }

@@ -19,7 +19,7 @@
 #include "program.hpp"
 #include "table.hpp"
 
-#if !defined NYSALT_FAULTS  // where nothing can be preloaded, and for nysalt_paper
+#if !defined NYSALT_FAULTS  // where nothing can be preloaded
 #define NYSALT_FAULTS ""
 #endif
 #if defined NYSALT_MPIEXEC  // for any user and any number of cores; Open MPI never frees some of its memory
@@ -159,6 +159,39 @@ void compare(const json& golden, const json& found, double tolerance, const std:
       wrong.push_back(at + " is " + found.dump() + ", not " + golden.dump());
   } else if (golden != found) {
     wrong.push_back(at + " is " + found.dump() + ", not " + golden.dump());
+  }
+}
+
+/// What of a document its JSON Schema refuses: by the words that the program's schemas have.
+void find_violations(const json& schema, const json& value, const std::string& at, texts& wrong) {
+  if (schema.contains("const") && schema["const"] != value)
+    wrong.push_back(at + " must be " + schema["const"].dump());
+  if (schema.contains("type")) {
+    const auto is = [&](const json& type) {
+      return type == "object"    ? value.is_object()
+             : type == "array"   ? value.is_array()
+             : type == "string"  ? value.is_string()
+             : type == "boolean" ? value.is_boolean()
+             : type == "integer" ? value.is_number_integer()
+             : type == "number"  ? value.is_number()
+                                 : type == "null" && value.is_null();
+    };
+    if (std::none_of(schema["type"].begin(), schema["type"].end(), is))
+      return wrong.push_back(at + " must be " + schema["type"].dump());
+  }
+  if (value.is_array() && schema.contains("items")) {
+    for (std::size_t k = 0; k < value.size(); ++k)
+      find_violations(schema["items"], value[k], at + "/" + std::to_string(k), wrong);
+  }
+  if (!value.is_object()) return;
+  for (const auto& name : schema.value("required", json::array())) {
+    if (!value.contains(name)) wrong.push_back(at + " lacks " + name.get<std::string>());
+  }
+  const json others = schema.value("additionalProperties", json(true));
+  for (const auto& [name, one] : value.items()) {
+    const json of_name = schema.value("properties", json::object()).value(name, others);
+    if (of_name == false) wrong.push_back(at + " must not have " + name);
+    if (of_name.is_object()) find_violations(of_name, one, at + "/" + name, wrong);
   }
 }
 
@@ -348,6 +381,13 @@ class table {
       must(plain(now) != plain(labels_.at(check)));
     } else if (takes(check, "out: ")) {
       must(has(now.done.out, unescaped(check)));
+    } else if (takes(check, "first: ")) {
+      must(now.done.out.starts_with(unescaped(check)));
+    } else if (takes(check, "width: ")) {
+      for (const std::string& line : split(now.done.out, "\n")) {
+        const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; };
+        must(std::count_if(line.begin(), line.end(), begins) <= std::stol(check));
+      }
     } else if (takes(check, "not out: ")) {
       must(!has(now.done.out, unescaped(check)));
     } else if (takes(check, "not: ")) {
@@ -361,6 +401,9 @@ class table {
     } else if (takes(check, "golden: ")) {
       const auto words_of = words(check);
       golden(words_of[0], std::stod(words_of[1]), now.document, problems);
+    } else if (takes(check, "schema: ")) {
+      const std::string file = NYSALT_SOURCE_DIR "/share/schemas/" + check + ".json";
+      find_violations(json::parse(contents(file)), now.document, "", problems);
     } else if (takes(check, "json: ")) {
       must(is_so(check, now.document));
     } else {

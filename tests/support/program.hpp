@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The program `nysalt`, or `nysalt_paper` in tests/long/paper (NYSALT_PROGRAM), as a shell runs it: what it
-// prints, what equal runs have in common, and what it must refuse.
+// The program `nysalt` (NYSALT_PROGRAM), as a shell runs it: what it prints, what equal runs have in common,
+// and what it must refuse.
 #pragma once
 
 #include <boost/test/unit_test.hpp>

@@ -21,9 +21,11 @@
 //
 //   TEXT         is on the standard error        not: TEXT      is not
 //   out: TEXT    is on the standard output       not out: TEXT  is not
+//   first: TEXT  begins the standard output      width: N       no line of it has more columns
 //   files: A B   the folder has these alone      holds F: TEXT  the file has the text
 //   label: L     the name of this answer         same: L        prints the same but times; other: L not
 //   golden: G TOL        prints golden/G.json, numbers within the relative tolerance, "~kind" for any value
+//   schema: NAME         obeys the JSON Schema share/schemas/NAME.json
 //   json: /a/0/b = /c    of the document printed; also != < > <= >=, `~ VALUE TOL` relative, `has TEXT`,
 //                        `lacks TEXT`, `set A B C`. A place is L:/a of another answer;
 //                        /rows[method=verlet]/error selects; /a# is a size; /a/*/b all; 2*/a is twice that.

@@ -25,6 +25,7 @@ def row_of(program, system, angle, step):
     fit, code, said = ask(program, "learn", *with_step, "--step", step)
     row = {"system": system, "radians": angle, "step": step, "learn": code, "verdict": "", "reason": said}
     if fit is not None:
+        fit = fit["fits"][0]
         row.update(verdict=fit["verdict"], reason=fit["reason"] or "")
     found, row["compare"], said = ask(program, "compare", *with_step, "--steps", step, "--methods", "learned:bab6,srkn6b")
     rows = {one["method"]: one for one in found["rows"]} if found else {}

@@ -54,6 +54,7 @@ def fit_of(program, case, loss, seed):
     row = {"case": case.name, "family": case.family, "step": case.step, "loss": loss, "seed": seed}
     if found is None:
         return {**row, "parameters": "", "errors": "", "withheld": f"refused: {said.splitlines()[-1] if said else code}"}
+    found = found["fits"][0]
     return {**row, "parameters": json.dumps(found["parameters"]), "errors": json.dumps(found["standard_errors"]),
             "withheld": found["standard_errors_withheld"] or ""}
 

@@ -71,7 +71,7 @@ def measure(asked, system, size):
                       "--horizon", horizon, "--trajectories", TEST_TRAJECTORIES, "--methods",
                       ",".join([*methods, *PLAIN, *FORMULAS]))
     row = {"system": system, "size": size, "learn_seconds": seconds, "learn_megabytes": megabytes,
-           "verdict": fit["verdict"]}
+           "verdict": fit["fits"][0]["verdict"]}
     for name, among in (("there", (there,)), ("small", (small,)), ("plain", PLAIN), ("formula", FORMULAS)):
         one = best(found["rows"], among)
         row[name] = one["error"] if one else ""

@@ -152,6 +152,7 @@ def row_of(program, schemes, system, kind, name, part, step, seed, known=None):
             found, _, said = ask(program, "learn", *SYSTEMS[system], "--family", name, "--step", repr(step), "--seed",
                                  seed, "--effort", "quick", "--trajectories", 50, "--output", method, "--force",
                                  "--threads", 1)
+            found = found and found["fits"][0]
         if found is None:
             return row | {"verdict": "refused", "reason": said.splitlines()[-1] if said else "no answer"}
         judged = found["judgement"]

@@ -52,8 +52,8 @@ void require_known(const exported_method& method, const std::string& letters) {
   const char letter = letters[at];
   if (letter == 'G') {
     refuse_export(
-        "export: the method must have no letter G, a gradient kick, whose f'(q) v no host has, got {}; give "
-        "--displaced for the displaced kick, equal up to h^5, volume-preserving and reversible, but not "
+        "export: the method must have no letter G, a gradient kick, whose f'(q) v no host has, got {}; take "
+        "the displaced kick (displaced), equal up to h^5, volume-preserving and reversible, but not "
         "symplectic",
         method.method.name());
   }

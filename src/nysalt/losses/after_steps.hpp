@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -94,7 +95,8 @@ class after_steps : public loss_on_data {
         options_(same.options_),
         share_(same.share_),
         starts_(same.starts_),
-        parts_(same.parts_) {}
+        parts_(same.parts_),
+        rooms_(same.rooms_) {}
 
   squares at(const Eigen::VectorXd& theta) const override;
   std::vector<double> by_trajectory(const Eigen::VectorXd& theta) const override;
@@ -140,9 +142,12 @@ class after_steps : public loss_on_data {
       }
       auto x = make_state(watched);
       auto y = make_state(watched);
-      residuals_of_window<R> r{static_cast<std::size_t>(parameters()), std::vector<R>(residuals(), R(0.0)),
-                               std::vector<R>(residuals() * static_cast<std::size_t>(parameters()), R(0.0))};
-      std::vector<C> of_directions(residuals());
+      const auto taken = rooms_->take();
+      auto& [r, of_directions] = *taken;
+      r.parameters = static_cast<std::size_t>(parameters());
+      r.values.resize(residuals());
+      r.slopes.resize(with_slopes ? residuals() * r.parameters : 0);
+      of_directions.resize(residuals());
       std::vector<R> added(static_cast<std::size_t>(terms));
       std::size_t trajectory = part.first_trajectory;
       std::size_t window = starts_.first_of[trajectory];
@@ -171,6 +176,7 @@ class after_steps : public loss_on_data {
                                        ? watched.calls() / std::ssize(part.entries)
                                        : std::ssize(steppers) * evaluations_of_window;
       evaluations_ += of_each * static_cast<std::int64_t>(part.end - part.begin);
+      rooms_->give(taken);
     };
     const auto pass = [&] {
       for_each_trajectory(std::ssize(*parts_), {.threads = options_.execution.threads}, visit);
@@ -186,6 +192,34 @@ class after_steps : public loss_on_data {
  private:
   using stepper_type = stepper<model, C, noise_of_entries<R>>;
   using parts = std::vector<windows_in_lanes<R>>;
+
+  /// Room for the residuals of a window, some megabytes for long windows.
+  struct room {
+    residuals_of_window<R> r;
+    std::vector<C> of_directions;
+  };
+
+  /// Rooms that one pass leaves to the next: where the allocator gives such blocks back to the system, to ask
+  /// for new ones takes a third of a pass. Not one a thread: a thread that waits within a force of many
+  /// threads may begin another window.
+  class rooms {
+   public:
+    std::shared_ptr<room> take() {
+      const std::scoped_lock lock(guard_);
+      if (free_.empty()) return std::make_shared<room>();
+      auto last = std::move(free_.back());
+      free_.pop_back();
+      return last;
+    }
+    void give(std::shared_ptr<room> one) {
+      const std::scoped_lock lock(guard_);
+      free_.push_back(std::move(one));
+    }
+
+   private:
+    std::mutex guard_;
+    std::vector<std::shared_ptr<room>> free_;
+  };
 
   static std::size_t last_of(const after_steps_options& options) {
     const auto& steps = options.steps;
@@ -287,6 +321,7 @@ class after_steps : public loss_on_data {
   shard share_;
   window_starts starts_;
   std::shared_ptr<const parts> parts_;
+  std::shared_ptr<rooms> rooms_ = std::make_shared<rooms>();
   mutable std::atomic<std::int64_t> evaluations_ = 0;
 };
 

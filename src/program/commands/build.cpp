@@ -9,8 +9,8 @@
 #include "../commands.hpp"
 #include "../options/subcommand.hpp"
 #include "../output.hpp"
+#include "comparison/described.hpp"
 #include "comparison/inputs.hpp"
-#include "comparison/json.hpp"
 #include "comparison/prepared_problem.hpp"
 #include "nysalt/system_declaration.hpp"
 
@@ -26,8 +26,11 @@ int build(const build_command& command, const common_settings& common) {
   common_settings unused;
   offer_all(all, unused);  // its parameters may not have the names of options
   if (common.json) {
-    print(text_of(
-        {{"output", path}, {"name", system.name}, {"title", system.title}, {"options", options_of(system)}}));
+    print(text_of({{"version", version_of_documents},
+                   {"output", path},
+                   {"name", system.name},
+                   {"title", system.title},
+                   {"options", options_of(system)}}));
   } else {
     print(fmt::format(
         "Built: {}\n{}: {}\noptions: {}\nTry: nysalt stability --system {} --method verlet --step 0.1\n",

@@ -5,7 +5,7 @@
 #include "../output.hpp"
 #include "../provenance.hpp"
 #include "build_info.hpp"
-#include "comparison/json.hpp"
+#include "comparison/described.hpp"
 #include "comparison/refusal.hpp"
 
 namespace nysalt::program {
@@ -37,7 +37,7 @@ int cite(const cite_command& command, const common_settings& common) {
     for (const auto& [key, reasons] : works) {
       all.push_back({{"key", key}, {"for", reasons}, {"bibtex", bibtex_of(key)}});
     }
-    print(text_of({{"references", all}}));
+    print(text_of({{"version", version_of_documents}, {"references", all}}));
     return done;
   }
   std::string text = "% nysalt itself\n" + own_entry() + "\n";

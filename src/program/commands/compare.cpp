@@ -35,7 +35,7 @@ std::optional<json> finished_report(const std::filesystem::path& folder, const j
 
 bool has_value(const json& report) {
   const json rows = report.value("rows", json::array());
-  return std::ranges::any_of(rows, [](const json& row) { return !row.contains("reason"); });
+  return std::ranges::any_of(rows, [](const json& row) { return row.value("reason", json()).is_null(); });
 }
 
 /// Prints the report, if the folder has a whole one: the exit code.
@@ -102,7 +102,7 @@ int compare(const compare_command& command, const common_settings& common) {
   if (common.json) {
     print(text_of(document_of(all)));
   } else {
-    print(readable(all));
+    print(readable(all, form_of(common)));
     for (const auto& text : all.warnings()) warn(text);
     if (!command.output.empty()) print(line_of_written(command.output));
   }

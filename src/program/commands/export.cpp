@@ -4,8 +4,8 @@
 #include "../commands.hpp"
 #include "../output.hpp"
 #include "comparison/all_ranks.hpp"
+#include "comparison/described.hpp"
 #include "comparison/exported_source.hpp"
-#include "comparison/json.hpp"
 #include "nysalt/communicator.hpp"
 #include "report/result_file.hpp"
 
@@ -24,7 +24,8 @@ int export_method(const export_command& command, const common_settings& common) 
     if (!command.output.empty()) write_result(command.output, text);
     if (common.json) {
       print(text_of(
-          json{{"host", command.host.empty() ? command.template_file : command.host},
+          json{{"version", version_of_documents},
+               {"host", command.host.empty() ? command.template_file : command.host},
                {"name", exported.options.name.empty() ? exported.method.name() : exported.options.name},
                {"letters", word.letters()},
                {"coefficients", exported.method.coefficients()},

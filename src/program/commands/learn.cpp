@@ -5,6 +5,7 @@
 #include "comparison/all_ranks.hpp"
 #include "comparison/refusal.hpp"
 #include "nysalt/communicator.hpp"
+#include "report/fit_text.hpp"
 #include "report/result_file.hpp"
 
 namespace nysalt::program {
@@ -35,18 +36,25 @@ int learn(const learn_command& command, const common_settings& common) {
       print(text_of(result));
       return;
     }
-    for (std::size_t k = 0; k < learned.size(); ++k) {
-      const learned_scheme& one = learned[k];
-      const bool in_full = command.step || !written;  // with all digits
-      print(in_full ? one.fit.full() : one.fit.brief() + "\n");
-      if (const auto& rival = training.losing_fewest()[k])
-        print(fmt::format("  {:<22}{}\n", "loses fewest", in_words(*rival)));
-      if (one.course && command.step) print(fmt::format("  {:<22}{}\n", "enough", one.course->report()));
+    const text_form form = form_of(common);
+    std::vector<fit_summary> fits;
+    for (const auto& one : learned) fits.push_back(one.fit);
+    std::string text = command.step ? text_of(fits.front(), form) : text_of(fits, form);
+    for (const auto& rival : training.losing_fewest()) {
+      if (rival) text += wrapped("loses fewest: " + in_words(*rival), form.width);
     }
-    if (!training.purpose().empty()) print(fmt::format("  {:<22}{}\n", "for", training.purpose()));
     if (training.where())
-      print(fmt::format("  {:<22}{}: {}\n", "letters O", to_string(*training.where()),
-                        learned.front().method.letters().letters()));
+      text += wrapped(fmt::format("letters O {}: {}", to_string(*training.where()),
+                                  learned.front().method.letters().letters()),
+                      form.width);
+    for (const auto& one : learned) {
+      if (one.course && command.step) text += wrapped(one.course->report(), form.width);
+      if (!common.verbose) continue;
+      text += fmt::format("\n{}", one.fit.full());
+    }
+    if (common.verbose && !training.purpose().empty())
+      text += fmt::format("  {:<22}{}\n", "for", training.purpose());
+    print(text);
     if (keep && written) print(line_of_written(command.output));
   });
   if (!common.json) {

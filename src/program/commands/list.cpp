@@ -3,8 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <utility>
+
 #include "../commands.hpp"
+#include "../fitted_family.hpp"
 #include "../output.hpp"
+#include "comparison/recommendation.hpp"
+#include "comparison/sampling_choice.hpp"
+#include "report/comparison_report.hpp"
+#include "report/result_file.hpp"
 #include "report/table.hpp"
 
 namespace nysalt::program {
@@ -71,6 +79,21 @@ std::string readable(const json& all) {
 }  // namespace
 
 int list(const list_command& command, const common_settings& common) {
+  if (!command.schemas.empty()) {
+    const std::filesystem::path folder(command.schemas);
+    make_folder(folder);
+    for (const auto& [name, schema] :
+         {std::pair("compare", schema_of_comparison()), std::pair("learn", fitted_family::schema()),
+          std::pair("recommend", recommendation::schema()),
+          std::pair("recommend_sampling", sampling_choice::schema()), std::pair("run", schema_of_run()),
+          std::pair("sample", schema_of_sample()), std::pair("stability", schema_of_stability())}) {
+      const auto file = folder / fmt::format("{}.json", name);
+      require_result(file);
+      write_result(file, text_of(schema));
+      print(line_of_written(file.string()));
+    }
+    return done;
+  }
   const json all = listing(command.system);
   print(common.json ? text_of(all) : readable(all));
   return done;

@@ -62,7 +62,7 @@ int print_result(auto& all, prepared_problem& system, const recommend_command& c
       print(text_of(result));
       return;
     }
-    print(all.readable());
+    print(all.readable(form_of(common)));
     for (const auto& text : all.warnings()) warn(text);
     if (writes && written) print(line_of_written(output));
   });

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "../commands.hpp"
 #include "../mpi_session.hpp"
@@ -78,25 +79,48 @@ void draw_run(const run_command& command, const run_output& output, std::int64_t
 /// Throws refusal for bad options of the files of a run, before any work.
 void require_files(const run_command& command) {
   require_table(command.output, command.plot, true);
-  if (command.every) require_at_least_one("--every", *command.every);
+  if (command.every) require_at_least_one("every", *command.every);
   if (!command.output.empty()) return;
   if (command.every)
     refuse("--every must come with --output; name a file, as printed results cannot be continued");
   if (command.keep_work) refuse("--keep-work must come with --output; name the file of the results");
 }
 
-json with_times(std::vector<diverged_trajectory> lost, double step) {
+/// Where a trajectory diverged.
+struct diverged_at_time : diverged_trajectory {
+  double t;
+};
+std::vector<diverged_at_time> with_times(std::vector<diverged_trajectory> lost, double step) {
   std::ranges::sort(lost, {}, &diverged_trajectory::trajectory);
-  json all = json::array();
-  for (const auto& one : lost) {
-    const double t = static_cast<double>(one.step) * step;
-    all.push_back({{"trajectory", one.trajectory}, {"step", one.step}, {"t", t}});
-  }
+  std::vector<diverged_at_time> all;
+  for (const auto& one : lost) all.push_back({one, static_cast<double>(one.step) * step});
   return all;
 }
 
+/// The run for machines; rows only where they are not in a file.
+struct run_result {
+  std::string system;
+  std::string method;
+  double step;
+  std::int64_t trajectories;
+  std::int64_t sample_every;
+  std::string starts;
+  std::vector<diverged_at_time> diverged;
+  std::optional<fitted_frequency> frequency;
+  std::vector<std::string> columns{};
+  json rows{};
+  std::string output{};
+  std::int64_t steps = 0;
+  std::uint64_t seed = 0;
+  std::optional<std::int64_t> evaluations{};  // nothing: not counted again
+  double seconds = 0.0;
+  double energy_error = 0.0;
+  nysalt::judgement judgement{};
+  std::vector<std::string> warnings{};
+};
+
 /// In words, instead of the document.
-void print_result(const run_command& command, std::int64_t trajectories, const json& document,
+void print_result(const run_command& command, std::int64_t trajectories, const run_result& document,
                   bool was_finished) {
   constexpr std::size_t enough = 20;  // lines of warnings
   if (was_finished) {
@@ -104,16 +128,12 @@ void print_result(const run_command& command, std::int64_t trajectories, const j
                       of_letters(command.output)));
   } else if (!command.output.empty()) {
     print(fmt::format("{} trajectories of {} steps, {} force evaluations each, {:.3g} s\n", trajectories,
-                      document["steps"].get<std::int64_t>(), document["evaluations"].get<std::int64_t>(),
-                      document["seconds"].get<double>()) +
+                      document.steps, document.evaluations.value_or(0), document.seconds) +
           line_of_written(command.output));
   }
-  const json& diverged = document["diverged"];
-  for (std::size_t i = 0; i < std::min(diverged.size(), enough); ++i) {
-    const json& one = diverged[i];
-    warn(fmt::format("trajectory {} diverged at step {}, t = {:g}", one["trajectory"].get<std::int64_t>(),
-                     one["step"].get<std::int64_t>(), one["t"].get<double>()));
-  }
+  const auto& diverged = document.diverged;
+  for (const auto& one : std::span(diverged).first(std::min(diverged.size(), enough)))
+    warn(fmt::format("trajectory {} diverged at step {}, t = {:g}", one.trajectory, one.step, one.t));
   if (diverged.size() > enough) {
     warn(fmt::format("and {} more of {} trajectories diverged: --json names them", diverged.size() - enough,
                      trajectories));
@@ -127,6 +147,12 @@ bool agreed(bool at_first) {
 }
 
 }  // namespace
+
+NYSALT_DESCRIBED(diverged_at_time, trajectory, step, t)
+NYSALT_DESCRIBED(run_result, system, method, step, trajectories, sample_every, starts, diverged, frequency,
+                 columns, rows, output, steps, seed, evaluations, seconds, energy_error, judgement, warnings)
+
+json schema_of_run() { return whole_schema<run_result>("nysalt run"); }
 
 int run(const run_command& asked, const common_settings& common) {
   const planned_run planned(asked, common);
@@ -180,36 +206,34 @@ int run(const run_command& asked, const common_settings& common) {
       if (!common.json) warn(*text);
       warnings.push_back(*text);
     }
-    const json diverged = with_times(output->lost(), command.step);
+    const auto diverged = with_times(output->lost(), command.step);
     if (!was_finished) {
       output->commit();
       if (command.plot) draw_run(command, *output, plan.steps);
       output->finish();
     }
-    json document{{"system", system.description()},
-                  {"method", command.method},
-                  {"step", command.step},
-                  {"trajectories", plan.count},
-                  {"sample_every", command.sample_every},
-                  {"starts", system.starts()},
-                  {"diverged", diverged}};
-    const auto frequency = frequency_of(planned.source, system);
-    if (frequency) document["frequency"] = {{"value", frequency->value}, {"source", frequency->source}};
-    output->describe(document);
-    document["steps"] = plan.steps;
-    document["seed"] = common.seed;
+    run_result document{
+        system.description(), command.method,  command.step, plan.count,
+        command.sample_every, system.starts(), diverged,     frequency_of(planned.source, system)};
+    json rows;
+    output->describe(document.columns, rows);
+    document.output = command.output;
+    document.steps = plan.steps;
+    document.seed = common.seed;
     if (!was_finished || common.json) {
       const std::int64_t further_observations =
           std::max<std::int64_t>(plan.steps / command.sample_every - 1, 0);  // one is counted with the run
-      document["evaluations"] = system.count_evaluations(*planned.method, plan) +
-                                further_observations * planned.method->letters().evaluations_to_observe;
+      document.evaluations = system.count_evaluations(*planned.method, plan) +
+                             further_observations * planned.method->letters().evaluations_to_observe;
     }
-    document["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    document["energy_error"] = finite(energy_error);
-    document["judgement"] = to_json(planned.judged());
-    document["warnings"] = warnings;
+    document.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    document.energy_error = energy_error;
+    document.judgement = planned.judged();
+    document.warnings = warnings;
     if (common.json) {
-      print(text_of(document));
+      json all = whole_document(document);
+      all["rows"] = std::move(rows);  // which may fill much of the memory
+      print(text_of(all));
     } else {
       print_result(command, plan.count, document, was_finished);
     }

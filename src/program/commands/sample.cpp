@@ -31,8 +31,6 @@ std::string number_or_dash(const char* format, double value) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
 }
 
-json number_or_null(double value) { return std::isfinite(value) ? json(value) : json(); }
-
 constexpr double converged = 1.01;  // R-hat [vehtari_and_others_2021]
 
 bool has_converged(const std::vector<summary_of_scalar>& all) {
@@ -69,7 +67,7 @@ hmc_options hmc_options_of(const sample_command& command, const prepared_problem
 void require_files(const sample_command& command) {
   require_table(command.output, false, false);
   if (!command.every) return;
-  require_at_least_one("--every", *command.every);
+  require_at_least_one("every", *command.every);
   if (command.output.empty()) refuse("--every must come with --output; name the file of the draws");
 }
 
@@ -136,35 +134,49 @@ void save(const sample_command& command, const hmc_state& state, kept_draws& dra
   });
 }
 
-/// The results, as a document.
-json document_of(const sample_command& command, const method_source& source, const prepared_problem& system,
-                 const hmc_options& options, const hmc_result& found,
-                 const std::vector<summary_of_scalar>& all) {
-  json document{{"method", source.typed},
-                {"system", system.description()},
-                {"temperature", command.temperature},
-                {"step", found.step},
-                {"length", options.length},
-                {"chains", command.chains},
-                {"burn_in", command.burn_in},
-                {"draws", command.draws},
-                {"acceptance", found.acceptance.mean},
-                {"energy_error", number_or_null(std::sqrt(found.square_of_energy_error.mean))},
-                {"diverged", found.diverged},
-                {"evaluations_of_draw", found.evaluations_of_draw},
-                {"evaluations_of_burn_in", found.evaluations_of_burn_in},
-                {"converged", has_converged(all)},
-                {"scalars", json::array()}};
-  for (const auto& one : all) {
-    document["scalars"].push_back({{"name", one.name},
-                                   {"mean", one.mean},
-                                   {"standard_error", number_or_null(one.standard_error())},
-                                   {"deviation", one.deviation},
-                                   {"effective_draws", number_or_null(one.effective)},
-                                   {"r_hat", number_or_null(one.reduction)}});
-  }
-  if (!found.deviations.empty()) document["deviations"] = found.deviations;
-  return document;
+/// The results for machines.
+struct sample_result {
+  std::string method;
+  std::string system;
+  double temperature;
+  double step;
+  double length;
+  std::int64_t chains;
+  std::int64_t burn_in;
+  std::int64_t draws;
+  double acceptance;
+  double energy_error;
+  std::int64_t diverged;
+  double evaluations_of_draw;
+  double evaluations_of_burn_in;
+  bool converged;
+  std::vector<summary_of_scalar> scalars;
+  std::vector<double> deviations;  // of the momenta, where masses were found
+  std::vector<std::string> warnings;
+  std::string output;
+};
+
+sample_result result_of(const sample_command& command, const method_source& source,
+                        const prepared_problem& system, const hmc_options& options, const hmc_result& found,
+                        const std::vector<summary_of_scalar>& all) {
+  return {source.typed,
+          system.description(),
+          command.temperature,
+          found.step,
+          options.length,
+          command.chains,
+          command.burn_in,
+          command.draws,
+          found.acceptance.mean,
+          std::sqrt(found.square_of_energy_error.mean),
+          found.diverged,
+          found.evaluations_of_draw,
+          found.evaluations_of_burn_in,
+          has_converged(all),
+          all,
+          found.deviations,
+          {},
+          {}};
 }
 
 /// The same in words.
@@ -231,11 +243,11 @@ method method_for(const method_source& source, const prepared_problem& system, c
 }
 
 void require_numbers(const sample_command& command) {
-  if (command.step) require_positive("--step", *command.step);
-  if (command.length) require_positive("--length", *command.length);
-  require_positive("--hmc-temperature", command.temperature);
-  require_at_least_one("--chains", command.chains);
-  require_at_least_one("--draws", command.draws);
+  if (command.step) require_positive("step", *command.step);
+  if (command.length) require_positive("length", *command.length);
+  require_positive("hmc_temperature", command.temperature);
+  require_at_least_one("chains", command.chains);
+  require_at_least_one("draws", command.draws);
   constexpr std::int64_t most = std::int64_t{1} << 48U;  // trajectories with noise of their own
   const auto of_chain = static_cast<double>(command.burn_in) + static_cast<double>(command.draws);
   if (static_cast<double>(command.chains) * of_chain > static_cast<double>(most)) {
@@ -257,6 +269,17 @@ void require_room(const sample_command& command, std::int64_t shown) {
 }
 
 }  // namespace
+
+constexpr auto members(of<summary_of_scalar>) {
+  using scalar = summary_of_scalar;
+  return std::tuple(NYSALT_MEMBERS(scalar, name, mean, standard_error, deviation),
+                    item{"effective_draws", &scalar::effective}, item{"r_hat", &scalar::reduction});
+}
+NYSALT_DESCRIBED(sample_result, method, system, temperature, step, length, chains, burn_in, draws, acceptance,
+                 energy_error, diverged, evaluations_of_draw, evaluations_of_burn_in, converged, scalars,
+                 deviations, warnings, output)
+
+json schema_of_sample() { return whole_schema<sample_result>("nysalt sample"); }
 
 int sample(const sample_command& command, const common_settings& common) {
   require_numbers(command);
@@ -314,10 +337,10 @@ int sample(const sample_command& command, const common_settings& common) {
     write_and_print(write, [&](bool written) {
       const bool is_there = written && !command.output.empty();
       if (common.json) {
-        json document = document_of(command, source, *system, options, found, all);
-        document["warnings"] = warnings;
-        if (is_there) document["output"] = command.output;
-        print(text_of(document));
+        sample_result result = result_of(command, source, *system, options, found, all);
+        result.warnings = warnings;
+        if (is_there) result.output = command.output;
+        print(text_of(whole_document(result)));
         return;
       }
       for (const auto& warning : warnings) warn(warning);

@@ -17,6 +17,7 @@
 #include "comparison/progress.hpp"
 #include "nysalt/learning/stability_guard.hpp"
 #include "report/stability_picture.hpp"
+#include "report/table.hpp"
 
 namespace nysalt::program {
 
@@ -60,128 +61,171 @@ subject subject_of(const stability_command& command, const prepared_problem* sys
       source.typed, *source.family);
 }
 
-/// The findings, as JSON and as text.
-struct answer {
-  json document;
-  std::string text;
+/// Frequencies of a system, and the margin of a step on them.
+struct margin_on_band {
+  double low;
+  double high;
+  double margin;
 };
 
-json pairs(const auto& ranges) {
-  json all = json::array();
-  for (const auto& [low, high] : ranges) all.push_back({low, high});
-  return all;
-}
+/// The modes that a word which rotates magnifies most in some steps, alone and in a pair.
+struct magnified_mode {
+  double mode;
+  double factor;
+  std::int64_t steps;
+};
+struct growing_pair {
+  double first;
+  double second;
+  double growth;
+};
+
+/// The step at which h omega = k pi for some mode, k = 1, 2, ..., that is nearest.
+struct resonance_of_mode {
+  double mode;
+  double multiple;
+  double step;
+};
+
+/// The findings for machines; nothing of what was not asked for, or is not known.
+struct stability_result {
+  std::string method;
+  std::string letters;
+  std::vector<double> coefficients;
+  int order;
+  int evaluations_per_step;
+  std::optional<double> limit{};
+  std::optional<double> limit_per_evaluation{};
+  std::vector<stability_window> windows{};
+  std::vector<double> touching{};
+  std::string system{};
+  std::optional<double> step{};
+  std::optional<nysalt::judgement> judgement{};
+  std::optional<rival_judgement> loses_fewest{};
+  std::vector<margin_on_band> bands{};
+  std::vector<step_range> stable_steps{};
+  std::optional<double> linear_step{};
+  std::optional<double> safe_step{};
+  std::optional<magnified_mode> magnification{};
+  std::optional<growing_pair> resonant_pair{};
+  std::optional<resonance_of_mode> resonance{};
+  std::vector<std::string> warnings{};
+  std::string output{};  // the table of the curve
+};
+
+/// The findings for machines and as text: what matters most, ranges of z, steps and frequencies, all else,
+/// and what only details have.
+struct answer {
+  stability_result document;
+  std::string sentence{};
+  table ranges{{"range", "from", "to", "margin"}};
+  std::string text{};
+  std::string details{};
+
+  void add_range(const char* what, double low, double high, const std::string& margin = "-") {
+    ranges.add({what, fmt::format("{:.10g}", low), fmt::format("{:.10g}", high), margin});
+  }
+
+  std::string readable(const text_form& form) const {
+    std::string shown = wrapped(sentence, form.width);
+    if (!ranges.empty()) shown += fmt::format("\n{}", ranges.text(form.width));
+    if (!text.empty()) shown += fmt::format("\n{}", wrapped(text, form.width));
+    return form.is_verbose ? shown + details : shown;
+  }
+};
 
 std::string percent(double margin) { return fmt::format("{:.3g} %", 100.0 * margin); }
 
 answer about(const subject& target, const stability_chart& chart) {
   const nysalt::word& word = target.method.letters();
   const int evaluations = word.evaluations_per_step;
-  answer result;
-  result.document = {{"method", target.name},
-                     {"letters", word.letters()},
-                     {"coefficients", target.method.coefficients()},
-                     {"order", target.method.order},
-                     {"evaluations_per_step", evaluations}};
-  result.text = fmt::format("{}: {}, order {}, {} evaluations a step\n", target.name, word.letters(),
-                            target.method.order, evaluations);
+  answer result{
+      {target.name, word.letters(), target.method.coefficients(), target.method.order, evaluations}};
+  result.details =
+      fmt::format("{}, order {}, {} evaluations a step\n", word.letters(), target.method.order, evaluations);
   if (word.has_own_letters()) {
-    for (const char* name : {"limit", "limit_per_evaluation"}) result.document[name] = nullptr;
-    for (const char* name : {"windows", "touching"}) result.document[name] = json::array();
-    result.text +=
-        "it has letters of one's own: it has no windows of z = h omega, and is tried on its system\n";
+    result.sentence =
+        target.name +
+        " has letters of one's own: it has no windows of z = h omega, and is tried on its system";
     return result;
   }
-  const bool rotates = word.reads_modes;
+  if (word.reads_modes) {
+    result.sentence =
+        target.name +
+        " rotates: it is stable on the quadratic part at any step; what soft forces make of that "
+        "depends on the system";
+    return result;
+  }
   const bool from_zero = !chart.windows.empty() && chart.windows.front().low == 0.0;
   const double limit = from_zero ? chart.windows.front().high : 0.0;
-  result.document["limit"] = rotates ? json() : json(limit);
-  result.document["limit_per_evaluation"] = rotates ? json() : json(limit / evaluations);
-  result.document["windows"] = pairs(chart.windows);
-  result.document["touching"] = chart.touching;
-  if (rotates) {
-    result.text +=
-        "it rotates: stable on the quadratic part at any step; what soft forces make of that depends on the "
-        "system\n";
-    return result;
-  }
-  result.text += fmt::format("stable up to z = h omega = {:.10g}, {:.10g} for each evaluation\n", limit,
-                             limit / evaluations);
-  for (const auto& [low, high] : chart.windows)
-    result.text += fmt::format("  window {:.10g} .. {:.10g}\n", low, high);
-  for (const double z : chart.touching) result.text += fmt::format("  where two touch: {:.10g}\n", z);
+  result.document.limit = limit;
+  result.document.limit_per_evaluation = limit / evaluations;
+  result.document.windows = chart.windows;
+  result.document.touching = chart.touching;
+  result.sentence = fmt::format("{} is stable up to z = h omega = {:.10g}, {:.10g} for each evaluation",
+                                target.name, limit, limit / evaluations);
+  for (const auto& [low, high] : chart.windows) result.add_range("stable z = h omega", low, high);
+  for (const double z : chart.touching) result.details += fmt::format("where two touch: {:.10g}\n", z);
   return result;
 }
 
-/// The judgement in full.
+/// The judgement in full. It comes first.
 void add_judgement(answer& result, const judgement& found) {
-  json& document = result.document;
-  document["judgement"] = to_json(found);
-  result.text += fmt::format("  {}\n  trial: {}\n", found.in_words(), found.report());
+  stability_result& document = result.document;
+  document.judgement = found;
+  result.text = fmt::format("{}\n{}trial: {}\n", result.sentence, result.text, found.report());
+  result.sentence = fmt::format("{} at step {:g} for {}: {}", document.method, found.step, document.system,
+                                found.in_words());
   if (found.highest_frequency > 0.0) {
     result.text +=
-        fmt::format("  highest frequency along the motion {:.6g}, z = {:.6g} ({})\n", found.highest_frequency,
+        fmt::format("highest frequency along the motion {:.6g}, z = {:.6g} ({})\n", found.highest_frequency,
                     found.step * found.highest_frequency, found.frequencies);
   } else {
-    result.text += fmt::format("  {}\n", found.frequencies);
+    result.text += fmt::format("{}\n", found.frequencies);
   }
-  if (found.margin) result.text += fmt::format("  linear margin {}\n", percent(*found.margin));
+  if (found.margin) result.text += fmt::format("linear margin {}\n", percent(*found.margin));
   const bool is_reason = found.linear_objection == found.reason;
   if (!found.linear_objection.empty() && !is_reason)
-    result.text += fmt::format("  linear criterion: {}\n", found.linear_objection);
-  if (!found.resonance.empty()) result.text += fmt::format("  resonance: {}\n", found.resonance);
+    result.text += fmt::format("linear criterion: {}\n", found.linear_objection);
+  if (!found.resonance.empty()) result.text += fmt::format("resonance: {}\n", found.resonance);
 }
 
 /// Where the step lies among the windows, and which steps are stable and safe.
 void add_steps(answer& result, const method& method, const stability_chart& chart,
                const prepared_problem& system, const judgement& found, int threads) {
-  json& document = result.document;
+  stability_result& document = result.document;
   auto bands = system.frequency_bands();
-  document["bands"] = json::array();
-  if (bands.empty() && !(found.highest_frequency > 0.0)) {  // what the judgement says
-    document["stable_steps"] = json::array();
-    document["linear_step"] = document["safe_step"] = json();
-    return;
-  }
+  if (bands.empty() && !(found.highest_frequency > 0.0)) return;  // what the judgement says
   if (bands.empty()) bands.push_back({0.0, found.highest_frequency});
   for (const auto& band : bands) {
     const double margin = stability_margin(chart.windows, found.step * band.low, found.step * band.high);
-    document["bands"].push_back({{"low", band.low}, {"high", band.high}, {"margin", finite(margin)}});
-    result.text += fmt::format("  frequencies {:g} .. {:g} of {} at step {:g}: margin {}\n", band.low,
-                               band.high, system.description(), found.step, percent(margin));
+    document.bands.push_back({band.low, band.high, margin});
+    result.add_range("frequencies at this step", band.low, band.high, percent(margin));
   }
-  const auto steps = stable_steps(chart.windows, bands);
-  document["stable_steps"] = pairs(steps);
-  for (const auto& [low, high] : steps)
-    result.text += fmt::format("  linearly stable steps {:.6g} .. {:.6g}\n", low, high);
+  document.stable_steps = stable_steps(chart.windows, bands);
+  for (const auto& [low, high] : document.stable_steps) result.add_range("linearly stable steps", low, high);
   const double linear = linear_step(method, chart, found.highest_frequency);
-  document["linear_step"] = linear > 0.0 ? json(linear) : json();
-  result.text += fmt::format("  {} to the first end, and turn by less than a quarter\n", advice(linear));
+  document.linear_step = only_if(linear > 0.0, linear);
+  result.text += fmt::format("{} to the first end, and turn by less than a quarter\n", advice(linear));
   const auto safe = safe_step(method, system, linear, threads);
-  document["safe_step"] = safe ? json(*safe) : json();
+  document.safe_step = safe;
   if (safe) {
-    result.text += fmt::format(
-        "  safe step {:g}: trials lost nothing there, at {:g}, {:g} % more, and at shorter steps\n", *safe,
-        *safe / (1.0 - tried_margin), 100.0 * (1.0 / (1.0 - tried_margin) - 1.0));
+    result.text +=
+        fmt::format("safe step {:g}: trials lost nothing there, at {:g}, {:g} % more, and at shorter steps\n",
+                    *safe, *safe / (1.0 - tried_margin), 100.0 * (1.0 / (1.0 - tried_margin) - 1.0));
   } else if (system.frequency_bands().empty()) {
-    result.text += "  no step is called safe: the frequencies of the system have no bound\n";
+    result.text += "no step is called safe: the frequencies of the system have no bound\n";
   } else {
-    result.text += "  no step is called safe: trials lost trajectories\n";
+    result.text += "no step is called safe: trials lost trajectories\n";
   }
 }
 
-/// The step at which h omega = k pi for some mode, k = 1, 2, ..., that is nearest.
-struct resonance {
-  double mode;
-  double multiple;
-  double step;
-};
-std::optional<resonance> nearest_resonance(const std::vector<double>& modes, double step) {
-  std::optional<resonance> nearest;
+std::optional<resonance_of_mode> nearest_resonance(const std::vector<double>& modes, double step) {
+  std::optional<resonance_of_mode> nearest;
   for (const double omega : modes) {
     if (!(omega > 0.0)) continue;
     const double multiple = std::max(1.0, std::round(step * omega / std::numbers::pi));
-    const resonance one{omega, multiple, multiple * std::numbers::pi / omega};
+    const resonance_of_mode one{omega, multiple, multiple * std::numbers::pi / omega};
     if (!nearest || std::abs(one.step - step) < std::abs(nearest->step - step)) nearest = one;
   }
   return nearest;
@@ -191,26 +235,23 @@ std::optional<resonance> nearest_resonance(const std::vector<double>& modes, dou
 void add_rotation(answer& result, const method& method, const prepared_problem& system, double step) {
   const auto guard = system.guard(method.letters());
   const auto worst = guard.most_magnified(method.letters(), method.coefficients(), step);
-  json& document = result.document;
-  document["magnification"] = {{"mode", worst.frequency}, {"factor", worst.factor}, {"steps", guard.steps()}};
+  stability_result& document = result.document;
+  document.magnification = {worst.frequency, worst.factor, guard.steps()};
   if (worst.frequency > 0.0) {
-    result.text += fmt::format("  the mode {:.6g} is magnified most, {:.4g}-fold in {} steps\n",
-                               worst.frequency, worst.factor, guard.steps());
+    result.details += fmt::format("the mode {:.6g} is magnified most, {:.4g}-fold in {} steps\n",
+                                  worst.frequency, worst.factor, guard.steps());
   }
   const auto pair = guard.most_resonant(method.letters(), method.coefficients(), step);
-  document["resonant_pair"] = nullptr;
   if (pair.growth > 0.0) {
-    document["resonant_pair"] = {{"first", pair.first}, {"second", pair.second}, {"growth", pair.growth}};
-    result.text +=
-        fmt::format("  the pair of modes {:.6g} and {:.6g} grows by the factor exp({:.3g}) in {} steps\n",
+    document.resonant_pair = {pair.first, pair.second, pair.growth};
+    result.details +=
+        fmt::format("the pair of modes {:.6g} and {:.6g} grows by the factor exp({:.3g}) in {} steps\n",
                     pair.first, pair.second, pair.growth, guard.steps());
   }
-  document["resonance"] = nullptr;
-  if (const auto nearest = nearest_resonance(guard.modes(), step)) {
-    document["resonance"] = {
-        {"mode", nearest->mode}, {"multiple", nearest->multiple}, {"step", nearest->step}};
-    result.text += fmt::format("  nearest resonance h omega = {:g} pi, of the mode {:.6g}: at step {:.6g}\n",
-                               nearest->multiple, nearest->mode, nearest->step);
+  document.resonance = nearest_resonance(guard.modes(), step);
+  if (const auto& nearest = document.resonance) {
+    result.details += fmt::format("nearest resonance h omega = {:g} pi, of the mode {:.6g}: at step {:.6g}\n",
+                                  nearest->multiple, nearest->mode, nearest->step);
   }
 }
 
@@ -227,8 +268,21 @@ void write_curve(const stability_command& command, const subject& target, const 
 
 }  // namespace
 
+NYSALT_DESCRIBED(stability_window, low, high)
+NYSALT_DESCRIBED(step_range, low, high)
+NYSALT_DESCRIBED(margin_on_band, low, high, margin)
+NYSALT_DESCRIBED(magnified_mode, mode, factor, steps)
+NYSALT_DESCRIBED(growing_pair, first, second, growth)
+NYSALT_DESCRIBED(resonance_of_mode, mode, multiple, step)
+NYSALT_DESCRIBED(stability_result, method, letters, coefficients, order, evaluations_per_step, limit,
+                 limit_per_evaluation, windows, touching, system, step, judgement, loses_fewest, bands,
+                 stable_steps, linear_step, safe_step, magnification, resonant_pair, resonance, warnings,
+                 output)
+
+json schema_of_stability() { return whole_schema<stability_result>("nysalt stability"); }
+
 int stability(const stability_command& command, const common_settings& common) {
-  if (command.step) require_positive("--step", *command.step);
+  if (command.step) require_positive("step", *command.step);
   if (command.system && !command.step) {
     refuse("--system must come with --step; give the step at which its frequencies must be stable");
   }
@@ -258,8 +312,8 @@ int stability(const stability_command& command, const common_settings& common) {
   answer result = about(target, chart);
   std::optional<marked_step> marked;
   if (system) {
-    result.document["system"] = system->description();
-    result.document["step"] = *command.step;
+    result.document.system = system->description();
+    result.document.step = command.step;
     progress shown;
     warn_of_threads(common);
     // A bath drives the initial states to its stationary distribution.
@@ -269,25 +323,27 @@ int stability(const stability_command& command, const common_settings& common) {
     const auto rival = loses_fewest(target.method, *system, found, common.execution.threads);
     shown.clear();
     add_judgement(result, found);
-    result.document["loses_fewest"] = to_json(rival);
-    if (rival) result.text += "  " + in_words(*rival) + "\n";
+    result.document.loses_fewest = rival;
+    if (rival) result.text += in_words(*rival) + "\n";
     if (rotates) add_rotation(result, target.method, *system, *command.step);
     if (!rotates && !has_own_letters) {
       add_steps(result, target.method, chart, *system, found, common.execution.threads);
       marked = {system->description(), *command.step, system->frequency_bands()};
       if (marked->bands.empty()) marked->bands.push_back({0.0, found.highest_frequency});
     }
-    result.document["warnings"] = warnings;
   }
+  result.document.warnings = warnings;
   if (!command.output.empty()) {
     write_curve(command, target, chart, marked, common);
-    result.document["output"] = command.output;
-    result.text += line_of_written(command.output);
+    result.document.output = command.output;
   }
   if (!common.json) {
     for (const auto& warning : warnings) warn(warning);
   }
-  print(common.json ? text_of(result.document) : result.text);
+  std::string text =
+      common.json ? text_of(whole_document(result.document)) : result.readable(form_of(common));
+  if (!common.json && !command.output.empty()) text += line_of_written(command.output);
+  print(text);
   return done;
 }
 

@@ -70,6 +70,7 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
       ->type_name("FOLDER");
   add_resume(command, asked.resume);
   add_json(command, common);
+  add_verbose(command, common);
   add_common(command, common);
   add_force(command, common, "use a scheme at another step or system than it was learned for");
   command.footer(
@@ -84,13 +85,13 @@ subcommand offer_compare(CLI::App& app, common_settings& common) {
       "--equal-cost "
       "--horizon 10 --learn-horizon 20 --trajectories 48 --metric state,energy --output report");
   const auto run_it = [typed, &asked, &command, &common] {
-    const auto given = [&](const char* option) { return command.count(option) > 0; };
-    if (given("--methods")) asked.methods = entries_of(typed->methods, "--methods");
+    const auto given = [&](const char* field) { return command.count(spelled(field)) > 0; };
+    if (given("methods")) asked.methods = entries_of(typed->methods, "--methods");
     asked.steps = numbers_of(typed->steps, "--steps");
     asked.range = numbers_of(typed->range, "--range");
     asked.prices = numbers_of(typed->prices, "--prices");
-    if (given("--metric")) asked.metrics = entries_of(typed->metrics, "--metric");
-    if (given("--levels")) asked.levels = numbers_of(typed->levels, "--levels");
+    if (given("metric")) asked.metrics = entries_of(typed->metrics, "--metric");
+    if (given("levels")) asked.levels = numbers_of(typed->levels, "--levels");
     require_fitting(asked, given);
     return compare(asked, common);
   };

@@ -41,6 +41,7 @@ subcommand offer_learn(CLI::App& app, common_settings& common) {
   command.add_option("--output", asked.output, "the scheme file to write")->type_name(a_file);
   add_resume(command, asked.resume);
   add_json(command, common);
+  add_verbose(command, common);
   add_common(command, common);
   add_force(command, common, "write the scheme even if the fit is not usable");
   command.footer(

@@ -15,6 +15,8 @@ subcommand offer_list(CLI::App& app, common_settings& common) {
   command.add_option("--system", asked->system, "the file of a system of your own, which is listed too")
       ->type_name(a_file);
   begin_group(command, output_group);
+  command.add_option("--schemas", asked->schemas, "write the JSON Schemas of the documents into the folder")
+      ->type_name("FOLDER");
   add_json(command, common);
   add_common(command, common);
   command.footer("Examples:\n  nysalt list\n  nysalt list --json");

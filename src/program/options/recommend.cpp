@@ -49,7 +49,8 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
   add_number(command, "--acceptance", asked.sampling.acceptance,
              "the mean acceptance at which steps are compared");
   add_number(command, "--times-larger", asked.sampling.times_larger,
-             "how many times as large as this system the one is that will be sampled");
+             "with --for sampling: how many times as large as this system the one is that will be sampled")
+      ->group(more_of("Cost or error"));
   add_number(command, "--hmc-temperature", asked.hmc_temperature,
              "the temperature kT, an energy; that of --metric acceptance too");
   begin_group(command, method_options);
@@ -65,6 +66,7 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
   command.add_option("--output", asked.output, "the file to write: the method to take")->type_name(a_file);
   add_resume(command, asked.resume);
   add_json(command, common);
+  add_verbose(command, common);
   add_common(command, common);
   command.footer(
       "Examples:\n"

@@ -48,6 +48,10 @@ void add_resume(CLI::App& command, bool& resume) {
   command.add_flag("--resume", resume, "go on where the work for this output was stopped");
 }
 
+void add_verbose(CLI::App& command, common_settings& common) {
+  command.add_flag("--verbose", common.verbose, "print all details");
+}
+
 void add_force(CLI::App& command, common_settings& common, const char* what) {
   command.add_flag("--force", common.force, what)->group(general_options);
 }

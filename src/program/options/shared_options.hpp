@@ -32,6 +32,8 @@ void add_common(CLI::App& command, common_settings& common);
 void add_json(CLI::App& command, common_settings& common);
 /// --resume, of commands that take long.
 void add_resume(CLI::App& command, bool& resume);
+/// --verbose, there too.
+void add_verbose(CLI::App& command, common_settings& common);
 /// Of the general options.
 void add_force(CLI::App& command, common_settings& common, const char* what);
 

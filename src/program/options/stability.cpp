@@ -43,6 +43,7 @@ subcommand offer_stability(CLI::App& app, common_settings& common) {
   command.add_flag("--plot", asked.plot,
                    "draw this curve beside the output, with its windows and the z of the system");
   add_json(command, common);
+  add_verbose(command, common);
   add_common(command, common);
   add_force(command, common, "examine a scheme at another step or system than it was learned for");
   command.footer(

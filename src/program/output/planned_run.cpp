@@ -19,19 +19,19 @@ namespace {
 
 void require_observables(const run_command& command, const prepared_problem& system) {
   for (const auto& name : command.observables) system.require_observable(name);
-  require_different("--observables", command.observables);
+  require_different("observables", command.observables);
 }
 
 trajectories_plan plan_of(const run_command& command, const prepared_problem& system,
                           const common_settings& common) {
-  require_positive("--step", command.step);
+  require_positive("step", command.step);
   const std::int64_t count = command.trajectories.value_or(system.given_states().value_or(1));
-  require_at_least_one("--trajectories", count);
+  require_at_least_one("trajectories", count);
   constexpr std::int64_t most = std::int64_t{1} << 48U;  // the number of trajectories with noise of their own
-  if (count > most) refuse("--trajectories must be at most 2^48 = {}, got {}", most, count);
-  system.require_starts("--trajectories", count);
-  require_at_least_one("--sample-every", command.sample_every);
-  const std::int64_t steps = steps_within("--horizon", command.horizon, command.step);
+  if (count > most) refuse_value("trajectories", "must be at most 2^48 = {}, got {}", most, count);
+  system.require_starts("trajectories", count);
+  require_at_least_one("sample_every", command.sample_every);
+  const std::int64_t steps = steps_within("horizon", command.horizon, command.step);
   return {command.step, steps, count, seed_for(role::test, common.seed), common.execution.threads};
 }
 

@@ -182,9 +182,8 @@ void run_output::finish() {
   if (!keeps_work_) work_->remove();
 }
 
-void run_output::describe(json& document) {
-  samples_->describe(document);
-  if (!output_.empty()) document["output"] = output_;
+void run_output::describe(std::vector<std::string>& columns, json& rows) {
+  samples_->describe(columns, rows);
 }
 
 }  // namespace nysalt::program

@@ -45,8 +45,8 @@ class run_output {
 
   /// Of what was written, of every n-th sample.
   first_trajectory read_first(std::int64_t every) const { return samples_->read_first(output_, every); }
-  /// Adds to a document where the samples are, or themselves.
-  void describe(json& document);
+  /// The names of the columns, and the rows that were kept for a document.
+  void describe(std::vector<std::string>& columns, json& rows);
 
  private:
   void make();

@@ -98,10 +98,10 @@ class sample_table final : public sample_writer {
     return result;
   }
 
-  void describe(json& document) override {
-    document["columns"] = {"trajectory", "step", "t"};
-    for (const auto& name : shape_.observables) document["columns"].push_back(name);
-    if (!write_) document["rows"] = std::move(rows_);
+  void describe(std::vector<std::string>& columns, json& rows) override {
+    columns = {"trajectory", "step", "t"};
+    columns.insert(columns.end(), shape_.observables.begin(), shape_.observables.end());
+    if (!write_) rows = std::move(rows_);
   }
 
  private:

@@ -59,8 +59,8 @@ class sample_writer {
   virtual std::optional<file_sum> sum_in(const std::filesystem::path& file) const = 0;
   /// Of a finished file, of every n-th sample. Throws refusal if it cannot be read.
   virtual first_trajectory read_first(const std::filesystem::path& file, std::int64_t every) const = 0;
-  /// Adds to a document what it says of the samples, and the rows that were kept for it.
-  virtual void describe(json&) {}
+  /// The names of the columns of a table, and the rows that were kept for a document.
+  virtual void describe(std::vector<std::string>& /*columns*/, json& /*rows*/) {}
 
  protected:
   sampled_shape shape_;

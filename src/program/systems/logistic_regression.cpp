@@ -33,8 +33,9 @@ labelled_rows rows_of(const std::string& file, const std::string& label) {
   const auto header = [&](const std::vector<std::string>& found) {
     names = found;
     if (names.size() < 2) {
-      refuse(
-          "--data {}: it must have a predictor and a label, got one column '{}'; separate columns by commas, "
+      refuse_value(
+          "data",
+          "{}: it must have a predictor and a label, got one column '{}'; separate columns by commas, "
           "semicolons or tabs",
           file, names.front());
     }
@@ -45,14 +46,14 @@ labelled_rows rows_of(const std::string& file, const std::string& label) {
     }
     at = label.empty() ? names.size() - 1 : static_cast<std::size_t>(named - names.begin());
   };
-  read_csv("--data", file, header, [&](csv_row& row) {
+  read_csv(spelled("data"), file, header, [&](csv_row& row) {
     for (std::size_t j = 0; j < row.size(); ++j) values.push_back(row.number(j));
     const double found = values[values.size() - row.size() + at];
     if (found != 0.0 && found != 1.0) {
       refuse("{} must be 0 or 1 as a label, got {}", row.place(at), row.text(at));
     }
   });
-  if (values.empty()) refuse("--data {}: it must have a row beside the line of names", file);
+  if (values.empty()) refuse_value("data", "{}: it must have a row beside the line of names", file);
   const auto columns = std::ssize(names);
   const auto label_at = static_cast<Eigen::Index>(at);
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> all(
@@ -99,9 +100,8 @@ void standardise(Eigen::MatrixXd& predictors) {
     // Values of one constant, each of at most four roundings by eps/2, differ by at most 4 eps.
     if (!(column.maxCoeff() - column.minCoeff() > 4.0 * eps)) {
       refuse(
-          "--standardise: predictor {} must vary, and all its values are equal but for rounding; leave the "
-          "column away",
-          j + 1);
+          "{}: predictor {} must vary, and all its values are equal but for rounding; leave the column away",
+          spelled("standardise"), j + 1);
     }
     column -= column.mean();
     // A mean beyond what n roundings by eps/2 make of 0, twice that to be sure, is that of the first mean.

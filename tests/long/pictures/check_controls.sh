@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Whether the controls of a page work in headless Chromium: tables are sorted and filtered, points show values.
+# Whether the controls of a page work in headless Chromium: tables are sorted and filtered.
 # usage: check_controls.sh PAGE.html; exit code 0 if all is well, else 1 and a sentence.
 set -euo pipefail
 

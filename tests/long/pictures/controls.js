@@ -4,14 +4,13 @@ addEventListener('load', () => {
   const wrong = [];
   let sorted = 0;
   let filtered = 0;
-  let shown = 0;
   const texts = (table, column) => [...table.tBodies[0].rows].map(row => row.cells[column].textContent);
   const isMissing = text => text === '' || text === '-';
   for (const table of document.querySelectorAll('table')) {
     const rows = table.tBodies[0].rows.length;
     const heads = [...table.tHead.rows[0].cells];
     const button = head => head.querySelector('button');
-    if (rows < 8 || !table.parentElement.matches('h2 ~ *')) {
+    if (rows < 8 || !table.matches('h2 ~ *')) {
       if (heads.some(button)) wrong.push('a small table has buttons');
       continue;
     }
@@ -40,13 +39,14 @@ addEventListener('load', () => {
         ++sorted;
       }
     });
-    const input = table.parentElement.previousElementSibling?.querySelector('input');
+    const input = table.previousElementSibling?.querySelector('input');
     if (!input) {
       wrong.push('a field is missing');
       continue;
     }
     const visible = () => [...table.tBodies[0].rows].filter(row => row.offsetParent !== null);
-    const word = table.tBodies[0].rows[0].cells[0].textContent;
+    const cells = [...table.tBodies[0].rows[0].cells].map(cell => cell.textContent);
+    const word = cells.sort((a, b) => b.length - a.length)[0];
     const write = text => {
       input.value = text;
       input.dispatchEvent(new Event('input'));
@@ -61,27 +61,9 @@ addEventListener('load', () => {
     if (visible().length !== rows) wrong.push('an empty field hides rows');
     ++filtered;
   }
-  const value = document.querySelector('.value');
-  if (!value) wrong.push('nothing shows values');
-  for (const point of value ? document.querySelectorAll('figure svg .point') : []) {
-    const mark = point.querySelector('use');
-    mark.scrollIntoView({ block: 'center' });
-    const box = mark.getBoundingClientRect();
-    const at = { clientX: box.x + box.width / 2, clientY: box.y + box.height / 2, bubbles: true };
-    const met = document.elementFromPoint(at.clientX, at.clientY);
-    if (!met?.closest('.point')) wrong.push(`the pointer meets ${met?.outerHTML.slice(0, 90)} at ${at.clientX} ${at.clientY}`);
-    mark.dispatchEvent(new PointerEvent('pointerover', at));
-    const seen = value.getBoundingClientRect();
-    if (value.hidden || !/: .*[-+.\de]+/.test(value.textContent)) wrong.push(`no value: ${value.textContent}`);
-    if (seen.x < 0 || seen.right > innerWidth || seen.bottom > innerHeight) wrong.push('a value is cut');
-    mark.dispatchEvent(new PointerEvent('pointerout', at));
-    if (!value.hidden) wrong.push('a value stays');
-    ++shown;
-  }
-  if (document.querySelector('figure svg title')) wrong.push('a title would pop up twice');
   const found = document.createElement('pre');
   found.id = 'found';
   found.textContent = wrong.length ? `wrong: ${[...new Set(wrong)].join('; ')}`
-    : `${sorted} sorted, ${filtered} filtered, ${shown} values`;
+    : `${sorted} sorted, ${filtered} filtered`;
   document.body.append(found);
 });

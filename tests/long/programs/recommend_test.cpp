@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(a_budget_of_seconds_gives_equal_seconds) {
   BOOST_TEST(all["rows"].size() >= 12U);
   std::set<double> budgets;
   for (const auto& one : all["rows"]) {
-    if (one.contains("reason")) {  // on a machine that is busier by now, fewer than ten steps
+    if (!one["reason"].is_null()) {  // on a machine that is busier by now, fewer than ten steps
       const std::string reason = one["reason"];
       BOOST_TEST(reason.find("of its steps of") != std::string::npos, reason);
       continue;
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(what_is_said_of_a_heavy_tail_holds_on_other_seeds) {
         fmt::format("recommend --system pendulum --budget {:.17g} --horizon 20 --families fg4 --trajectories "
                     "400 --seed {}",
                     row["evaluations_per_step"].get<double>() / row["step_size"].get<double>(), seed));
-    BOOST_TEST((*row_of(again, name))["error_of_95_percent"].get<double>() <= 0.01, name);
+    BOOST_TEST((*row_of(again, name))["quantile_95"].get<double>() <= 0.01, name);
   }
 }
 

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSL-1.0
+// Candidates at one cost that are left behind on few trajectories, and those that are learned from all.
+// Source: [jamieson_talwalkar_2016, section 2], successive halving.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "learning.hpp"
+#include "recommendation.hpp"
+
+namespace nysalt::program {
+
+namespace {
+
+/// The error of one over that of the other on the first trajectories, which both ran.
+ratio_estimate ratio_on_common(const candidate& one, const candidate& other, const error_statistic& by) {
+  const auto& of_one = one.error.scores;
+  const auto& of_other = other.error.scores;
+  const std::size_t common = std::min(of_one.size(), of_other.size());
+  return paired_ratio({of_one.data(), common}, {of_other.data(), common}, by);
+}
+
+/// The least error on common trajectories; null of none.
+const candidate* least_of(const std::vector<const candidate*>& all, const error_statistic& by) {
+  const candidate* best = nullptr;
+  for (const candidate* one : all) {
+    if (best == nullptr || ratio_on_common(*one, *best, by).value < 1.0) best = one;
+  }
+  return best;
+}
+
+}  // namespace
+
+/// Each time three times as many, up to all. To judge costs less than to learn, and tails of errors show on
+/// many trajectories only: so all are judged on more than they are learned from.
+std::vector<recommendation::stage> recommendation::stages() const {
+  constexpr std::int64_t fewest = 16;  // a pass over fewer costs as much: they are the lanes of a processor
+  const auto part = [](std::int64_t all, std::int64_t divisor, std::int64_t at_least) {
+    return std::min(all, std::max(at_least, all / divisor));
+  };
+  std::vector<stage> result;
+  for (const std::int64_t divisor : {9, 3, 1}) {
+    const stage next{part(options_.learning.trajectories, divisor, fewest),
+                     part(options_.trajectories, std::max<std::int64_t>(divisor / 3, 1), 2 * fewest)};
+    const bool is_new = result.empty() || next.learned_from > result.back().learned_from ||
+                        next.judged_on > result.back().judged_on;
+    if (is_new) result.push_back(next);
+  }
+  return result;
+}
+
+void recommendation::race(const contest& among, std::vector<candidate*> racing) {
+  const auto all = stages();
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    for (candidate* contender : racing) advance(among, *contender, all[n]);
+    measure_on_test(racing, all[n].judged_on);
+    if (n + 1 < all.size()) leave_behind(among, racing);
+  }
+}
+
+/// What was learned from fewer trajectories, or in the other contest, is where the search goes on; the last
+/// few are searched for once more from everywhere, on all trajectories. So is what could not be used.
+void recommendation::advance(const contest& among, candidate& contender, const stage& at) {
+  if (!contender.is_learned()) {
+    if (!contender.method && contender.reason.empty()) prepare(contender, 0);
+    return;
+  }
+  if (contender.learned_from >= at.learned_from) return;
+  const candidate* known = contender.learned ? &contender : nullptr;
+  if (known == nullptr && by_evaluations_ && &among != &*by_evaluations_) {
+    const auto other = std::ranges::find_if(by_evaluations_->all, [&](const candidate& one) {
+      return one.source.typed == contender.source.typed && one.learned;
+    });
+    if (other != by_evaluations_->all.end()) known = &*other;
+  }
+  if (known == nullptr || !known->learned->fit.usable) return prepare(contender, at.learned_from);
+  constexpr double nearby = 1.5;  // at steps further apart other minima may be the best
+  const double apart = std::abs(std::log(contender.step / known->step));
+  const bool is_last = at.learned_from == options_.learning.trajectories;
+  const bool is_near = !is_last && known->learned->fit.follows_to_the_end() && apart <= std::log(nearby);
+  prepare(contender, at.learned_from, theta_of(known->learned->fit), is_near);
+}
+
+/// Those whose errors are larger than the least by more than chance and more data can change, and where they
+/// are many all but the best third of families, whose learning is the cost. The best of either kind stays. A
+/// fit that cannot be used is tried once more.
+void recommendation::leave_behind(const contest& among, std::vector<candidate*>& racing) const {
+  std::erase_if(racing, [](const candidate* one) {
+    const bool is_hopeless =
+        one->reason.empty() ? !one->has_error() : !one->learned || one->learned->fit.usable;
+    return is_hopeless;
+  });
+  // Not std::ranges::stable_partition: clang++ 14 does not compile what it returns.
+  const auto measured = std::stable_partition(racing.begin(), racing.end(),
+                                              [](const candidate* one) { return !one->has_error(); });
+  std::vector<candidate*> in_order(measured, racing.end());
+  racing.erase(measured, racing.end());
+  if (in_order.empty()) return;
+  std::ranges::stable_sort(in_order, {}, [&](const candidate* one) { return among.error_of(*one); });
+  std::vector<const candidate*> known(in_order.begin(), in_order.end());
+  for (const auto& one : among.all) {
+    if (one.is_eligible()) known.push_back(&one);
+  }
+  const candidate* best = least_of(known, among.statistic);
+  constexpr std::size_t fewest = 3;
+  const std::size_t most = std::max(fewest, (in_order.size() + 2) / 3);
+  for (std::size_t n = 0; n < in_order.size(); ++n) {
+    candidate& one = *in_order[n];
+    const ratio_estimate ratio = ratio_on_common(one, *best, among.statistic);
+    // A fit to n trajectories that count alike adds at most the share p / n to the mean square of an error, p
+    // the number of parameters: each trajectory counted as one residual.
+    double more_data = 1.0;
+    if (one.is_learned()) {
+      const fit_summary& fit = one.learned->fit;
+      const double alike = std::isfinite(fit.deciding_trajectories)
+                               ? std::min(fit.deciding_trajectories, static_cast<double>(one.learned_from))
+                               : 1.0;
+      more_data = std::sqrt(1.0 + static_cast<double>(fit.parameters.size()) / std::max(alike, 1.0));
+    }
+    const bool is_beyond = one.is_learned() && n >= most;
+    if (n == 0 || !(ratio.low > more_data || is_beyond)) {
+      racing.push_back(&one);
+      continue;
+    }
+    one.is_left_behind = true;
+    one.reason = fmt::format("left behind on {} of {} trajectories: its error was {:.3g} times that of {}",
+                             one.error.trajectories, options_.trajectories, ratio.value, best->source.typed);
+  }
+}
+
+bool recommendation::is_ahead(const contest& among, const candidate& one, const candidate& other) const {
+  return options_.error ? among.cost_of(one) < among.cost_of(other)
+                        : ratio_on_common(one, other, among.statistic).value < 1.0;
+}
+
+void recommendation::go_on(const contest& among, candidate& contender) {
+  contender.is_left_behind = false;
+  contender.reason.clear();
+  if (options_.error) {
+    find_steps({&contender});
+  } else {
+    advance(among, contender, {options_.learning.trajectories, options_.trajectories});
+  }
+  measure_on_test({&contender}, options_.trajectories);
+}
+
+bool recommendation::call_back(contest& among) {
+  for (const bool learned : {true, false}) {
+    candidate* next = nullptr;
+    for (auto& one : among.all) {
+      if (!one.is_left_behind || one.is_learned() != learned) continue;
+      if (next == nullptr || is_ahead(among, one, *next)) next = &one;
+    }
+    const candidate* best = among.best_of(learned);
+    if (next == nullptr || (best != nullptr && !is_ahead(among, *next, *best))) continue;
+    go_on(among, *next);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace nysalt::program
