@@ -135,7 +135,7 @@ def test_the_fine_step_is_that_of_the_reference():
     spring = nysalt.system("oscillator", omega=1.0)
     asked = dict(family="nystrom", step=0.5, horizon=2, trajectories=4, random_starts=0, loss="state:1")
     fit = nysalt.learn(spring, fine_step=0.05, **asked).fit
-    assert "0.05" in fit["reference"]
+    assert "0.05" in fit["fits"][0]["reference"]
     with pytest.raises(ValueError, match="fine_step"):  # a step must be a multiple of it
         nysalt.learn(spring, fine_step=0.3, **asked)
 
