@@ -104,6 +104,7 @@ work_file::~work_file() {
     nysalt::atomic_file next(path_, "next");
     write(next);
   } catch (const std::exception&) {  // what was written before stays
+    if (found_ == 0 && !has_written_parts_) remove();
   }
 }
 
@@ -218,6 +219,7 @@ void work_file::write(nysalt::atomic_file& next) {
   next.commit(true);
   held_ = next.release();
   is_written_ = true;
+  has_written_parts_ = !is_empty();
   written_at_ = clock::now();
   writing_ = written_at_ - began;
 }

@@ -101,6 +101,7 @@ class work_file {
   std::string warning_;
   std::optional<nysalt::detail::unfinished_name> name_;  // while there are no parts
   bool is_written_ = true;
+  bool has_written_parts_ = false;
   clock::time_point written_at_;
   clock::duration writing_ = {};
 };

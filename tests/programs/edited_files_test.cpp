@@ -156,7 +156,8 @@ void edit_state_in(const scratch& folder, const std::string& resume) {
     if (done.code != 0) require_refused(done, "", what);
     refused += done.code != 0 ? 1U : 0U;
   }
-  BOOST_TEST(refused > 5U, refused << " of " << resume << " " << sound.substr(begin, end - begin));
+  // Each of the two numbers of the state of chains, changed or missing.
+  BOOST_TEST(refused >= 4U, refused << " of " << resume << " " << sound.substr(begin, end - begin));
 }
 
 }  // namespace

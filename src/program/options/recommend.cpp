@@ -47,7 +47,8 @@ subcommand offer_recommend(CLI::App& app, common_settings& common) {
              "mean duration of trajectories, uniform from 0 to twice it")
       ->default_str("");
   add_number(command, "--acceptance", asked.sampling.acceptance,
-             "the mean acceptance at which steps are compared");
+             "with --for sampling: the mean acceptance at which steps are compared")
+      ->group(more_of("Cost or error"));
   add_number(command, "--times-larger", asked.sampling.times_larger,
              "with --for sampling: how many times as large as this system the one is that will be sampled")
       ->group(more_of("Cost or error"));
