@@ -25,7 +25,6 @@ int run_command_line(int argc, char** argv) {
   app.add_option("--output", asked.output, "a folder to write: paper.md, paper.html, paper.json and pictures")
       ->type_name("FOLDER");
   app.add_flag("--quick", asked.quick, "take few trajectories and steps, to see it run");
-  add_json(app, common);
   add_common(app, common);
   app.footer(
       "Examples:\n"
