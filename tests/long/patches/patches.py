@@ -10,6 +10,7 @@ The exit status is 1 if a patch changes more files than it may, or if what was a
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -146,11 +147,13 @@ class Uses:
         package = os.path.join(os.path.dirname(self.program), "python")
         if os.path.isdir(os.path.join(package, "nysalt")):
             environment = {**os.environ, "PYTHONPATH": package}
+            with open(os.path.join(os.path.dirname(self.program), "CMakeCache.txt"), encoding="utf-8") as file:
+                python = re.search(r"^NYSALT_MODULE_PYTHON:\w+=(.+)$", file.read(), re.MULTILINE)[1]
             read = "import inspect, nysalt; print(inspect.signature(nysalt.run).parameters['echoes'])"
-            found = output_of([sys.executable, "-B", "-c", read], env=environment)
+            found = output_of([python, "-B", "-c", read], env=environment)
             require(found.replace("'", "") == "echoes: int = 3\n", f"the signature has {found}")
             stub = os.path.join(source, "docs", "site", "stub.py")
-            output_of([sys.executable, "-B", stub, "--update"], env=environment)
+            output_of([python, "-B", stub, "--update"], env=environment)
             with open(os.path.join(source, "python", "nysalt", "__init__.pyi"), encoding="utf-8") as file:
                 require("echoes: int=..." in file.read(), "the types must have the option")
 
