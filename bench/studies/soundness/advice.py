@@ -35,8 +35,10 @@ def options_of(system):
 
 
 def errors_of(document, statistic):
-    """The errors of the methods that hold at their step and lose no trajectory."""
-    return {row["method"]: row[statistic] for row in document["rows"]
+    """The errors of the methods that hold at their step and lose no trajectory. What is below the reference's own error, or
+    rounding, says nothing."""
+    rounding = 1e-12  # of some thousand steps of numbers of order one
+    return {row["method"]: max(row[statistic], row["reference_error"] or 0.0, rounding) for row in document["rows"]
             if row["reason"] is None and row["diverged"] == 0 and row[statistic] is not None
             and (row["judgement"] is None or row["judgement"]["verdict"] in HOLDS)}
 
