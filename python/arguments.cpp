@@ -3,6 +3,7 @@
 #include "../src/program/systems.hpp"
 
 #include <pybind11/numpy.h>
+#include <pybind11/stl.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,10 @@
 namespace nysalt::python {
 
 namespace py = pybind11;
+using program::option_row;
+using program::option_rows;
 using program::refuse;
+namespace trait = program::trait;
 
 std::string shown(const py::handle& value) {
   constexpr py::ssize_t most = 80;
@@ -76,17 +80,15 @@ std::vector<T> each(const py::object& value, const auto& thing) {
   return all;
 }
 
-void take_learning(const argument_reader& arguments, const std::string& prefix, learning_options& how) {
-  const auto named = [&](const char* name) { return prefix + name; };
-  arguments.take("purpose", how.purpose);
-  arguments.take(named("trajectories").c_str(), how.trajectories);
-  arguments.take(named("horizon").c_str(), how.horizon);
-  arguments.take(named("loss").c_str(), how.loss);
-  arguments.take(named("effort").c_str(), how.effort);
-  arguments.take(named("random_starts").c_str(), how.random_starts);
-  arguments.take("coordinates", how.coordinates);
-  arguments.take("fine_step", how.fine_step);
-  arguments.take("fix", how.fix);
+/// Of a dict, as name=value.
+std::vector<std::string> named_numbers(const char* name, const py::object& value) {
+  if (!py::hasattr(value, "keys")) refuse("{} must be a dict of numbers by name, got {}", name, shown(value));
+  std::vector<std::string> all;
+  for (const auto& [key, number] : py::dict(value)) {
+    const std::string of = text_in("the name of an argument", key);
+    all.push_back(fmt::format("{}={}", of, number_in(of.c_str(), number)));
+  }
+  return all;
 }
 
 }  // namespace
@@ -105,6 +107,20 @@ std::vector<std::string> argument_reader::names() const {
   return all;
 }
 
+void argument_reader::take(const program::option_rows& rows) const {
+  for (const auto& row : rows) {
+    const std::string name = program::spelled(row.field);
+    if (!has(name.c_str())) continue;
+    const std::string other = program::spelled(row.excludes);
+    if (has(other.c_str())) refuse("{0} must come without {1}; leave {1} away", name, other);
+    if (row.is(trait::by_name)) {
+      *std::get<std::vector<std::string>*>(row.to) = named_numbers(name.c_str(), arguments_[name.c_str()]);
+    } else {
+      std::visit([&](auto* to) { take(name.c_str(), *to); }, row.to);
+    }
+  }
+}
+
 void argument_reader::take(const char* name, double& to) const {
   if (has(name)) to = number_in(name, arguments_[name]);
 }
@@ -117,6 +133,20 @@ void argument_reader::take(const char* name, std::int64_t& to) const {
   if (!whole) refuse_kind(name, "a whole number", value);
   to = PyLong_AsLongLong(whole.ptr());
   if (PyErr_Occurred() != nullptr) refuse_kind(name, "a whole number that can be counted", value);
+}
+
+void argument_reader::take(const char* name, int& to) const {
+  std::int64_t whole = to;
+  take(name, whole);
+  if (!std::in_range<int>(whole)) refuse("{} must be a number of {}, got {}", name, name, whole);
+  to = static_cast<int>(whole);
+}
+
+void argument_reader::take(const char* name, std::uint64_t& to) const {
+  auto whole = static_cast<std::int64_t>(to);
+  take(name, whole);
+  if (whole < 0) refuse("{} must not be negative, got {}", name, whole);
+  to = static_cast<std::uint64_t>(whole);
 }
 
 void argument_reader::take(const char* name, bool& to) const {
@@ -148,15 +178,8 @@ void argument_reader::take(const char* name, std::map<std::string, std::string>&
 
 program::common_settings common_of(const argument_reader& arguments, bool calls_python) {
   program::common_settings settings;
-  std::int64_t seed = static_cast<std::int64_t>(settings.seed);
-  arguments.take("seed", seed);
-  if (seed < 0) refuse("seed must not be negative, got {}", seed);
-  settings.seed = static_cast<std::uint64_t>(seed);
-  std::int64_t threads = program::usual_threads();
-  arguments.take("threads", threads);
-  if (!std::in_range<int>(threads)) refuse("threads must be a number of threads, got {}", threads);
-  settings.execution.threads = static_cast<int>(threads);
-  arguments.take("force", settings.force);
+  settings.execution.threads = program::usual_threads();
+  arguments.take(common_rows(settings, program::run_command::forced));
   settings.json = true;
   require_sound(settings);
   if (calls_python) settings.execution.threads = 1;
@@ -164,26 +187,6 @@ program::common_settings common_of(const argument_reader& arguments, bool calls_
 }
 
 namespace {
-
-/// Numbers by name, as name=value.
-std::vector<std::string> named_numbers(const argument_reader& arguments) {
-  std::vector<std::string> all;
-  for (const auto& name : arguments.names()) {
-    double value = 0.0;
-    arguments.take(name.c_str(), value);
-    all.push_back(fmt::format("{}={}", name, value));
-  }
-  return all;
-}
-
-void take_potential(const argument_reader& arguments, program::typed_potential& potential) {
-  arguments.take("formula", potential.text);
-  if (potential.text.empty()) refuse("potential must be a text, got an empty one");
-  arguments.take("variables", potential.variables);
-  arguments.take("mass", potential.masses);
-  if (arguments.has("around")) potential.around = named_numbers(arguments.inner("around"));
-  potential.parameters = named_numbers(arguments.inner("parameters"));
-}
 
 /// Those that the system declares, as numbers of its kinds or texts; another is refused with the system's own
 /// list.
@@ -215,104 +218,115 @@ program::system_settings system_of(const argument_reader& arguments) {
   program::system_settings settings;
   arguments.take("name", settings.name);
   if (arguments.has("formula")) {
-    take_potential(arguments, settings.potential);
+    arguments.take("formula", settings.potential.text);
+    if (settings.potential.text.empty()) refuse("potential must be a text, got an empty one");
+    arguments.take(formula_rows(settings.potential));
+    settings.potential.parameters = named_numbers("parameters", arguments["parameters"]);
   } else if (arguments.has("parameters")) {
     take_parameters(arguments.inner("parameters"), settings);
   }
-  arguments.take("spread", settings.spread);
-  arguments.take("frequency", settings.frequency);
-  arguments.take("start", settings.start);
-  arguments.take("at", settings.at);
-  arguments.take("friction", settings.bath.friction);
-  arguments.take("sigma", settings.bath.sigma);
-  arguments.take("temperature", settings.bath.temperature);
+  arguments.take(start_rows(settings));
   return settings;
 }
 
-program::learn_command learn_of(const argument_reader& arguments, const program::system_settings& system) {
-  program::learn_command command;
+namespace {
+
+template <class Command>
+Command command_of(const argument_reader& arguments, const program::system_settings& system) {
+  Command command;
+  arguments.take(program::rows_of(command));
   command.system = system;
-  take_learning(arguments, "", command.learning);
-  arguments.take("family", command.family);
-  arguments.take("placement", command.placement);
-  arguments.take("step", command.step);
-  arguments.take("steps", command.steps);
-  arguments.take("enough", command.enough);
-  if (command.enough && arguments.has("trajectories")) {
-    refuse("enough must come without trajectories, as it finds how many it takes; leave trajectories away");
-  }
   return command;
 }
 
+}  // namespace
+
+program::learn_command learn_of(const argument_reader& arguments, const program::system_settings& system) {
+  return command_of<program::learn_command>(arguments, system);
+}
+
 program::run_command run_of(const argument_reader& arguments, const program::system_settings& system) {
-  program::run_command command;
-  command.system = system;
-  arguments.take("method", command.method);
+  auto command = command_of<program::run_command>(arguments, system);
   arguments.take("held", command.held);
-  arguments.take("placement", command.placement);
-  arguments.take("step", command.step);
-  arguments.take("horizon", command.horizon);
-  arguments.take("trajectories", command.trajectories);
-  arguments.take("observables", command.observables);
-  arguments.take("sample_every", command.sample_every);
-  arguments.take("checks", command.checks);
   return command;
 }
 
 program::compare_command compare_of(const argument_reader& arguments,
                                     const program::system_settings& system) {
-  program::compare_command command;
-  command.system = system;
-  take_learning(arguments, "learn_", command.learning);
-  arguments.take("methods", command.methods);
+  auto command = command_of<program::compare_command>(arguments, system);
   arguments.take("held", command.held);
-  arguments.take("placement", command.placement);
-  arguments.take("steps", command.steps);
-  arguments.take("equal_cost", command.equal_cost);
-  arguments.take("prices", command.prices);
-  arguments.take("horizon", command.horizon);
-  arguments.take("trajectories", command.trajectories);
-  arguments.take("metric", command.metrics);
-  arguments.take("observable", command.observable);
-  arguments.take("levels", command.levels);
-  arguments.take("range", command.range);
-  arguments.take("bins", command.bins);
-  arguments.take("longest_lag", command.longest_lag);
-  arguments.take("hmc_temperature", command.hmc_temperature);
   require_fitting(command, [&](const char* field) { return arguments.has(program::spelled(field).c_str()); });
   return command;
 }
 
 program::recommend_command recommend_of(const argument_reader& arguments,
                                         const program::system_settings& system) {
-  program::recommend_command command;
-  command.system = system;
-  take_learning(arguments, "learn_", command.learning);
-  arguments.take("families", command.families);
-  arguments.take("placement", command.placement);
-  arguments.take("budget", command.budget);
-  arguments.take("budget_seconds", command.budget_seconds);
-  arguments.take("error", command.error);
-  arguments.take("horizon", command.horizon);
-  arguments.take("trajectories", command.trajectories);
-  arguments.take("metric", command.metric);
-  arguments.take("observable", command.observable);
-  arguments.take("hmc_temperature", command.hmc_temperature);
-  arguments.take("looks", command.looks);
-  arguments.take("reversible", command.reversible);
-  return command;
+  return command_of<program::recommend_command>(arguments, system);
 }
 
 sampling_options sampling_of(const argument_reader& arguments, const program::system_settings& system) {
   sampling_options options{.starts_are_thermal = program::is_file_of_starts(system.start)};
-  take_learning(arguments, "learn_", options.learning);
-  arguments.take("families", options.families);
-  arguments.take("length", options.length);
-  arguments.take("acceptance", options.acceptance);
-  arguments.take("hmc_temperature", options.temperature);
-  arguments.take("times_larger", options.times_larger);
-  arguments.take("trajectories", options.trajectories);
+  arguments.take(program::rows_of(options));
   return options;
+}
+
+namespace {
+
+template <class T>
+const char* type_of(const T&) {
+  if (std::is_same_v<T, bool>) return "bool";
+  if (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>) return "float";
+  if (std::is_same_v<T, std::vector<double>>) return "Numbers";
+  if (std::is_same_v<T, std::vector<std::string>>) return "Texts";
+  return std::is_same_v<T, std::string> || std::is_same_v<T, std::optional<std::string>> ? "str" : "int";
+}
+
+template <class T>
+py::object default_of(const T& value, const option_row& row) {
+  if (row.is(trait::machine) || (value == T{} && !std::is_same_v<T, bool>)) return py::none();
+  if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+    if (value.size() == 1) return py::cast(value.front());
+  }
+  return py::cast(value);
+}
+
+py::list keywords_in(const option_rows& rows) {
+  py::list all;
+  for (const auto& row : rows) {
+    if (row.is(trait::program_only)) continue;
+    const std::string help = (row.is(trait::negated) ? "False: " : "") + row.help;
+    const auto add = [&](auto* to) {
+      all.append(py::make_tuple(program::spelled(row.field),
+                                row.is(trait::by_name) ? "Mapping[str, float]" : type_of(*to),
+                                default_of(*to, row), program::spelled_in(help)));
+    };
+    std::visit(add, row.to);
+  }
+  return all;
+}
+
+template <class Command>
+py::list keywords_of(const char* forced) {
+  Command command;
+  program::common_settings common;
+  return keywords_in(program::joined({program::rows_of(command), common_rows(common, forced)}));
+}
+
+}  // namespace
+
+py::dict keywords() {
+  program::system_settings system;
+  program::export_command source;
+  py::dict all;
+  all["system"] = keywords_in(start_rows(system));
+  all["potential"] = keywords_in(program::joined({formula_rows(system.potential), start_rows(system)}));
+  all["learn"] = keywords_of<program::learn_command>("");
+  all["run"] = keywords_of<program::run_command>(program::run_command::forced);
+  all["compare"] = keywords_of<program::compare_command>(program::compare_command::forced);
+  all["recommend"] = keywords_of<program::recommend_command>("");
+  all["recommend_for_sampling"] = keywords_of<sampling_options>("");
+  all["export"] = keywords_in(program::rows_of(source));
+  return all;
 }
 
 }  // namespace nysalt::python

@@ -33,10 +33,16 @@ class argument_reader {
   /// Of those that are not None.
   std::vector<std::string> names() const;
 
+  /// What the rows hold, by the names of their fields. Throws refusal for two of which one excludes the
+  /// other.
+  void take(const program::option_rows& rows) const;
+
   // Each throws refusal, naming the argument, for what is of another kind. A list may be a single value.
   // True is no number.
   void take(const char* name, double& to) const;
+  void take(const char* name, int& to) const;
   void take(const char* name, std::int64_t& to) const;
+  void take(const char* name, std::uint64_t& to) const;
   void take(const char* name, bool& to) const;
   void take(const char* name, std::string& to) const;
   void take(const char* name, std::vector<double>& to) const;
@@ -50,6 +56,9 @@ class argument_reader {
  private:
   pybind11::dict arguments_;
 };
+
+/// The keywords of calls by the rows of the commands: (name, type, default, help) in a list, by the command.
+pybind11::dict keywords();
 
 /// seed, threads and force; a system that calls Python has one thread.
 program::common_settings common_of(const argument_reader& arguments, bool calls_python);

@@ -138,19 +138,14 @@ py::dict method(const std::string& text, const std::string& name, const py::obje
 /// The text of `nysalt export`.
 std::string export_method(const py::dict& arguments) {
   const argument_reader asked(arguments);
-  std::string method, host, template_file;
+  program::export_command command;
   std::map<std::string, std::string> held;
-  program::export_request how;
-  asked.take("method", method);
-  asked.take("to", host);
-  asked.take("template", template_file);
+  asked.take("method", command.method);
   asked.take("held", held);
-  asked.take("name", how.name);
-  asked.take("step", how.step);
-  asked.take("placement", how.placement);
-  asked.take("displaced", how.displaced);
-  return program::export_text(host, template_file,
-                              program::exported_from(program::find_method(method, held), how));
+  asked.take(program::rows_of(command));
+  return program::export_text(
+      command.host, command.template_file,
+      program::exported_from(program::find_method(command.method, held), command.how));
 }
 
 void save(const std::string& path, const std::string& text) {
@@ -166,6 +161,7 @@ void save(const std::string& path, const std::string& text) {
 
 void add_commands(py::module_& module) {
   module.attr("version") = program::version;
+  module.def("keywords", &keywords);
   module.def("learn", &learn, rounded_as_usual());
   module.def("compare", &compare, rounded_as_usual());
   module.def("recommend", &recommend, rounded_as_usual());

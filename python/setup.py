@@ -102,7 +102,7 @@ class with_cmake(build_ext):
 setup(
     version=version(),
     packages=["nysalt"],
-    package_data={"nysalt": ["py.typed"]},
+    package_data={"nysalt": ["py.typed", "__init__.pyi"]},
     ext_modules=[Extension("nysalt._nysalt", sources=[])],
     cmdclass={"build_ext": with_cmake},
     options={"bdist_wheel": {"plat_name": "manylinux_{}_{}".format(

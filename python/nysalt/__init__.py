@@ -19,6 +19,7 @@ import inspect as _inspect
 import itertools as _itertools
 import json as _json
 import os as _os
+import sys as _sys
 import warnings as _warnings
 from dataclasses import dataclass as _dataclass
 from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
@@ -63,8 +64,43 @@ def _never_none(function: Callable[..., Any]) -> Tuple[str, ...]:
 def _require_values(function: Callable[..., Any], given: Mapping[str, Any]) -> None:
     """Refuses None where it stands for no default; `given` are the arguments of a call of the function, by name."""
     for name in _never_none(function):
-        if given[name] is None:
+        if given.get(name, name) is None:
             raise ValueError(f"{name} must have a value, got None")
+
+
+_keywords: Dict[str, List[Tuple[str, str, Any, str]]] = _nysalt.keywords()  # name, type, default and meaning, by function
+
+
+def _optioned(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Puts the keywords of the options of a function in the place of its argument `options`, a dict of those that are given.
+
+    A default of ... is that of the option of this name.
+    """
+    rows = {name: rest for name, *rest in _keywords[function.__name__]}
+    own = dict(_inspect.signature(function).parameters)
+    del own["options"]
+    own = {name: one.replace(default=rows[name][1]) if one.default is ... else one for name, one in own.items()}
+    keywords = [_inspect.Parameter(name, _inspect.Parameter.KEYWORD_ONLY, default=default,
+                                   annotation=kind if default is not None else f"Optional[{kind}]")
+                for name, (kind, default, _) in rows.items() if name not in own]
+    signature = _inspect.Signature(sorted([*own.values(), *keywords], key=lambda one: one.kind),
+                                   return_annotation=_inspect.signature(function).return_annotation)
+
+    @_functools.wraps(function)
+    def call(*args: Any, **given: Any) -> Any:
+        bound = signature.bind(*args, **given)
+        options = {one.name: bound.arguments.pop(one.name) for one in keywords if one.name in bound.arguments}
+        bound.apply_defaults()
+        _require_values(call, {**bound.arguments, **options})
+        taken = {name: bound.arguments[name] for name in own}
+        rest = {name: taken.pop(name) for name, one in own.items() if one.kind is one.VAR_KEYWORD}
+        return function(**taken, options=options, **{name: value for more in rest.values() for name, value in more.items()})
+
+    setattr(call, "__signature__", signature)
+    call.__annotations__ = {name: one.annotation for name, one in signature.parameters.items()}
+    call.__doc__ = f"{function.__doc__}\n    Options:\n" + "".join(
+        f"    {one.name}: {rows[one.name][2]}{'' if one.default is None else f' [{one.default!r}]'}\n" for one in keywords)
+    return call
 
 
 # ---- What there is by name.
@@ -154,21 +190,15 @@ def _held_by(system: Any) -> Any:
     return held
 
 
-def system(name: Union[str, _os.PathLike] = "fpu", *, spread: Optional[float] = None, friction: Optional[float] = None,
-           sigma: Optional[float] = None, temperature: Optional[float] = None, start: Optional[str] = None,
-           at: Optional[Texts] = None, frequency: Optional[float] = None, **parameters: Union[float, str, None]) -> System:
+@_optioned
+def system(name: Union[str, _os.PathLike] = "fpu", *, options: Mapping[str, Any], **parameters: Union[float, str, None]) -> System:
     """A bundled system with its parameters, such as omega=50; `systems()` names them all. Or one of your own.
 
     The path of what `build` made, or of its source, loads a system of your own, at full speed: it is code that
     runs as you. friction (gamma) with sigma or temperature (kT = sigma^2/(2 gamma)) puts the system into a
-    bath; `start` says where trajectories start there: `"gibbs"`, `"law"` or `"trajectory"`; `at` is
-    a state to begin at instead, such as "q1=1; p2=0.5", or a list of them. `spread` multiplies the standard deviations
-    of the initial distribution, and gives those around the states of `at`. `frequency` is the angular frequency that methods named
-    phase_fitted_... and s_aia... are fitted to; if it is not given, the one that the system declares, else an
-    estimate along the motion.
+    bath. `spread` also gives the deviations around the states of `at`.
     """
-    _require_values(system, locals())
-    return System(_nysalt.bundled({**locals(), "name": _path(name)}))
+    return System(_nysalt.bundled({**options, "name": _path(name), "parameters": parameters}))
 
 
 def _path(text: Any) -> Any:
@@ -186,30 +216,19 @@ def build(source: Union[str, _os.PathLike], output: Union[str, _os.PathLike, Non
     return _nysalt.build(dict(source=_path(source), output=_path(output)))
 
 
-def potential(text: str, variables: Texts, *, mass: Optional[Numbers] = None,
-              around: Optional[Mapping[str, float]] = None, spread: Optional[float] = None,
-              friction: Optional[float] = None, sigma: Optional[float] = None, temperature: Optional[float] = None,
-              start: Optional[str] = None, at: Optional[Texts] = None, frequency: Optional[float] = None,
-              **parameters: float) -> System:
+@_optioned
+def potential(text: str, variables: Texts, *, options: Mapping[str, Any], **parameters: float) -> System:
     """H = sum_i p_i^2/(2 m_i) + V(q) of a potential as text, compiled: at full speed.
 
         nysalt.potential("0.5*k*(sqrt(x^2 + y^2) - 1)^2 + y", ["x", "y"], around={"y": -1}, k=400)
 
     The text has numbers, the variables, the parameters, + - * / ^, parentheses, sqrt, exp, log and their like,
     pi, and sum(i, 1, 15, (q[i+1] - q[i])^4) over the coordinates of a variable "q[16]". Starts are normal
-    around a point, with the deviations deviation_q and deviation_p, parameters too [0.1]. `at` and
-    `frequency` are those of `system`; `at` takes the names of the variables, "x=1,y=0; px=0".
+    around a point, with the deviations deviation_q and deviation_p, parameters too [0.1].
     """
-    _require_values(potential, locals())
     if not isinstance(text, str):
         raise ValueError(f"text must be a text, got {text!r}")
-    if around is not None and not isinstance(around, dict):
-        raise ValueError(f"around must be a dict of numbers by name, got {around!r}")
-    if around is not None and any(value is None for value in around.values()):
-        raise ValueError(f"around must hold numbers, got {around!r}")
-    return System(_nysalt.bundled(dict(formula=text, variables=variables, mass=mass, around=around,
-                                       parameters=parameters, spread=spread, friction=friction, sigma=sigma,
-                                       temperature=temperature, start=start, at=at, frequency=frequency)))
+    return System(_nysalt.bundled({**options, "formula": text, "variables": variables, "parameters": parameters}))
 
 
 def hamiltonian(name: str, *, dimension: int, potential: Callable[[np.ndarray], float],
@@ -310,45 +329,14 @@ class Scheme(_FromFile):
 Method = Union[str, Scheme, Table]
 
 
-def _number_in(argument: str, name: str, value: Any) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{argument} must hold numbers, got {name}={value!r}") from None
-
-
-def _fixed(fix: Optional[Mapping[str, float]]) -> Optional[List[str]]:
-    """As the program reads it, with values to the last bit."""
-    if fix is None:
-        return None
-    if not isinstance(fix, Mapping):
-        raise ValueError(f"fix must be a dict of values by name, got {fix!r}")
-    return [f"{name}={_number_in('fix', name, value)!r}" for name, value in fix.items()]
-
-
-def learn(system: System, family: str = "bab6", *, step: Optional[float] = None,
-          steps: Optional[Sequence[float]] = None, trajectories: Optional[int] = None,
-          horizon: Optional[float] = None, seed: int = 1, purpose: Optional[str] = None, loss: Optional[str] = None,
-          coordinates: Optional[str] = None, placement: Optional[str] = None,
-          fix: Optional[Mapping[str, float]] = None, fine_step: Optional[float] = None,
-          effort: Optional[str] = None, random_starts: Optional[int] = None, enough: Optional[float] = None,
-          threads: Optional[int] = None) -> Scheme:
+@_optioned
+def learn(system: System, family: str = ..., *, options: Mapping[str, Any]) -> Scheme:
     """Fits a family to the flow of a system at a step, or at several for a curve of parameters.
 
-    It learns from trajectories [100] of a length `horizon` [200 steps], and is judged on as many others. purpose:
-    what the runs are for, "state" [it], "energy", "distribution" or "sampling", sets the loss, as in `compare` and
-    `recommend`. loss: "trajectory", the state's error at 16 times; "state:K", "energy:K" after K steps;
-    "acceptance"; or "covariance";
-    effort: "quick", "normal" [it] or "thorough"; coordinates: "qp", "modes" or "energy" [the last for
-    "trajectory" where there are modes, else the first]; placement of the letters O in a bath: "end", "symmetric" [it] or "middle"; fix: values of
-    parameters that are not learned; fine_step of the reference; enough: as many trajectories as it takes.
+    It is judged on as many other trajectories as it learns from. The purpose of the runs to come sets the loss.
     A fit that cannot be trusted is returned with usable = False and the reason.
     """
-    _require_values(learn, locals())
-    asked = dict(locals())
-    asked.pop("system")
-    asked["fix"] = _fixed(fix)
-    text, file = _nysalt.learn(_held_by(system), asked)
+    text, file = _nysalt.learn(_held_by(system), {**options, "family": family})
     fit = _json.loads(text)
     _warn(fit["warnings"])
     return Scheme(file, f"scheme:{family}", fit)
@@ -378,15 +366,19 @@ def _held_by_name(given: Iterable[Method]) -> Tuple[List[Any], Dict[str, str]]:
     return [one.name if isinstance(one, _FromFile) else one for one in given], held
 
 
-def _warn(texts: Sequence[str], stacklevel: int = 3) -> None:
+def _warn(texts: Sequence[str]) -> None:
+    """Of the line that called this module."""
+    level, frame = 1, _sys._getframe()
+    while frame.f_back is not None and frame.f_globals is globals():
+        level, frame = level + 1, frame.f_back
     for text in texts:
-        _warnings.warn(text, stacklevel=stacklevel)
+        _warnings.warn(text, stacklevel=level)
 
 
 def _chosen(found: Tuple[str, Optional[str], Optional[str]]) -> Tuple[Dict[str, Any], Union[Scheme, Table, None]]:
     text, file, name = found
     document = _json.loads(text)
-    _warn(document["warnings"], stacklevel=4)
+    _warn(document["warnings"])
     if file is None or name is None:
         return document, None
     if _nysalt.method(file, name, None)["is_learned"]:
@@ -429,24 +421,18 @@ class Run:
                 f"{samples} samples to t = {self.t[-1]:g}: {', '.join(self.observables)}>")
 
 
+@_optioned
 def run(system: System, method: Method, step: float, horizon: float, *, q: Any = None, p: Any = None,
-        trajectories: Optional[int] = None, observables: Optional[Texts] = None,
-        sample_every: Optional[int] = None, seed: int = 1, placement: Optional[str] = None, force: bool = False,
-        checks: bool = True, out: Optional[np.ndarray] = None, threads: Optional[int] = None) -> Run:
+        out: Optional[np.ndarray] = None, options: Mapping[str, Any]) -> Run:
     """Trajectories of a method from states q and p, or from the starts of a system, sampled every `sample_every` steps.
 
     q and p have the shape (dimension,), or (trajectories, dimension) for several; without p all is at rest.
     The samples are written where NumPy has them, in a new array, or in `out`: a writable one of float64 and of
     shape (trajectories, samples, observables), with samples = floor(horizon/step)//sample_every + 1.
-    force=True runs a scheme where it was not learned. checks=False tries neither the step nor the force of a system
-    of your own before the run, and the judgement says so.
+    force=True runs a scheme where it was not learned. With checks=False the judgement says that nothing was tried.
     """
-    _require_values(run, locals())
-    asked = dict(locals())
-    for name in ("system", "out", "q", "p"):
-        asked.pop(name)
-    (asked["method"],), asked["held"] = _held_by_name([method])
-    found = _nysalt.run(_held_by(system), asked, q, p, out)
+    (name,), held = _held_by_name([method])
+    found = _nysalt.run(_held_by(system), {**options, "method": name, "held": held, "step": step, "horizon": horizon}, q, p, out)
     found = Run(**{**found, "judgement": _json.loads(found["judgement"])})
     _warn(found.warnings)
     return found
@@ -491,103 +477,60 @@ def integrate(system: System, method: Method, step: float, q: Any, p: Any, steps
     return to_q, to_p
 
 
+@_optioned
 def export(method: Method, to: Optional[str] = None, *, template: Union[str, "_os.PathLike[str]", None] = None,
-           name: Optional[str] = None, step: Optional[float] = None, placement: Optional[str] = None,
-           displaced: Optional[bool] = None) -> str:
+           options: Mapping[str, Any]) -> str:
     """The method as source for another language or code: the text that `nysalt export` writes.
 
     `to` is a language or code: "c", "cpp", "fortran", "python", "julia", "jax", "odeint", "sundials", "ordinarydiffeq",
     "ase", "openmm", "lammps", "rebound", "blackjax", "mici", "gpt", "grid", "chroma", "tmlqcd" or "openqcd"; instead,
-    `template` is the file of a template for a host of your own. `name` is the identifier in the text. `step` is of a
-    scheme over several steps, `placement` ("end", "symmetric", "middle") of letters O in a method without them.
-    displaced=True makes displaced kicks of gradient kicks, which are not symplectic. The text has a self-test.
+    `template` is the file of a template for a host of your own. The text has a self-test.
     """
-    _require_values(export, locals())
     (label,), held = _held_by_name([method])
-    return _nysalt.export(dict(method=label, to=to, template=_path(template), held=held, name=name, step=step,
-                               placement=placement, displaced=displaced))
+    return _nysalt.export({**options, "method": label, "held": held, "to": to, "template": _path(template)})
 
 
-def compare(system: System, methods: Union[Method, Iterable[Method]] = "all", steps: Numbers = (), *,
-            equal_cost: bool = False, prices: Optional[Numbers] = None, horizon: Optional[float] = None,
-            trajectories: Optional[int] = None, metric: Optional[Texts] = None, observable: Optional[str] = None, levels: Optional[Numbers] = None,
-            range: Optional[Tuple[float, float]] = None, bins: Optional[int] = None,
-            longest_lag: Optional[float] = None, hmc_temperature: Optional[float] = None, seed: int = 1,
-            placement: Optional[str] = None, fine_step: Optional[float] = None,
-            purpose: Optional[str] = None,
-            learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
-            learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
-            learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None, force: bool = False,
-            threads: Optional[int] = None) -> Dict[str, Any]:
+@_optioned
+def compare(system: System, methods: Union[Method, Iterable[Method]] = ..., steps: Numbers = (), *,
+            options: Mapping[str, Any]) -> Dict[str, Any]:
     """Methods beside each other, at every step and by every metric: errors, evaluations, seconds.
 
     "all" stands for every method of methods() that applies to the system, its bath and the metrics; `left_out` of
     the document says which do not, and why.
     Returns the document that `nysalt compare --json` prints: `rows`, the `references` that they are seen
-    against, `rankings`, `fits` of "learned:FAMILY", which are learned for a `purpose` ["state"] as `learn` does it;
-    `schemes` are the documents of their scheme files. metrics() lists the metrics [path].
-    equal_cost=True: steps are per force evaluation. prices: of the forces of parts 0, 1, ..., in any unit; a kick
-    with a part then counts as the share of the part in an evaluation.
+    against, `rankings`, `fits` of "learned:FAMILY", which are learned as `learn` does it; `schemes` are the documents
+    of their scheme files. metrics() lists the metrics. Prices are in any unit.
     """
-    _require_values(compare, locals())
-    asked = dict(locals())
-    asked.pop("system")
-    asked["fix"] = _fixed(fix)
     is_one = isinstance(methods, (str, _FromFile))
     if not is_one and not isinstance(methods, Iterable):
         raise ValueError(f"methods must be names, schemes or tables, got {methods!r}")
-    asked["methods"], asked["held"] = _held_by_name([methods] if is_one else methods)
-    found = _json.loads(_nysalt.compare(_held_by(system), asked))
+    names, held = _held_by_name([methods] if is_one else methods)
+    found = _json.loads(_nysalt.compare(_held_by(system), {**options, "methods": names, "held": held, "steps": steps}))
     _warn(found["warnings"])
     return found
 
 
-def recommend(system: System, horizon: float, *, budget: Optional[float] = None,
-              budget_seconds: Optional[float] = None, error: Optional[float] = None,
-              trajectories: Optional[int] = None, metric: Optional[str] = None, observable: Optional[str] = None,
-              hmc_temperature: Optional[float] = None, looks: Optional[int] = None, reversible: bool = False,
-              families: Optional[Texts] = None, seed: int = 1, placement: Optional[str] = None,
-              purpose: Optional[str] = None,
-              learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
-              learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
-              learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None, fix: Optional[Mapping[str, float]] = None,
-              output: Union[str, "_os.PathLike[str]", None] = None,
-              threads: Optional[int] = None) -> Tuple[Dict[str, Any], Union[Scheme, Table, None]]:
+@_optioned
+def recommend(system: System, horizon: float, *, output: Union[str, "_os.PathLike[str]", None] = None,
+              options: Mapping[str, Any]) -> Tuple[Dict[str, Any], Union[Scheme, Table, None]]:
     """The best method at `budget` evaluations per unit time, or at `budget_seconds` per unit time of one
-    trajectory, or the cheapest that errs less than `error`. Families are learned for a `purpose` ["state"], as by
-    `learn`.
+    trajectory, or the cheapest that errs less than `error`. Families are learned as by `learn`.
 
     Returns the document that `nysalt recommend --json` prints, and the method to take, `document, method =
     nysalt.recommend(...)`: a Scheme where it was learned, else a Table of its coefficients at the step that the
     document says; None if no method is accepted. The file `output` has the best so far, also where the work is
     interrupted.
     """
-    _require_values(recommend, locals())
-    asked = dict(locals())
-    asked.pop("system")
-    asked["fix"] = _fixed(fix)
-    asked["output"] = _path(output)
-    return _chosen(_nysalt.recommend(_held_by(system), asked))
+    return _chosen(_nysalt.recommend(_held_by(system), {**options, "horizon": horizon, "output": _path(output)}))
 
 
-def recommend_for_sampling(system: System, length: float, *, acceptance: Optional[float] = None,
-                           times_larger: Optional[float] = None, hmc_temperature: Optional[float] = None,
-                           trajectories: Optional[int] = None, families: Optional[Texts] = None, seed: int = 1,
-                           learn_trajectories: Optional[int] = None, learn_horizon: Optional[float] = None,
-                           learn_loss: Optional[str] = None, learn_effort: Optional[str] = None,
-                           learn_random_starts: Optional[int] = None, coordinates: Optional[str] = None,
-                           fix: Optional[Mapping[str, float]] = None,
-                           output: Union[str, "_os.PathLike[str]", None] = None,
-                           threads: Optional[int] = None) -> Tuple[Dict[str, Any], Union[Scheme, Table, None]]:
+@_optioned
+def recommend_for_sampling(system: System, length: float, *, output: Union[str, "_os.PathLike[str]", None] = None,
+                           options: Mapping[str, Any]) -> Tuple[Dict[str, Any], Union[Scheme, Table, None]]:
     """The word with which Hybrid Monte Carlo takes the largest step per evaluation at an acceptance, with
     trajectories of mean duration `length`, on a system `times_larger` than this one.
 
     Returns the document that `nysalt recommend --for sampling --json` prints, and the word to take, and keeps it
     in `output`, as `recommend` does.
     """
-    _require_values(recommend_for_sampling, locals())
-    asked = dict(locals())
-    asked.pop("system")
-    asked["fix"] = _fixed(fix)
-    asked["output"] = _path(output)
-    return _chosen(_nysalt.recommend_for_sampling(_held_by(system), asked))
+    return _chosen(_nysalt.recommend_for_sampling(_held_by(system), {**options, "length": length, "output": _path(output)}))

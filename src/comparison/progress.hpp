@@ -49,9 +49,10 @@ class progress {
 
   /// The work of all parts to come, in any unit: with it the line has the remaining time.
   void expect(double work);
-  /// The parts to come are of so many things: "9 of 21 families, 40 s left".
+  /// Sets the number of items that the following parts work on, shown as in "9 of 21 families, 40 s left". Zero
+  /// ends the count.
   void count(std::size_t total, std::string things);
-  /// The next of these begins.
+  /// Begins the next item.
   void next();
   /// Begins a part of the work; what was begun before is done.
   void part(std::string what, double work = 0.0);

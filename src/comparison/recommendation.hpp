@@ -64,8 +64,8 @@ class recommendation {
   /// The fastest rate of the reference; where none is known, as without a force, one turn in the horizon.
   double rate_of_motion() const;
   trajectories_plan plan_at(double step, std::int64_t count, std::uint64_t seed) const;
-  /// Coefficients at the contender's step; of a family learned from so many trajectories, with a known
-  /// optimum as one more start, or the only.
+  /// Determines the coefficients at the step of the contender. A family is learned from the first
+  /// `trajectories` of the training set; `from` is an additional start of the search, or the only one.
   void prepare(candidate& contender, std::int64_t trajectories, const std::vector<double>& from = {},
                bool only_from_there = false);
   std::vector<nysalt::method> formulas_at(double step) const;

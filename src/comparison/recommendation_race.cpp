@@ -52,7 +52,12 @@ std::vector<recommendation::stage> recommendation::stages() const {
 void recommendation::race(const contest& among, std::vector<candidate*> racing) {
   const auto all = stages();
   for (std::size_t n = 0; n < all.size(); ++n) {
-    for (candidate* contender : racing) advance(among, *contender, all[n]);
+    shown_.count(static_cast<std::size_t>(std::ranges::count_if(racing, &candidate::is_learned)), "families");
+    for (candidate* contender : racing) {
+      if (contender->is_learned()) shown_.next();
+      advance(among, *contender, all[n]);
+    }
+    shown_.count(0, "");
     measure_on_test(racing, all[n].judged_on);
     if (n + 1 < all.size()) leave_behind(among, racing);
   }

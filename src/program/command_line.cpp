@@ -41,25 +41,6 @@ void load_named_system(int argc, char** argv) {
   declaration_of(name);
 }
 
-}  // namespace
-
-std::vector<subcommand> offer_all(CLI::App& app, common_settings& common) {
-  app.set_help_all_flag("--help-all", "print this help, and all options of each command");
-  try {
-    return {offer_list(app, common),    offer_learn(app, common),     offer_run(app, common),
-            offer_compare(app, common), offer_recommend(app, common), offer_stability(app, common),
-            offer_sample(app, common),  offer_new(app, common),       offer_build(app, common),
-            offer_export(app, common),  offer_cite(app, common)};
-  } catch (const CLI::OptionAlreadyAdded& problem) {  // by the parameters of a system that was loaded
-    std::string name = problem.what();                // "...: NAME is already added"
-    name = name.substr(name.rfind(": ") == std::string::npos ? 0 : name.rfind(": ") + 2);
-    refuse("a parameter of the system must not have the name of an option, got '{}'; choose another name",
-           name.substr(0, name.find(' ')));
-  }
-}
-
-namespace {
-
 /// Ranks may have different numbers of threads.
 std::string without_threads(const std::string& options) {
   std::istringstream lines(options);
@@ -82,10 +63,6 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(0, 1);
   add_of_program(app);
   const std::vector<subcommand> all = offer_all(app, common);
-  for (auto* command : app.get_subcommands({})) {
-    command->footer("--config FILE holds options, as typed without the dashes (TOML).\n\n" +
-                    command->get_footer());
-  }
   app.footer(
       "nysalt COMMAND --help describes a command.\nExit codes: 0 done, 2 bad input, 3 every trajectory "
       "diverged or the fit is not usable, 4 a result could not be written.");

@@ -47,9 +47,12 @@ std::string bounded(std::istream& input) {
 /// "--config FILE"
 std::string named(const std::string& file) { return "--config " + file; }
 
-/// Options whose values are NAME=VALUE, which a table may hold.
-bool takes_pairs(const std::string& option) {
-  return option == "parameter" || option == "around" || option == "fix";
+/// Whether the values of the option are NAME=VALUE, which a table may hold.
+bool takes_pairs(const CLI::App& app, const std::string& option) {
+  return std::ranges::any_of(app.get_subcommands({}), [&](const CLI::App* command) {
+    const CLI::Option* known = command->get_option_no_throw("--" + option);
+    return known != nullptr && known->get_type_name().starts_with("NAME=VALUE");
+  });
 }
 
 }  // namespace
@@ -60,7 +63,7 @@ std::vector<CLI::ConfigItem> options_file::from_config(std::istream& input) cons
   const auto running = app_.get_subcommands();
   const std::string command = running.empty() ? "" : running.front()->get_name();
   std::vector<CLI::ConfigItem> items;
-  const auto all = options_in_toml(text, who, takes_pairs);
+  const auto all = options_in_toml(text, who, [&](const auto& name) { return takes_pairs(app_, name); });
   for (const auto& option : all) require_no_code(option, command, who);
   for (const auto& option : all) {
     require_known(option, command, fmt::format("{}, line {}", who, option.line));
@@ -104,7 +107,7 @@ void options_file::require_known(const toml_option& option, const std::string& r
     refuse("{}: unknown option '{}': {}", where, option.name,
            did_you_mean("--" + option.name, option_names(command), help_of(command)));
   }
-  if (option.is_table && !takes_pairs(option.name)) {
+  if (option.is_table && !takes_pairs(app_, option.name)) {
     refuse("{}: {} must be a number, a text, true or false, or a list of these, got a table", where,
            option.name);
   }

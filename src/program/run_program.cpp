@@ -52,19 +52,6 @@ void occupy_closed_streams() {
   }
 }
 
-constexpr spelling in_options{.prefix = "--",
-                              .between_words = '-',
-                              .learning = "learn_",
-                              .renamed = [](std::string_view field) -> std::string_view {
-                                return field == "purpose" ? "for" : field == "metrics" ? "metric" : field;
-                              },
-                              .equals = " ",
-                              .switched_on = "",
-                              .quote = "",
-                              .separator = " ",
-                              .learn = "nysalt learn --system SYSTEM ",
-                              .learned = " --output scheme.json"};
-
 std::terminate_handler previous_handler = nullptr;
 
 /// Terminate handler for a thread of oneTBB that cannot start another one: nothing catches the exception
@@ -92,7 +79,7 @@ std::terminate_handler previous_handler = nullptr;
 }  // namespace
 
 int exit_code_of(command_line run, int argc, char** argv) {
-  spell(in_options);
+  spell_as_options();
   try {
     return run(argc, argv);
   } catch (const interrupted& by) {

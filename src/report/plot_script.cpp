@@ -6,17 +6,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <vector>
 
 #include "curve_drawing.hpp"
 #include "page_files.hpp"
 #include "quoted.hpp"
+#include "terminal.hpp"
 
 namespace nysalt::detail {
 
 namespace {
 
+constexpr const char* hollow_label = "hollow: not ranked";
 constexpr const char* style_of_levels = "lc '#777777' lw 1.2 dt (7,5)";
 
 /// Fronts first, so that they lie behind, and what is emphasised last.
@@ -37,7 +40,7 @@ std::string plot_command(const panel& plot, const std::string& name, std::size_t
   draw_if([](const curve& c) { return !c.front && c.emphasised; });
   for (std::size_t j = 0; j < plot.curves.size(); ++j) elements.push_back(key_entry(plot, j));
   if (std::ranges::any_of(plot.curves, has_hollow))
-    elements.push_back("keyentry with points lc '#555555' pt 6 title 'hollow: not ranked'");
+    elements.push_back(fmt::format("keyentry with points lc '#555555' pt 6 title {}", quoted(hollow_label)));
   for (const auto& level : plot.levels) {
     if (!level.label.empty())
       elements.push_back(
@@ -51,12 +54,41 @@ std::string plot_command(const panel& plot, const std::string& name, std::size_t
   return elements.empty() ? "" : fmt::format("plot {}\n", fmt::join(elements, ", \\\n  "));
 }
 
-/// Of the key below the panels, in pixels: two or more entries of 22 a line.
+/// Names in the key, in its order.
+std::vector<std::string> key_labels(const panel& plot) {
+  std::vector<std::string> labels;
+  for (const auto& curve : plot.curves) labels.push_back(curve.label);
+  if (std::ranges::any_of(plot.curves, has_hollow)) labels.push_back(hollow_label);
+  for (const auto& level : plot.levels) {
+    if (!level.label.empty()) labels.push_back(level.label);
+  }
+  std::ranges::copy(labels_of_intervals(plot), std::back_inserter(labels));
+  return labels;
+}
+
+/// As many columns of the key as fit below a panel. gnuplot takes .6 of the size of the font, 14, for the
+/// width of a character, and a sample of three of them, with space around, stands before a name.
+std::size_t key_columns(const panel& plot, int width) {
+  std::size_t longest = 0;
+  for (const auto& label : key_labels(plot)) longest = std::max(longest, columns_of(label));
+  constexpr double character = 0.6 * 14.0;
+  constexpr double share = 0.85;  // of the panel, between the margins
+  const double entry = character * static_cast<double>(longest + 6);
+  return static_cast<std::size_t>(std::max(1.0, share * width / entry));
+}
+
+int width_of_panel(const figure& f) {
+  return f.width / static_cast<int>(std::max<std::size_t>(f.panels.size(), 1));
+}
+
+/// Of the highest key below a panel, in pixels: lines of 19, and one for the space around.
 int key_height(const figure& f) {
   std::size_t most = 0;
-  for (const auto& panel : f.panels)
-    most = std::max(most, panel.curves.size() + panel.levels.size() + labels_of_intervals(panel).size());
-  return 22 * static_cast<int>((most + 1) / 2);
+  for (const auto& panel : f.panels) {
+    const std::size_t columns = key_columns(panel, width_of_panel(f));
+    most = std::max(most, (key_labels(panel).size() + columns - 1) / columns);
+  }
+  return 19 * static_cast<int>(most + 1);
 }
 
 /// Behind all else; the later over the earlier.
@@ -96,13 +128,14 @@ std::string axes_in_question(const panel& plot, const std::string& data, std::si
          std::string(page_files::axes);
 }
 
-std::string axes(const panel& axis_pair, const std::string& data, std::size_t first) {
+std::string axes(const panel& axis_pair, int width, const std::string& data, std::size_t first) {
   const bool log_y = axis_pair.log_log && !axis_pair.linear_y;
   std::string text = fmt::format(
       "set title {}\nset xlabel {} offset 0,1\nset ylabel {}\nset format x '%g'\nset format y '{}'\n"
-      "set key outside bottom center horizontal Left reverse samplen 3\nunset label\nunset arrow\n",
-      quoted(axis_pair.title), quoted(axis_pair.x_label), quoted(axis_pair.y_label),
-      log_y ? "%.0te%T" : "%g");
+      "set key outside bottom center horizontal maxcols {} Left reverse samplen 3\nunset label\nunset "
+      "arrow\n",
+      quoted(axis_pair.title), quoted(axis_pair.x_label), quoted(axis_pair.y_label), log_y ? "%.0te%T" : "%g",
+      key_columns(axis_pair, width));
   text += shading(axis_pair) + axes_in_question(axis_pair, data, first) + "\n";
   for (const auto& level : axis_pair.levels) {
     text += fmt::format("set arrow from graph 0, first {0:.10g} to graph 1, first {0:.10g} nohead back {1}\n",
@@ -146,7 +179,7 @@ std::string plot_script(const figure& f) {
   if (f.panels.size() > 1) text += fmt::format("set multiplot layout 1,{}\n", f.panels.size());
   std::size_t block = 0;
   for (const auto& panel : f.panels) {
-    text += axes(panel, f.name + ".dat", block) + plot_command(panel, f.name, block);
+    text += axes(panel, width_of_panel(f), f.name + ".dat", block) + plot_command(panel, f.name, block);
     block += panel.curves.size();
   }
   return text + (f.panels.size() > 1 ? "unset multiplot\n" : "");

@@ -121,7 +121,7 @@ NYSALT_DESCRIBED(sampling_result, system, states, length, acceptance, temperatur
                  seed, verdict, winner, best_learned, best_classical, ratio, diagnostic, advice, rows, fits,
                  left_out, warnings, output)
 
-json sampling_choice::schema() { return whole_schema<sampling_result>("nysalt recommend, for sampling"); }
+json sampling_choice::schema() { return whole_schema<sampling_result>("nysalt recommend for sampling"); }
 
 json sampling_choice::document() const {
   const auto name_of = [](const sampling_candidate* one) {

@@ -46,7 +46,7 @@ if(NYSALT_BUILD_PROGRAMS AND UNIX AND NOT APPLE)
   set_tests_properties(long_plugins_refusing_is_found PROPERTIES PASS_REGULAR_EXPRESSION "repetition 1: 1 of 8 processes")
 endif()
 
-# A letter, a host of exports and a loss, each added by a small patch to a copy of the sources; a program without them must be
+# A letter, a host of exports, a loss and an option, each added by a small patch to a copy of the sources; a program without them must be
 # found. A copy of instrumented sources would not be instrumented.
 find_package(Git QUIET)
 if(NYSALT_BUILD_PROGRAMS AND GIT_FOUND AND EXISTS ${PROJECT_SOURCE_DIR}/.git AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
@@ -58,7 +58,7 @@ if(NYSALT_BUILD_PROGRAMS AND GIT_FOUND AND EXISTS ${PROJECT_SOURCE_DIR}/.git AND
   set_tests_properties(long_patches long_patches_without_is_found PROPERTIES ENVIRONMENT "${of_mpirun}")
   set_tests_properties(long_patches PROPERTIES COST 200 TIMEOUT 7200)  # it builds the library and the program
   set_tests_properties(long_patches_without_is_found PROPERTIES PASS_REGULAR_EXPRESSION
-    "letter: exit code 2: [^\n]*the letter T(.|\n)*host: exit code 2: [^\n]*'awk'(.|\n)*loss: exit code 2: [^\n]*'energies'(.|\n)*3 patches tried, 3 do not work")
+    "letter: exit code 2: [^\n]*the letter T(.|\n)*host: exit code 2: [^\n]*'awk'(.|\n)*loss: exit code 2: [^\n]*'energies'(.|\n)*option: exit code 2: [^\n]*--echoes(.|\n)*4 patches tried, 4 do not work")
 endif()
 
 # Exported methods in other programs, where these are installed (./dev hosts).

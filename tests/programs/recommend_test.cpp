@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "../support/program.hpp"
 
@@ -106,6 +107,44 @@ BOOST_AUTO_TEST_CASE(at_one_budget_all_cost_the_same_and_the_least_error_is_firs
       folder);
   BOOST_TEST(used["rows"][0]["error"].get<double>() == learned["error"].get<double>(),
              boost::test_tools::tolerance(1e-3));
+}
+
+/// Of the rows that were left behind: their number, and on how many trajectories.
+std::pair<int, std::int64_t> left_behind_in(const json& all) {
+  int count = 0;
+  std::int64_t trajectories = 0;
+  for (const auto& row : all["rows"]) {
+    if (row["reason"].is_null() || !row["reason"].get<std::string>().starts_with("left behind on ")) continue;
+    ++count;
+    trajectories = row["survivors"].get<std::int64_t>() + row["diverged"].get<std::int64_t>();
+  }
+  return {count, trajectories};
+}
+
+// Most words of order two and four err by more than ten times the least here, which is beyond any chance.
+BOOST_AUTO_TEST_CASE(what_is_far_behind_is_not_judged_on_all_trajectories) {
+  const std::string line = "recommend --system henon_heiles --horizon 10 --families nystrom,bab4 --seed 2 ";
+  const auto all = document(line + "--budget 8");
+  const auto [behind, judged_on] = left_behind_in(all);
+  BOOST_TEST(behind >= 10);
+  BOOST_TEST(judged_on == 33);  // a third of 100
+  const auto& taken = row_of(all, all["winner"].is_null() ? all["best_classical"] : all["winner"]);
+  BOOST_TEST(taken["survivors"] == 100);
+  for (const auto& row : all["rows"]) {
+    if (!row["reason"].is_null()) continue;
+    BOOST_TEST(row["survivors"].get<int>() + row["diverged"].get<int>() == 100, row["method"]);
+  }
+  for (const auto& fit : all["fits"]) {  // of those left behind from 16, the lanes of a processor
+    const bool stood = row_of(all, fit["method"])["reason"].is_null();
+    BOOST_TEST(fit["trajectories"] == (stood ? 100 : 16), fit["method"]);
+  }
+  // 32 trajectories are the first stage, and all: nobody is left behind.
+  BOOST_TEST(left_behind_in(document(line + "--budget 8 --trajectories 32 --learn-trajectories 16")).first ==
+             0);
+  // At one error those are that need more evaluations and seconds than 1.4 times the least.
+  const auto at_error = document(line + "--error 1e-3");
+  BOOST_TEST(left_behind_in(at_error).first >= 5);
+  BOOST_TEST(left_behind_in(at_error).second == 24);
 }
 
 BOOST_AUTO_TEST_CASE(at_one_error_the_least_cost_is_first) {

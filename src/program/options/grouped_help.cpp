@@ -51,7 +51,7 @@ void describe_help(CLI::App& command) {
   if (command.get_parent() == nullptr) return;  // a program without commands
   const auto describe = [&](const char* name, const char* what) {
     CLI::Option* option = command.get_option_no_throw(name);
-    if (option != nullptr) option->group(general_options)->description(what);
+    if (option != nullptr) option->group(in_general)->description(what);
   };
   describe("--help", "print the options that most runs need");
   describe("--help-all", "print all options");
@@ -72,7 +72,7 @@ std::string grouped_help::groups_of(const CLI::App& app, CLI::AppFormatMode mode
     return group.empty() || (mode == CLI::AppFormatMode::Normal && is_of_few(group));
   });
   std::ranges::stable_sort(groups, {}, [](const std::string& group) {
-    return group == general_options ? 2 : is_of_few(group) ? 1 : 0;
+    return group == in_general ? 2 : is_of_few(group) ? 1 : 0;
   });
   std::string all;
   for (const auto& group : groups) {

@@ -5,10 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace nysalt::program {
+#include "../option_row.hpp"
 
-/// The group of the options of every command, which is the last one.
-inline constexpr const char* general_options = "General";
+namespace nysalt::program {
 
 /// Options that are added from now on are of this group. Groups whose names end in ", more", and short forms
 /// of parameters, are shown by --help-all alone.

@@ -3,9 +3,11 @@
 #include "program/systems.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "../../plugin/plugin.hpp"
@@ -13,50 +15,97 @@
 #include "../comma_list.hpp"
 #include "../options_file.hpp"
 #include "comparison/number.hpp"
-#include "comparison/purpose.hpp"
-#include "number_option.hpp"
-#include "nysalt/losses/loss_choice.hpp"
+#include "comparison/spelling.hpp"
 #include "nysalt/version.hpp"
 
 namespace nysalt::program {
 
-void add_of_program(CLI::App& program) {
-  program.set_version_flag("--version", version, "print the version");
-  program.formatter(std::make_shared<grouped_help>());
-  program.get_help_ptr()->description("print this help");
-  program.set_config("--config", "", "a TOML file of options, as typed without the dashes")
-      ->type_name(a_file);
-  program.config_formatter(std::make_shared<options_file>(program));
-  program.allow_config_extras(CLI::config_extras_mode::error);
-}
-
-void add_common(CLI::App& command, common_settings& common) {
-  begin_group(command, general_options);
-  add_number(command, "--seed", common.seed, "the seed of all random numbers");
-  add_number(command, "--threads", common.execution.threads,
-             "the most threads to use; results do not depend on their number")
-      ->default_str("all cores");
-  describe_help(command);
-  command.fallthrough();  // for --config, which belongs to the program
-}
-
-void add_json(CLI::App& command, common_settings& common) {
-  command.add_flag("--json", common.json, "print one JSON document and nothing else");
-}
-
-void add_resume(CLI::App& command, bool& resume) {
-  command.add_flag("--resume", resume, "go on where the work for this output was stopped");
-}
-
-void add_verbose(CLI::App& command, common_settings& common) {
-  command.add_flag("--verbose", common.verbose, "print all details");
-}
-
-void add_force(CLI::App& command, common_settings& common, const char* what) {
-  command.add_flag("--force", common.force, what)->group(general_options);
-}
-
 namespace {
+
+constexpr spelling in_options{.prefix = "--",
+                              .between_words = '-',
+                              .learning = "learn_",
+                              .renamed = [](std::string_view field) -> std::string_view {
+                                return field == "purpose" ? "for" : field == "metrics" ? "metric" : field;
+                              },
+                              .equals = " ",
+                              .switched_on = "",
+                              .quote = "",
+                              .separator = " ",
+                              .learn = "nysalt learn --system SYSTEM ",
+                              .learned = " --output scheme.json"};
+
+/// Read here, as CLI11 takes an empty text for 0, 010 for 8, and a number that is too large for the largest.
+template <class T>
+void read_into(const std::string& name, const CLI::results_t& texts, T& to) {
+  to = number_of<T>(name, texts.back());
+}
+template <class T>
+void read_into(const std::string& name, const CLI::results_t& texts, std::optional<T>& to) {
+  to = number_of<T>(name, texts.back());
+}
+void read_into(const std::string& name, const CLI::results_t& texts, std::vector<double>& to) {
+  to = numbers_of(texts, name.c_str());
+}
+void read_into(const std::string& name, const CLI::results_t& texts, std::vector<std::string>& to) {
+  to = entries_of(texts, name.c_str());
+}
+
+template <class T>
+constexpr bool is_list = false;
+template <class T>
+constexpr bool is_list<std::vector<T>> = true;
+template <class T>
+constexpr bool is_text = std::is_same_v<T, std::string> || std::is_same_v<T, std::optional<std::string>>;
+
+template <class T>
+const char* type_of() {
+  if (is_text<T>) return "NAME";
+  if (std::is_same_v<T, std::vector<std::string>>) return "NAME,...";
+  if (std::is_same_v<T, std::vector<double>>) return "X,...";
+  return std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>> ? "X" : "N";
+}
+
+std::string shown(const auto& value) { return fmt::format("{}", value); }
+template <class T>
+std::string shown(const std::optional<T>& value) {
+  return shown(*value);
+}
+template <class T>
+std::string shown(const std::vector<T>& values) {
+  return fmt::format("{}", fmt::join(values, ","));
+}
+
+template <class T>
+CLI::Option* add_read(CLI::App& command, const std::string& name, T& to) {
+  const auto take = [name, &to](const CLI::results_t& texts) {
+    read_into(name, texts, to);
+    return true;
+  };
+  CLI::Option* option = command.add_option(name, CLI::callback_t(take));
+  return is_list<T> ? option->expected(1, CLI::detail::expected_max_vector_size)->take_all() : option;
+}
+
+template <class T>
+CLI::Option* add_option(CLI::App& command, const option_row& row, const std::string& name, T& to) {
+  CLI::Option* option = nullptr;
+  if constexpr (is_text<T>) {
+    option = command.add_option(name, to);
+  } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+    option = row.is(trait::whole) ? command.add_option(name, to) : add_read(command, name, to);
+  } else {
+    option = add_read(command, name, to);
+  }
+  if (to != T{} && !row.is(trait::machine)) option->default_str(shown(to));
+  if (!row.is(trait::positional) || !row.takes.empty())
+    option->type_name(row.takes.empty() ? type_of<T>() : row.takes);
+  return option;
+}
+
+CLI::Option* add_option(CLI::App& command, const option_row& row, const std::string& name, bool& to) {
+  const bool then = !row.is(trait::negated);
+  return command.add_flag_function(name, [&to, then](std::int64_t times) { to = (times > 0) == then; });
+}
 
 struct parameter_option {
   std::string name;
@@ -64,19 +113,7 @@ struct parameter_option {
   const char* type;
 };
 
-CLI::Option* add_list(CLI::App& command, const std::string& name, std::vector<std::string>& list,
-                      const std::string& help) {
-  const auto take = [&list](const CLI::results_t& texts) {
-    list.clear();
-    for (const auto& text : texts) {
-      for (const auto& one : split_at_commas(text)) list.push_back(one);
-    }
-    return true;
-  };
-  return command.add_option(name, take, help)->expected(1, 1000)->take_all();
-}
-
-const char* type_of(const detail::declared_parameter& parameter) {
+const char* type_name_of(const detail::declared_parameter& parameter) {
   return parameter.is_text() ? "TEXT" : parameter.is_whole() ? "N" : "X";
 }
 
@@ -90,7 +127,7 @@ std::vector<parameter_option> parameters_of_systems() {
           fmt::format("{}: {} [{}]", system.name, parameter.meaning, text_of(parameter.usual));
       const auto known = std::ranges::find(all, parameter.name, &parameter_option::name);
       if (known == all.end()) {
-        all.push_back({parameter.name, help, type_of(parameter)});
+        all.push_back({parameter.name, help, type_name_of(parameter)});
       } else {
         known->help += "; " + help;
       }
@@ -107,8 +144,46 @@ CLI::Option* add_parameter(CLI::App& command, system_settings& system, const par
   return command.add_option(option_of(one.name), take, one.help)->type_name(one.type);
 }
 
-/// "--omega 50" of the bundled systems, which is "--parameter omega=50", and of systems that were loaded.
+}  // namespace
+
+void spell_as_options() { spell(in_options); }
+
+void add_of_program(CLI::App& program) {
+  spell_as_options();
+  program.set_version_flag("--version", version, "print the version");
+  program.formatter(std::make_shared<grouped_help>());
+  program.get_help_ptr()->description("print this help");
+  program.set_config("--config", "", "a TOML file of options, as typed without the dashes")
+      ->type_name("FILE");
+  program.config_formatter(std::make_shared<options_file>(program));
+  program.allow_config_extras(CLI::config_extras_mode::error);
+}
+
+void add_options(CLI::App& command, const option_rows& rows) {
+  for (const auto& row : rows) {
+    const std::string name =
+        row.is(trait::positional) ? row.field : spelled((row.is(trait::negated) ? "no_" : "") + row.field);
+    CLI::Option* option = std::visit([&](auto* to) { return add_option(command, row, name, *to); }, row.to);
+    const std::string group = spelled_in(row.group);
+    option->description(spelled_in(row.help));
+    if (!group.empty()) option->group(row.is(trait::rare) ? more_of(group) : group);
+    option->required(row.is(trait::needed));
+    if (!row.excludes.empty()) option->excludes(command.get_option(spelled(row.excludes)));
+  }
+}
+
+void add_common(CLI::App& command, common_settings& common, const char* forced, bool has_details) {
+  add_options(command, common_rows(common, forced, has_details));
+  describe_help(command);
+  command.fallthrough();  // for --config, which belongs to the program
+}
+
 void add_parameters(CLI::App& command, system_settings& system) {
+  // At once, before an option is missed that follows it: which options there are depends on the system.
+  command.get_option("--system")->check([](const std::string& name) {
+    declaration_of(name);
+    return std::string();
+  });
   std::vector<std::string> added;
   begin_group(command, short_forms);
   for (const auto& one : parameters_of_systems()) {
@@ -120,149 +195,16 @@ void add_parameters(CLI::App& command, system_settings& system) {
     for (const auto& parameter : loaded->parameters) {
       const std::string help = fmt::format("{} [{}]", parameter.meaning, text_of(parameter.usual));
       if (std::ranges::count(added, parameter.name) == 0) {
-        add_parameter(command, system, {parameter.name, help, type_of(parameter)});
+        add_parameter(command, system, {parameter.name, help, type_name_of(parameter)});
         added.push_back(parameter.name);
         continue;
       }
       CLI::Option* option = command.get_option(option_of(parameter.name));
       const bool is_bundled = option->get_group() == short_forms;
       option->description(is_bundled ? help : option->get_description() + "; " + help);
-      if (is_bundled) option->group("Parameters of " + loaded->name)->type_name(type_of(parameter));
+      if (is_bundled) option->group("Parameters of " + loaded->name)->type_name(type_name_of(parameter));
     }
   }
-}
-
-void add_potential(CLI::App& command, typed_potential& potential, CLI::Option* named) {
-  command
-      .add_option("--potential", potential.text,
-                  "in place of --system: V(q) as a formula, such as '0.5*k*(x^2 + y^2)'")
-      ->type_name("FORMULA")
-      ->excludes(named);
-  add_list(command, "--variables", potential.variables,
-           "the coordinates of the formula: x,y, or q[16] for sixteen")
-      ->type_name(names);
-  const auto take_masses = [&masses = potential.masses](const CLI::results_t& texts) {
-    masses.clear();
-    for (const auto& one : split_at_commas(texts.back())) masses.push_back(number_of<double>("--mass", one));
-    return true;
-  };
-  command
-      .add_option("--mass", take_masses, "the masses of the coordinates of the formula: one, or one each [1]")
-      ->type_name(numbers);
-}
-
-}  // namespace
-
-std::vector<CLI::Option*> add_system(CLI::App& command, system_settings& system) {
-  const std::size_t before = command.get_options().size();
-  // At once, before an option is missed that follows it: which options there are depends on the system.
-  const auto is_known = [](const std::string& name) {
-    declaration_of(name);
-    return std::string();
-  };
-  begin_group(command, system_options);
-  CLI::Option* named =
-      command
-          .add_option("--system", system.name,
-                      "a name of nysalt list, or a file of your own; it or --potential is required")
-          ->type_name(a_name)
-          ->check(is_known);
-  add_list(command, "--parameter", system.potential.parameters,
-           "parameters of the system, as nysalt list shows them: omega=50,pairs=4")
-      ->type_name("NAME=VALUE,...");
-  add_potential(command, system.potential, named);
-  add_number(command, "--friction", system.bath.friction,
-             "the friction of a bath that the system is in; --temperature comes with it");
-  add_number(command, "--temperature", system.bath.temperature,
-             "the temperature kT of the bath, an energy; or --sigma");
-  CLI::Option* file =
-      command
-          .add_option("--start", system.start,
-                      "where to start: law (the initial distribution), gibbs, trajectory, or a file")
-          ->type_name(a_name);
-  command
-      .add_option("--at", system.at,
-                  "a state to start at: 'x=1,y=0; px=0,py=0.5'; for several give --at again")
-      ->type_name("STATE")
-      ->expected(1, 1000)
-      ->take_all()
-      ->excludes(file);
-
-  begin_group(command, more_of(system_options));
-  add_list(command, "--around", system.potential.around, "where the starts of the formula are: x=1 [0]")
-      ->type_name("NAME=VALUE,...");
-  add_number(command, "--spread", system.spread,
-             "factor of the standard deviations of the initial distribution [1]");
-  add_number(command, "--sigma", system.bath.sigma,
-             "the noise of the bath, in place of --temperature, which is sigma^2/(2 friction)");
-  add_number(command, "--start-step", system.start_step,
-             "of a --start that nysalt run wrote: the step to start at [the last]");
-  add_number(
-      command, "--frequency", system.frequency,
-      "the angular frequency that phase_fitted_... and s_aia... methods are fitted to, and the highest one "
-      "where none is known [that which the system declares, or which is seen along the motion]");
-  add_parameters(command, system);
-  std::vector<CLI::Option*> added = command.get_options([](CLI::Option*) { return true; });
-  added.erase(added.begin(), added.begin() + static_cast<std::ptrdiff_t>(before));
-  return added;
-}
-
-void add_placement(CLI::App& command, std::string& placement) {
-  command
-      .add_option("--placement", placement,
-                  "where letters O of a bath are in a method without them: end, symmetric or middle "
-                  "[symmetric]")
-      ->type_name(a_name)
-      ->group(more_of(method_options));
-}
-
-void add_search(CLI::App& command, learning_options& how, const std::string& prefix) {
-  begin_group(command, learning_group);
-  command
-      .add_option("--for", how.purpose, fmt::format("what the runs to come are for: {} [state]", purposes()))
-      ->type_name(a_name);
-  add_number(command, prefix + "trajectories", how.trajectories, "number of trajectories to learn from");
-  command
-      .add_option(prefix + "effort", how.effort,
-                  "how long to search for parameters: quick, normal or thorough")
-      ->type_name(a_name)
-      ->capture_default_str();
-
-  begin_group(command, more_of(learning_group));
-  command
-      .add_option(
-          prefix + "loss", how.loss,
-          fmt::format("the loss to minimise: {}, or {} after K steps [by --for: state has "
-                      "trajectory, in a bath state:1; energy and distribution state:1; sampling acceptance]",
-                      detail::loss_patterns(false), detail::loss_patterns(true)))
-      ->type_name(a_name);
-  command
-      .add_option("--coordinates", how.coordinates,
-                  "the coordinates in which the loss measures a state: qp, modes or energy [energy for the "
-                  "loss trajectory of a system with modes, else qp]")
-      ->type_name(a_name);
-  command
-      .add_option("--fix", how.fix,
-                  "a parameter of the family that is not learned but has this value: b1=0.5")
-      ->type_name("NAME=VALUE");
-  add_number(command, prefix + "random-starts", how.random_starts,
-             "number of random parameters that the search begins from, beside those of the family [by the "
-             "effort]");
-}
-
-void add_horizon(CLI::App& command, learning_options& how, const std::string& prefix) {
-  add_number(command, prefix + "horizon", how.horizon,
-             "length of the trajectories to learn from, a time [200 steps; of losses after K steps 0.5, or "
-             "ten steps if that is longer]")
-      ->group(more_of(learning_group));
-}
-
-void add_learning(CLI::App& command, learning_options& how, const std::string& prefix) {
-  add_search(command, how, prefix);
-  add_horizon(command, how, prefix);
-  add_number(command, "--fine-step", how.fine_step,
-             "the fine step of the reference, which must divide the step [omega h <= 5e-3]")
-      ->group(more_of(learning_group));
 }
 
 }  // namespace nysalt::program

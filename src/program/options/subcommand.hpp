@@ -4,9 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
+#include <string>
 #include <vector>
 
-#include "../settings.hpp"
+#include "shared_options.hpp"
 
 namespace nysalt::program {
 
@@ -17,20 +19,27 @@ struct subcommand {
 };
 
 /// All of them, in the order of the help. Throws refusal if a parameter of a system that was loaded has the
-/// name of an option.
+/// name of an option. The common options are read into `common`, which must outlive them.
 std::vector<subcommand> offer_all(CLI::App& app, common_settings& common);
 
-// Each is added to the program; its common options are read into `common`, which must outlive it.
-subcommand offer_build(CLI::App& app, common_settings& common);
-subcommand offer_cite(CLI::App& app, common_settings& common);
-subcommand offer_compare(CLI::App& app, common_settings& common);
-subcommand offer_export(CLI::App& app, common_settings& common);
-subcommand offer_learn(CLI::App& app, common_settings& common);
-subcommand offer_list(CLI::App& app, common_settings& common);
-subcommand offer_new(CLI::App& app, common_settings& common);
-subcommand offer_recommend(CLI::App& app, common_settings& common);
-subcommand offer_run(CLI::App& app, common_settings& common);
-subcommand offer_sample(CLI::App& app, common_settings& common);
-subcommand offer_stability(CLI::App& app, common_settings& common);
+/// One of them, with the options of its rows; `complete` sees them when they are read, before it runs.
+template <class Command>
+subcommand offered(CLI::App& app, common_settings& common, const char* name, const char* what,
+                   int (*run)(const Command&, const common_settings&), const std::string& footer,
+                   const std::function<void(const CLI::App&, Command&)>& complete = {}) {
+  const auto asked = std::make_shared<Command>();
+  CLI::App& command = *app.add_subcommand(name, what);
+  add_options(command, rows_of(*asked));
+  if constexpr (requires { asked->system.parameters; }) add_parameters(command, asked->system);
+  if constexpr (requires { asked->system->parameters; }) add_parameters(command, *asked->system);
+  add_common(
+      command, common, Command::forced, requires { Command::has_details; });
+  command.footer("--config FILE holds options, as typed without the dashes (TOML).\n\n" + footer);
+  const auto run_it = [asked, &command, &common, run, complete] {
+    if (complete) complete(command, *asked);
+    return run(*asked, common);
+  };
+  return {&command, run_it};
+}
 
 }  // namespace nysalt::program

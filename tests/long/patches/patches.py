@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""A letter, a host of exports and a loss, each added to a copy of the sources by a small patch, and used.
+"""A letter, a host of exports, a loss and an option of a command, each added to a copy of the sources by a small patch, and used.
 
 usage: patches.py FOLDER SOURCE OPTION...   copies the sources to FOLDER, applies the patches that stand beside this file,
                                             builds the program with the OPTIONs of cmake, and uses what was added
@@ -10,12 +10,13 @@ The exit status is 1 if a patch changes more files than it may, or if what was a
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.realpath(__file__))
-MOST_FILES = {"letter": 2, "host": 1, "loss": 2}
+MOST_FILES = {"letter": 2, "host": 1, "loss": 2, "option": 1}
 
 
 def require(condition, text):
@@ -59,9 +60,11 @@ def built_program(folder, source, options):
     shutil.rmtree(build, ignore_errors=True)
     copy_sources(source, copy)
     apply_patches(copy)
-    without = [f"-DNYSALT_{what}=OFF" for what in ("BUILD_TESTS", "BUILD_EXAMPLES", "BUILD_BENCH", "WITH_PYTHON")]
+    without = [f"-DNYSALT_{what}=OFF" for what in ("BUILD_TESTS", "BUILD_EXAMPLES", "BUILD_BENCH")]
     output_of(["cmake", "-S", copy, "-B", build, *without, *options])
-    output_of(["cmake", "--build", build, "--target", "nysalt_program", "--parallel", str(os.cpu_count())])
+    has_python = "nysalt_python:" in output_of(["cmake", "--build", build, "--target", "help"])
+    targets = ["nysalt_program", *(["nysalt_python"] if has_python else [])]
+    output_of(["cmake", "--build", build, "--target", *targets, "--parallel", str(os.cpu_count())])
     return os.path.join(build, "nysalt")
 
 
@@ -131,6 +134,28 @@ class Uses:
         b = scheme["parameters"]["b1"]
         require(0.1 < b < 0.3, f"b1 is {b}")
         require(len(self.samples(*on_system, "--horizon", "5", "--method", "scheme.json")) == 11, "11 samples are due")
+
+    def option(self):
+        """In the help, the table of the document, the signature of Python and the types: all are made from one row."""
+        self.run("run", "--system", "pendulum", "--method", "verlet", "--step", "0.1", "--horizon", "1", "--echoes", "2")
+        require("  --echoes N [3]" in self.run("run", "--help"), "the help must have the option and its default")
+        source = os.path.join(os.path.dirname(self.folder), "source")
+        update = (sys.executable, "-B", os.path.join(source, "docs", "site", "options.py"), self.program)
+        output_of([*update, "--update"])
+        with open(os.path.join(source, "docs", "program.md"), encoding="utf-8") as file:
+            require("\n| `--echoes N [3]` | a number of no use |\n" in file.read(), "the table must have the option")
+        package = os.path.join(os.path.dirname(self.program), "python")
+        if os.path.isdir(os.path.join(package, "nysalt")):
+            environment = {**os.environ, "PYTHONPATH": package}
+            with open(os.path.join(os.path.dirname(self.program), "CMakeCache.txt"), encoding="utf-8") as file:
+                python = re.search(r"^NYSALT_MODULE_PYTHON:\w+=(.+)$", file.read(), re.MULTILINE)[1]
+            read = "import inspect, nysalt; print(inspect.signature(nysalt.run).parameters['echoes'])"
+            found = output_of([python, "-B", "-c", read], env=environment)
+            require(found.replace("'", "") == "echoes: int = 3\n", f"the signature has {found}")
+            stub = os.path.join(source, "docs", "site", "stub.py")
+            output_of([python, "-B", stub, "--update"], env=environment)
+            with open(os.path.join(source, "python", "nysalt", "__init__.pyi"), encoding="utf-8") as file:
+                require("echoes: int=..." in file.read(), "the types must have the option")
 
 
 def main():
