@@ -221,7 +221,8 @@ inline option_rows choice_rows(std::int64_t& trajectories, double& hmc_temperatu
 
 inline option_rows sampling_rows(sampling_options& asked) {
   return {{"length", &asked.length, in_sampling, "mean duration of trajectories, uniform from 0 to twice it"},
-          {"acceptance", &asked.acceptance, in_sampling, "the mean acceptance at which steps are compared"},
+          {"acceptance", &asked.acceptance, in_sampling, "the mean acceptance at which steps are compared",
+           trait::rare},
           {"times_larger", &asked.times_larger, in_sampling,
            "how many times as large as this system the one is that will be sampled", trait::rare}};
 }
