@@ -26,8 +26,9 @@ std::string scheme_file(const std::string& method, double step) {
   return fmt::format("{}_{}.json", name, step);
 }
 
-learned_row learned_row_of(const learned_fit& fit, json scheme) {
-  learned_row row{{}, {as_json(fit)}, std::move(scheme)};
+learned_row learned_row_of(const learned_fit& fit, const json& scheme) {
+  learned_row row{
+      {}, {as_json(fit)}, as_kept(scheme)};  // the checksum of a scheme is of null, not of infinities
   read_json(row.fit.document, static_cast<facts_of_fit&>(row));
   return row;
 }

@@ -124,7 +124,7 @@ NYSALT_DESCRIBED(learned_row, fit, scheme)
 std::string scheme_file(const std::string& method, double step);
 
 /// `scheme` is null of a fit that is not usable.
-learned_row learned_row_of(const learned_fit& fit, json scheme);
+learned_row learned_row_of(const learned_fit& fit, const json& scheme);
 /// Of what a work file holds of the method, which people may have edited. Throws std::exception for what is
 /// not whole, of another method, or not of the family.
 learned_row learned_row_from(const json& kept, const std::string& method, const family& family);

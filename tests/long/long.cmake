@@ -25,6 +25,22 @@ if(NYSALT_BUILD_PROGRAMS AND UNIX AND NOT APPLE)
   set_tests_properties(long_inputs_unbounded_is_found PROPERTIES PASS_REGULAR_EXPRESSION "11 inputs tried, 5 wrong")
 endif()
 
+# Long commands that are killed at random moments; a program that does not go on must be found.
+if(NYSALT_BUILD_PROGRAMS AND UNIX AND NOT APPLE)
+  set(kills Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/faults/kills.py)
+  set(launched 1)
+  if(TARGET nysalt::mpi)
+    set(launched 1,2)
+  endif()
+  add_long_test(long_kills
+    ${kills} $<TARGET_FILE:nysalt_program> ${CMAKE_CURRENT_BINARY_DIR}/kills --kills=3 --ranks=${launched})
+  add_long_test(long_kills_without_resume_is_found ${kills} ${CMAKE_CURRENT_SOURCE_DIR}/faults/without_resume.sh
+    ${CMAKE_CURRENT_BINARY_DIR}/kills_found --kills=10 --ranks=1 --works=sample)
+  set_tests_properties(long_kills PROPERTIES ENVIRONMENT "${of_mpirun}")
+  set_tests_properties(long_kills_without_resume_is_found PROPERTIES
+    ENVIRONMENT "NYSALT=$<TARGET_FILE:nysalt_program>" PASS_REGULAR_EXPRESSION "exit code 2.*resume it, or remove the file")
+endif()
+
 # Every output where the file system has no locks, and where a lock is held.
 if(TARGET nysalt_faults)
   add_long_test(long_locks Python3::Interpreter -B ${folder}/locks/locks.py $<TARGET_FILE:nysalt_program>

@@ -102,7 +102,7 @@ std::vector<subcommand> offer_all(CLI::App& app, common_settings& common) {
             "  nysalt run --system pendulum --method srkn6b --step 0.5 --horizon 100 --trajectories 8 "
             "--observables energy,q1 --output out.csv\n"
             "  nysalt run --system fpu --method verlet --step 0.001 --horizon 1e5 --sample-every 1000 "
-            "--output out.csv --resume"),
+            "--output long.csv --resume"),
         offered<compare_command>(
             app, common, "compare", "errors of methods beside their cost", &compare,
             "Examples:\n"
