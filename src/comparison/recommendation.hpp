@@ -21,6 +21,14 @@ namespace nysalt::program {
 
 struct method_row;
 
+/// Starts of a search: few random ones, as many as the effort asks for, or what is known alone.
+enum class start_set { few, all, known };
+struct search_starts {
+  start_set which = start_set::all;
+  std::vector<double> known{};      // an optimum of fewer trajectories, or at another step
+  std::vector<double> contained{};  // of the family that this one contains
+};
+
 class recommendation {
  public:
   /// Plans who takes part. Throws refusal for bad options, before any work is done.
@@ -65,9 +73,8 @@ class recommendation {
   double rate_of_motion() const;
   trajectories_plan plan_at(double step, std::int64_t count, std::uint64_t seed) const;
   /// Determines the coefficients at the step of the contender. A family is learned from the first
-  /// `trajectories` of the training set; `from` is an additional start of the search, or the only one.
-  void prepare(candidate& contender, std::int64_t trajectories, const std::vector<double>& from = {},
-               bool only_from_there = false);
+  /// `trajectories` of the training set.
+  void prepare(candidate& contender, std::int64_t trajectories, const search_starts& starts = {});
   std::vector<nysalt::method> formulas_at(double step) const;
   void measure(const std::vector<candidate*>& all, std::int64_t count, std::uint64_t seed);
   void measure_at(double step, const std::vector<candidate*>& group, std::int64_t count, std::uint64_t seed);
@@ -96,10 +103,11 @@ class recommendation {
   static std::vector<std::vector<std::string>> parts_of(const contest& among);
 
   // The race: at one cost candidates fall behind by their error, at one error by their cost.
-  /// Trajectories that candidates are learned from and judged on.
+  /// Trajectories that candidates are learned from and judged on, and where the search begins.
   struct stage {
     std::int64_t learned_from;
     std::int64_t judged_on;
+    start_set starts;
   };
   std::vector<stage> stages() const;
   void race(const contest& among, std::vector<candidate*> racing);

@@ -32,19 +32,21 @@ const candidate* least_of(const std::vector<const candidate*>& all, const error_
 }  // namespace
 
 /// Each time three times as many, up to all. To judge costs less than to learn, and tails of errors show on
-/// many trajectories only: so all are judged on more than they are learned from.
+/// many trajectories only: so all are judged on more than they are learned from. Scouts start from few
+/// points; who is left is searched for from everywhere on a third of the trajectories, which show the same
+/// minima.
 std::vector<recommendation::stage> recommendation::stages() const {
   constexpr std::int64_t fewest = 16;  // a pass over fewer costs as much: they are the lanes of a processor
   const auto part = [](std::int64_t all, std::int64_t divisor, std::int64_t at_least) {
-    return std::min(all, std::max(at_least, all / divisor));
+    return divisor == 1 ? all : std::min(all, std::max(at_least, all / divisor / fewest * fewest));
   };
   std::vector<stage> result;
   for (const std::int64_t divisor : {9, 3, 1}) {
-    const stage next{part(options_.learning.trajectories, divisor, fewest),
-                     part(options_.trajectories, std::max<std::int64_t>(divisor / 3, 1), 2 * fewest)};
-    const bool is_new = result.empty() || next.learned_from > result.back().learned_from ||
-                        next.judged_on > result.back().judged_on;
-    if (is_new) result.push_back(next);
+    result.push_back({part(options_.learning.trajectories, divisor, fewest),
+                      part(options_.trajectories, std::max<std::int64_t>(divisor / 3, 1), 2 * fewest),
+                      divisor == 9   ? start_set::few
+                      : divisor == 3 ? start_set::all
+                                     : start_set::known});
   }
   return result;
 }
@@ -63,27 +65,41 @@ void recommendation::race(const contest& among, std::vector<candidate*> racing) 
   }
 }
 
-/// What was learned from fewer trajectories, or in the other contest, is where the search goes on; the last
-/// few are searched for once more from everywhere, on all trajectories. So is what could not be used.
+/// What was learned from fewer trajectories, or in the other contest, is where the search goes on. What could
+/// not be used is searched for from everywhere.
 void recommendation::advance(const contest& among, candidate& contender, const stage& at) {
   if (!contender.is_learned()) {
     if (!contender.method && contender.reason.empty()) prepare(contender, 0);
     return;
   }
-  if (contender.learned_from >= at.learned_from) return;
+  const bool is_to_search = at.starts == start_set::all && !contender.is_searched_for;
+  if (contender.learned_from >= at.learned_from && !is_to_search) return;
+  const auto of_family = [](const contest& in, const std::string& name) {
+    const auto found = std::ranges::find_if(
+        in.all, [&](const candidate& one) { return one.source.family == name && one.learned; });
+    return found == in.all.end() ? nullptr : &*found;
+  };
+  const std::string& name = *contender.source.family;
   const candidate* known = contender.learned ? &contender : nullptr;
-  if (known == nullptr && by_evaluations_ && &among != &*by_evaluations_) {
-    const auto other = std::ranges::find_if(by_evaluations_->all, [&](const candidate& one) {
-      return one.source.typed == contender.source.typed && one.learned;
-    });
-    if (other != by_evaluations_->all.end()) known = &*other;
+  if (known == nullptr && by_evaluations_ && &among != &*by_evaluations_)
+    known = of_family(*by_evaluations_, name);
+  search_starts starts{.which = at.starts};
+  const auto inner = family_named(name, system_->letters()).contained;
+  if (inner && options_.learning.fix.empty()) {
+    constexpr double alike = 1.1;  // steps as far apart have optima that are close
+    const candidate* one = of_family(among, inner->family.name);
+    if (one != nullptr && one->learned->fit.usable &&
+        std::abs(std::log(one->step / contender.step)) < std::log(alike)) {
+      starts.contained = theta_of(one->learned->fit);
+    }
   }
-  if (known == nullptr || !known->learned->fit.usable) return prepare(contender, at.learned_from);
-  constexpr double nearby = 1.5;  // at steps further apart other minima may be the best
-  const double apart = std::abs(std::log(contender.step / known->step));
-  const bool is_last = at.learned_from == options_.learning.trajectories;
-  const bool is_near = !is_last && known->learned->fit.follows_to_the_end() && apart <= std::log(nearby);
-  prepare(contender, at.learned_from, theta_of(known->learned->fit), is_near);
+  if (known != nullptr) {
+    const fit_summary& fit = known->learned->fit;
+    if (fit.usable) starts.known = theta_of(fit);
+    const bool is_end = starts.which == start_set::known && !fit.follows_to_the_end();
+    if (!fit.usable || is_end) starts.which = start_set::all;
+  }
+  prepare(contender, at.learned_from, starts);
 }
 
 /// Those whose errors are larger than the least by more than chance and more data can change, and where they
@@ -144,7 +160,7 @@ void recommendation::go_on(const contest& among, candidate& contender) {
   if (options_.error) {
     find_steps({&contender});
   } else {
-    advance(among, contender, {options_.learning.trajectories, options_.trajectories});
+    for (const stage& next : stages()) advance(among, contender, next);
   }
   measure_on_test({&contender}, options_.trajectories);
 }

@@ -133,7 +133,9 @@ void recommendation::probe(candidate& contender, int k, std::int64_t trajectorie
   if (nearest == thetas.end()) {
     prepare(contender, trajectories);
   } else {
-    prepare(contender, trajectories, nearest->second, !contender.search.is_fine);
+    prepare(
+        contender, trajectories,
+        {.which = contender.search.is_fine ? start_set::all : start_set::known, .known = nearest->second});
   }
   if (contender.learned && contender.learned->fit.usable)
     contender.search.thetas[k] = theta_of(contender.learned->fit);
