@@ -56,7 +56,8 @@ class recommendation {
 
   // At one error.
   void rank_at_one_error();
-  void find_steps(const std::vector<candidate*>& all);
+  void race_by_seconds();
+  void find_steps(const std::vector<candidate*>& all, cost_unit unit);
   /// One more step of each whose search is not over, on few trajectories or on all; false if there is none.
   bool search_on(const std::vector<candidate*>& all, bool on_few);
   static const double grid_ratio;
@@ -113,7 +114,7 @@ class recommendation {
   void race(const contest& among, std::vector<candidate*> racing);
   void advance(const contest& among, candidate& contender, const stage& at);
   void leave_behind(const contest& among, std::vector<candidate*>& racing) const;
-  void leave_behind_by_cost(const std::vector<candidate*>& racing) const;
+  void leave_behind_by_cost(const std::vector<candidate*>& racing, cost_unit unit) const;
   /// Whether one that was left behind is ahead of what remains, as those before it were objected to; it is
   /// learned and judged on all trajectories then.
   bool call_back(contest& among);
@@ -124,6 +125,10 @@ class recommendation {
   /// Judges one of the best on trajectories that it was not chosen on, and as `run` would warn of it.
   /// Where there is an objection, the contender takes a smaller step (at one error) or gets a reason.
   void confirm(contest& among, candidate& contender);
+  void confirm_on(candidate& contender, std::int64_t trajectories);
+  /// Where chance hides a factor that matters, the best of both kinds are judged on four times as many fresh
+  /// trajectories; false where there is no need, or no more.
+  bool confirm_on_more(contest& among);
   std::string objection_to(const candidate& contender) const;
   error_statistic statistic(bool by_quantiles) const;
   bool is_heavy(const contest& among) const;

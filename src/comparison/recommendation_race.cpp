@@ -12,19 +12,15 @@ namespace nysalt::program {
 
 namespace {
 
-/// The error of one over that of the other on the first trajectories, which both ran.
-ratio_estimate ratio_on_common(const candidate& one, const candidate& other, const error_statistic& by) {
-  const auto& of_one = one.error.scores;
-  const auto& of_other = other.error.scores;
-  const std::size_t common = std::min(of_one.size(), of_other.size());
-  return paired_ratio({of_one.data(), common}, {of_other.data(), common}, by);
+ratio_estimate ratio_of(const candidate& one, const candidate& other, const error_statistic& by) {
+  return paired_ratio(one.error.scores, other.error.scores, by);
 }
 
-/// The least error on common trajectories; null of none.
+/// The least error on trajectories that both ran; null of none.
 const candidate* least_of(const std::vector<const candidate*>& all, const error_statistic& by) {
   const candidate* best = nullptr;
   for (const candidate* one : all) {
-    if (best == nullptr || ratio_on_common(*one, *best, by).value < 1.0) best = one;
+    if (best == nullptr || ratio_of(*one, *best, by).value < 1.0) best = one;
   }
   return best;
 }
@@ -127,7 +123,7 @@ void recommendation::leave_behind(const contest& among, std::vector<candidate*>&
   const std::size_t most = std::max(fewest, (in_order.size() + 2) / 3);
   for (std::size_t n = 0; n < in_order.size(); ++n) {
     candidate& one = *in_order[n];
-    const ratio_estimate ratio = ratio_on_common(one, *best, among.statistic);
+    const ratio_estimate ratio = ratio_of(one, *best, among.statistic);
     // A fit to n trajectories that count alike adds at most the share p / n to the mean square of an error, p
     // the number of parameters: each trajectory counted as one residual.
     double more_data = 1.0;
@@ -151,14 +147,14 @@ void recommendation::leave_behind(const contest& among, std::vector<candidate*>&
 
 bool recommendation::is_ahead(const contest& among, const candidate& one, const candidate& other) const {
   return options_.error ? among.cost_of(one) < among.cost_of(other)
-                        : ratio_on_common(one, other, among.statistic).value < 1.0;
+                        : ratio_of(one, other, among.statistic).value < 1.0;
 }
 
 void recommendation::go_on(const contest& among, candidate& contender) {
   contender.is_left_behind = false;
   contender.reason.clear();
   if (options_.error) {
-    find_steps({&contender});
+    find_steps({&contender}, among.unit);
   } else {
     for (const stage& next : stages()) advance(among, contender, next);
   }
