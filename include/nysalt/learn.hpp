@@ -31,6 +31,8 @@ struct fit_options {
   std::optional<Eigen::VectorXd> start{};  ///< instead of the family's own starts
   std::vector<named_parameters>
       further_starts{};  ///< additional starts, such as the optimum at a smaller step
+  /// The optimum of the family that this one contains, in that one's parameters; empty: it is searched for.
+  std::optional<Eigen::VectorXd> contained{};
   std::optional<int>
       random_starts{};  ///< number of random starts, normal around the first; empty: by the effort
   nysalt::effort effort = nysalt::effort::normal;  ///< effort of a search in stages

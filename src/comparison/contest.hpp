@@ -46,6 +46,7 @@ struct candidate {
   double step = 0.0;
   std::optional<learned_scheme> learned{};
   std::int64_t learned_from = 0;  // trajectories
+  bool is_searched_for = false;   // from all starts
   std::optional<nysalt::method> method{};
   bracket search{};
   std::string reason{};         // why the candidate cannot win

@@ -55,6 +55,9 @@ double error_statistic::lower_bound(std::vector<double> scores) const {
 
 ratio_estimate paired_ratio(std::span<const double> a, std::span<const double> b,
                             const error_statistic& statistic) {
+  const std::size_t common = std::min(a.size(), b.size());
+  a = a.first(common);
+  b = b.first(common);
   const auto error = [&](const std::vector<double>& scores) { return statistic(scores); };
   ratio_estimate result;
   result.value = error({a.begin(), a.end()}) / error({b.begin(), b.end()});

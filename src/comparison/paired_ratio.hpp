@@ -35,7 +35,8 @@ struct ratio_estimate {
   ratio_estimate inverse() const { return {1.0 / value, 1.0 / high, 1.0 / low}; }
 };
 
-/// The error of a over that of b; score i of both is of the same trajectory. The interval is that of the
+/// The error of a over that of b, of the first trajectories, which both ran: score i of both is of the same
+/// one. The interval is that of the
 /// percentile bootstrap over trajectories [efron_tibshirani_1993, chapter 13], so that what both share of
 /// chance cancels; below eight trajectories there is none. Equal scores give equal bits.
 ratio_estimate paired_ratio(std::span<const double> a, std::span<const double> b,

@@ -40,8 +40,10 @@ struct learn_plan {
   std::uint64_t seed;
   std::uint64_t held_out_seed;
   int threads;
-  std::vector<double> from = {};              // the optimum at a step nearby: one more start
-  bool only_from_there = false;               // and no other
+  std::vector<double> from = {};       // the optimum at a step nearby: one more start
+  bool only_from_there = false;        // and no other
+  std::vector<double> contained = {};  // the optimum of the family that this one contains; empty: not known
+  bool goes_on = false;                // another search begins where this one ends
   std::optional<enough_options> enough = {};  // as many trajectories as it takes, from those of `how` on
   // Where what is made for few trajectories is kept for the same plan with more; nothing: nowhere.
   std::shared_ptr<std::any> kept = {};

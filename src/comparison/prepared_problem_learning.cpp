@@ -67,6 +67,7 @@ learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& pr
   const nysalt::family family = placed(plan.family, plan.where, letters());
   const json question{"learn",
                       plan.family,
+                      plan.where ? static_cast<int>(*plan.where) : -1,
                       plan.step,
                       plan.how.trajectories,
                       plan.how.horizon_at(plan.step),
@@ -75,7 +76,9 @@ learned_scheme prepared_problem::learn(const learn_plan& plan, const counter& pr
                       plan.how.random_starts.value_or(-1),
                       plan.seed,
                       plan.from,
-                      plan.only_from_there};
+                      plan.only_from_there,
+                      plan.contained,
+                      plan.goes_on};
   const auto found = once<kept_fit>(answers_, question, [&] {
     learned_scheme learned = learn_from_data(plan, family, progress);
     return kept_fit{std::move(learned.fit), learned.method.coefficients(), learned.energies};
@@ -95,12 +98,17 @@ learned_scheme prepared_problem::learn_from_data(const learn_plan& plan, const n
   // The random starts of the search are those of every seed: a seed decides on data, not on the minima that
   // are found.
   options.frequency = frequency_asked_;
-  options.check_force = false;  // systems of users were checked when they were made
+  if (plan.goes_on) options.max_iterations = 60;  // where most minima are within some percent of their loss
+  options.check_force = false;                    // systems of users were checked when they were made
   if (progress) {
     options.execution.progress = [&progress, all = plan.how.trajectories](std::int64_t) { progress(all); };
   }
+  const auto as_vector = [](const std::vector<double>& theta) -> Eigen::VectorXd {
+    return Eigen::Map<const Eigen::VectorXd>(theta.data(), std::ssize(theta));
+  };
+  if (!plan.contained.empty()) options.contained = as_vector(plan.contained);
   if (!plan.from.empty()) {
-    const Eigen::VectorXd theta = Eigen::Map<const Eigen::VectorXd>(plan.from.data(), std::ssize(plan.from));
+    const Eigen::VectorXd theta = as_vector(plan.from);
     if (plan.only_from_there) {
       options.start = theta;
       options.random_starts = 0;

@@ -3,6 +3,8 @@
 #include "recommendation.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "catalogue.hpp"
 #include "checks.hpp"
@@ -77,6 +79,7 @@ void recommendation::rank_at_one_error() {
       if (const candidate* contender = by_evaluations_->best_of(learned)) noise += noise_of(*contender);
     }
     by_seconds_->cost_ratio = grid_ratio * (1.0 + noise);
+    race_by_seconds();
     run(*by_seconds_);
     if (searches_by_quantiles_ || !(is_heavy(*by_evaluations_) || is_heavy(*by_seconds_))) return;
     searches_by_quantiles_ = true;
@@ -85,6 +88,21 @@ void recommendation::rank_at_one_error() {
       prepare_search(contender);
     }
   }
+}
+
+/// Those that were left behind by evaluations, but not by seconds, go on.
+void recommendation::race_by_seconds() {
+  std::vector<candidate*> all;
+  for (candidate& one : by_seconds_->all) {
+    if (one.is_left_behind) one.reason.clear();
+    if (one.reason.empty()) all.push_back(&one);
+  }
+  const auto is_over = [](const candidate* one) { return !one->is_left_behind || !one->reason.empty(); };
+  leave_behind_by_cost(all, cost_unit::seconds);
+  std::erase_if(all, is_over);
+  for (candidate* one : all) one->is_left_behind = false;
+  find_steps(all, cost_unit::seconds);
+  measure_on_test(all, options_.trajectories);
 }
 
 std::vector<std::vector<std::string>> recommendation::parts_of(const contest& among) {
@@ -104,7 +122,7 @@ void recommendation::run(contest& among) {
     std::vector<candidate*> fresh;
     for (const auto& name : part) fresh.push_back(&candidate_named(among, name));
     if (options_.error) {
-      find_steps(fresh);
+      find_steps(fresh, among.unit);
       measure_on_test(fresh, options_.trajectories);
     } else {
       race(among, fresh);
@@ -148,20 +166,53 @@ void recommendation::settle(contest& among) {
       const bool is_best = &contender == among.best_of(true) || &contender == among.best_of(false);
       if (is_best && !contender.confirmed) next = &contender;
     }
-    if (next == nullptr) break;
-    confirm(among, *next);
+    if (next != nullptr) {
+      confirm(among, *next);
+    } else if (!confirm_on_more(among)) {
+      break;
+    }
+  }
+}
+
+bool recommendation::confirm_on_more(contest& among) {
+  constexpr double matters = 1.3;    // a smaller factor between errors is no reason to choose
+  constexpr std::int64_t most = 16;  // times as many; half an interval of 100 trajectories is a quarter then
+  const auto candidate_of = [&](bool learned) {
+    const candidate* best = among.best_of(learned);
+    const auto found = std::ranges::find_if(among.all, [&](const candidate& one) { return &one == best; });
+    return found != among.all.end() && found->confirmed ? &*found : nullptr;
+  };
+  candidate* learned = candidate_of(true);
+  candidate* classical = candidate_of(false);
+  if (!among.budget || learned == nullptr || classical == nullptr) return false;
+  const ratio_estimate ratio = among.error_ratio(*classical, *learned);
+  const bool is_close = ratio.low > 1.0 / matters && ratio.high < matters;
+  const bool is_decided = ratio.is_above_one() || ratio.is_below_one() || is_close;
+  const std::int64_t before = std::min(learned->confirmed->trajectories, classical->confirmed->trajectories);
+  if (is_decided || std::isnan(ratio.value) || before >= most * options_.trajectories) return false;
+  const std::int64_t count = 4 * before;
+  for (candidate* one : {learned, classical}) {
+    if (one->confirmed->trajectories < count) confirm_on(*one, count);
+  }
+  return true;
+}
+
+void recommendation::confirm_on(candidate& contender, std::int64_t trajectories) {
+  candidate again = contender;
+  measure_at(contender.step, {&again}, trajectories, seed_for(role::confirmation, common_.seed));
+  contender.confirmed = again.error;
+  if (again.error.diverged > 0) {
+    contender.reason =
+        fmt::format("{} of {} fresh trajectories diverged", again.error.diverged, trajectories);
   }
 }
 
 void recommendation::confirm(contest& among, candidate& contender) {
   std::string why = objection_to(contender);
   if (why.empty()) {
-    candidate again = contender;
-    measure_at(contender.step, {&again}, options_.trajectories, seed_for(role::confirmation, common_.seed));
-    contender.confirmed = again.error;
-    if (again.error.diverged > 0) {
-      why = fmt::format("{} of {} fresh trajectories diverged", again.error.diverged, options_.trajectories);
-    } else if (options_.error) {
+    confirm_on(contender, options_.trajectories);
+    why = std::exchange(contender.reason, {});
+    if (why.empty() && options_.error) {
       const double most = among.statistic.upper_bound(contender.confirmed->scores);
       if (!(most <= *options_.error))
         why = fmt::format("on fresh trajectories its error may be {:.2e}", most);

@@ -21,6 +21,14 @@ namespace nysalt::program {
 
 struct method_row;
 
+/// Starts of a search: few random ones, as many as the effort asks for, or what is known alone.
+enum class start_set { few, all, known };
+struct search_starts {
+  start_set which = start_set::all;
+  std::vector<double> known{};      // an optimum of fewer trajectories, or at another step
+  std::vector<double> contained{};  // of the family that this one contains
+};
+
 class recommendation {
  public:
   /// Plans who takes part. Throws refusal for bad options, before any work is done.
@@ -48,7 +56,8 @@ class recommendation {
 
   // At one error.
   void rank_at_one_error();
-  void find_steps(const std::vector<candidate*>& all);
+  void race_by_seconds();
+  void find_steps(const std::vector<candidate*>& all, cost_unit unit);
   /// One more step of each whose search is not over, on few trajectories or on all; false if there is none.
   bool search_on(const std::vector<candidate*>& all, bool on_few);
   static const double grid_ratio;
@@ -65,9 +74,8 @@ class recommendation {
   double rate_of_motion() const;
   trajectories_plan plan_at(double step, std::int64_t count, std::uint64_t seed) const;
   /// Determines the coefficients at the step of the contender. A family is learned from the first
-  /// `trajectories` of the training set; `from` is an additional start of the search, or the only one.
-  void prepare(candidate& contender, std::int64_t trajectories, const std::vector<double>& from = {},
-               bool only_from_there = false);
+  /// `trajectories` of the training set.
+  void prepare(candidate& contender, std::int64_t trajectories, const search_starts& starts = {});
   std::vector<nysalt::method> formulas_at(double step) const;
   void measure(const std::vector<candidate*>& all, std::int64_t count, std::uint64_t seed);
   void measure_at(double step, const std::vector<candidate*>& group, std::int64_t count, std::uint64_t seed);
@@ -96,16 +104,17 @@ class recommendation {
   static std::vector<std::vector<std::string>> parts_of(const contest& among);
 
   // The race: at one cost candidates fall behind by their error, at one error by their cost.
-  /// Trajectories that candidates are learned from and judged on.
+  /// Trajectories that candidates are learned from and judged on, and where the search begins.
   struct stage {
     std::int64_t learned_from;
     std::int64_t judged_on;
+    start_set starts;
   };
   std::vector<stage> stages() const;
   void race(const contest& among, std::vector<candidate*> racing);
   void advance(const contest& among, candidate& contender, const stage& at);
   void leave_behind(const contest& among, std::vector<candidate*>& racing) const;
-  void leave_behind_by_cost(const std::vector<candidate*>& racing) const;
+  void leave_behind_by_cost(const std::vector<candidate*>& racing, cost_unit unit) const;
   /// Whether one that was left behind is ahead of what remains, as those before it were objected to; it is
   /// learned and judged on all trajectories then.
   bool call_back(contest& among);
@@ -116,6 +125,10 @@ class recommendation {
   /// Judges one of the best on trajectories that it was not chosen on, and as `run` would warn of it.
   /// Where there is an objection, the contender takes a smaller step (at one error) or gets a reason.
   void confirm(contest& among, candidate& contender);
+  void confirm_on(candidate& contender, std::int64_t trajectories);
+  /// Where chance hides a factor that matters, the best of both kinds are judged on four times as many fresh
+  /// trajectories; false where there is no need, or no more.
+  bool confirm_on_more(contest& among);
   std::string objection_to(const candidate& contender) const;
   error_statistic statistic(bool by_quantiles) const;
   bool is_heavy(const contest& among) const;

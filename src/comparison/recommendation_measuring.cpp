@@ -21,8 +21,7 @@ trajectories_plan recommendation::plan_at(double step, std::int64_t count, std::
   return plan;
 }
 
-void recommendation::prepare(candidate& contender, std::int64_t trajectories, const std::vector<double>& from,
-                             bool only_from_there) {
+void recommendation::prepare(candidate& contender, std::int64_t trajectories, const search_starts& starts) {
   contender.reason.clear();
   const double samples = options_.horizon / contender.step;
   if (metric().is_along_paths() && samples < fewest_samples - 1e-9) {
@@ -41,10 +40,14 @@ void recommendation::prepare(candidate& contender, std::int64_t trajectories, co
     learn_plan plan =
         plan_for(*contender.source.family, contender.where, contender.step, options_.learning, common_);
     plan.how.trajectories = std::min(trajectories, plan.how.trajectories);
-    plan.from = from;
-    plan.only_from_there = only_from_there;
+    plan.from = starts.known;
+    plan.only_from_there = starts.which == start_set::known;
+    plan.contained = starts.contained;
+    plan.goes_on = plan.how.trajectories < options_.learning.trajectories;
+    if (starts.which == start_set::few) plan.how.effort = "quick";
     contender.learned = learn_with(*system_, plan, shown_);
     contender.learned_from = plan.how.trajectories;
+    contender.is_searched_for |= starts.which == start_set::all;
     contender.method = contender.learned->method;
     const fit_summary& fit = contender.learned->fit;
     if (!fit.usable) {

@@ -12,19 +12,15 @@ namespace nysalt::program {
 
 namespace {
 
-/// The error of one over that of the other on the first trajectories, which both ran.
-ratio_estimate ratio_on_common(const candidate& one, const candidate& other, const error_statistic& by) {
-  const auto& of_one = one.error.scores;
-  const auto& of_other = other.error.scores;
-  const std::size_t common = std::min(of_one.size(), of_other.size());
-  return paired_ratio({of_one.data(), common}, {of_other.data(), common}, by);
+ratio_estimate ratio_of(const candidate& one, const candidate& other, const error_statistic& by) {
+  return paired_ratio(one.error.scores, other.error.scores, by);
 }
 
-/// The least error on common trajectories; null of none.
+/// The least error on trajectories that both ran; null of none.
 const candidate* least_of(const std::vector<const candidate*>& all, const error_statistic& by) {
   const candidate* best = nullptr;
   for (const candidate* one : all) {
-    if (best == nullptr || ratio_on_common(*one, *best, by).value < 1.0) best = one;
+    if (best == nullptr || ratio_of(*one, *best, by).value < 1.0) best = one;
   }
   return best;
 }
@@ -32,19 +28,21 @@ const candidate* least_of(const std::vector<const candidate*>& all, const error_
 }  // namespace
 
 /// Each time three times as many, up to all. To judge costs less than to learn, and tails of errors show on
-/// many trajectories only: so all are judged on more than they are learned from.
+/// many trajectories only: so all are judged on more than they are learned from. Scouts start from few
+/// points; who is left is searched for from everywhere on a third of the trajectories, which show the same
+/// minima.
 std::vector<recommendation::stage> recommendation::stages() const {
   constexpr std::int64_t fewest = 16;  // a pass over fewer costs as much: they are the lanes of a processor
   const auto part = [](std::int64_t all, std::int64_t divisor, std::int64_t at_least) {
-    return std::min(all, std::max(at_least, all / divisor));
+    return divisor == 1 ? all : std::min(all, std::max(at_least, all / divisor / fewest * fewest));
   };
   std::vector<stage> result;
   for (const std::int64_t divisor : {9, 3, 1}) {
-    const stage next{part(options_.learning.trajectories, divisor, fewest),
-                     part(options_.trajectories, std::max<std::int64_t>(divisor / 3, 1), 2 * fewest)};
-    const bool is_new = result.empty() || next.learned_from > result.back().learned_from ||
-                        next.judged_on > result.back().judged_on;
-    if (is_new) result.push_back(next);
+    result.push_back({part(options_.learning.trajectories, divisor, fewest),
+                      part(options_.trajectories, std::max<std::int64_t>(divisor / 3, 1), 2 * fewest),
+                      divisor == 9   ? start_set::few
+                      : divisor == 3 ? start_set::all
+                                     : start_set::known});
   }
   return result;
 }
@@ -63,27 +61,41 @@ void recommendation::race(const contest& among, std::vector<candidate*> racing) 
   }
 }
 
-/// What was learned from fewer trajectories, or in the other contest, is where the search goes on; the last
-/// few are searched for once more from everywhere, on all trajectories. So is what could not be used.
+/// What was learned from fewer trajectories, or in the other contest, is where the search goes on. What could
+/// not be used is searched for from everywhere.
 void recommendation::advance(const contest& among, candidate& contender, const stage& at) {
   if (!contender.is_learned()) {
     if (!contender.method && contender.reason.empty()) prepare(contender, 0);
     return;
   }
-  if (contender.learned_from >= at.learned_from) return;
+  const bool is_to_search = at.starts == start_set::all && !contender.is_searched_for;
+  if (contender.learned_from >= at.learned_from && !is_to_search) return;
+  const auto of_family = [](const contest& in, const std::string& name) {
+    const auto found = std::ranges::find_if(
+        in.all, [&](const candidate& one) { return one.source.family == name && one.learned; });
+    return found == in.all.end() ? nullptr : &*found;
+  };
+  const std::string& name = *contender.source.family;
   const candidate* known = contender.learned ? &contender : nullptr;
-  if (known == nullptr && by_evaluations_ && &among != &*by_evaluations_) {
-    const auto other = std::ranges::find_if(by_evaluations_->all, [&](const candidate& one) {
-      return one.source.typed == contender.source.typed && one.learned;
-    });
-    if (other != by_evaluations_->all.end()) known = &*other;
+  if (known == nullptr && by_evaluations_ && &among != &*by_evaluations_)
+    known = of_family(*by_evaluations_, name);
+  search_starts starts{.which = at.starts};
+  const auto inner = family_named(name, system_->letters()).contained;
+  if (inner && options_.learning.fix.empty()) {
+    constexpr double alike = 1.1;  // steps as far apart have optima that are close
+    const candidate* one = of_family(among, inner->family.name);
+    if (one != nullptr && one->learned->fit.usable &&
+        std::abs(std::log(one->step / contender.step)) < std::log(alike)) {
+      starts.contained = theta_of(one->learned->fit);
+    }
   }
-  if (known == nullptr || !known->learned->fit.usable) return prepare(contender, at.learned_from);
-  constexpr double nearby = 1.5;  // at steps further apart other minima may be the best
-  const double apart = std::abs(std::log(contender.step / known->step));
-  const bool is_last = at.learned_from == options_.learning.trajectories;
-  const bool is_near = !is_last && known->learned->fit.follows_to_the_end() && apart <= std::log(nearby);
-  prepare(contender, at.learned_from, theta_of(known->learned->fit), is_near);
+  if (known != nullptr) {
+    const fit_summary& fit = known->learned->fit;
+    if (fit.usable) starts.known = theta_of(fit);
+    const bool is_end = starts.which == start_set::known && !fit.follows_to_the_end();
+    if (!fit.usable || is_end) starts.which = start_set::all;
+  }
+  prepare(contender, at.learned_from, starts);
 }
 
 /// Those whose errors are larger than the least by more than chance and more data can change, and where they
@@ -111,7 +123,7 @@ void recommendation::leave_behind(const contest& among, std::vector<candidate*>&
   const std::size_t most = std::max(fewest, (in_order.size() + 2) / 3);
   for (std::size_t n = 0; n < in_order.size(); ++n) {
     candidate& one = *in_order[n];
-    const ratio_estimate ratio = ratio_on_common(one, *best, among.statistic);
+    const ratio_estimate ratio = ratio_of(one, *best, among.statistic);
     // A fit to n trajectories that count alike adds at most the share p / n to the mean square of an error, p
     // the number of parameters: each trajectory counted as one residual.
     double more_data = 1.0;
@@ -135,16 +147,16 @@ void recommendation::leave_behind(const contest& among, std::vector<candidate*>&
 
 bool recommendation::is_ahead(const contest& among, const candidate& one, const candidate& other) const {
   return options_.error ? among.cost_of(one) < among.cost_of(other)
-                        : ratio_on_common(one, other, among.statistic).value < 1.0;
+                        : ratio_of(one, other, among.statistic).value < 1.0;
 }
 
 void recommendation::go_on(const contest& among, candidate& contender) {
   contender.is_left_behind = false;
   contender.reason.clear();
   if (options_.error) {
-    find_steps({&contender});
+    find_steps({&contender}, among.unit);
   } else {
-    advance(among, contender, {options_.learning.trajectories, options_.trajectories});
+    for (const stage& next : stages()) advance(among, contender, next);
   }
   measure_on_test({&contender}, options_.trajectories);
 }

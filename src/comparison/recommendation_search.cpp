@@ -65,10 +65,10 @@ bool recommendation::search_on(const std::vector<candidate*>& all, bool on_few) 
   return !tried.empty();
 }
 
-void recommendation::find_steps(const std::vector<candidate*>& all) {
+void recommendation::find_steps(const std::vector<candidate*>& all, cost_unit unit) {
   while (search_on(all, true)) {
   }
-  leave_behind_by_cost(all);
+  leave_behind_by_cost(all, unit);
   while (search_on(all, false)) {
   }
   for (candidate* contender : all) {
@@ -92,35 +92,38 @@ void recommendation::step_down(candidate& contender) {
   contender.search.has_failed = true;
   contender.search.is_found = false;
   contender.confirmed.reset();
-  find_steps({&contender});
+  find_steps({&contender}, asked().unit);  // of one alone, none is left behind
   if (!contender.reason.empty()) return;
   measure_on_test({&contender}, options_.trajectories);
 }
 
-/// Those are left behind whose steps are too small to win by evaluations or by seconds. What few trajectories
-/// say of a step may be wrong by a point of the grid, and so may that of the best.
-void recommendation::leave_behind_by_cost(const std::vector<candidate*>& racing) const {
+/// Those are left behind whose steps are too small to win. What few trajectories say of a step may be wrong
+/// by a point of the grid, and so may that of the best. The contest by evaluations must not depend on the
+/// clock: each contest leaves behind by its own cost.
+void recommendation::leave_behind_by_cost(const std::vector<candidate*>& racing, cost_unit unit) const {
   const double slack = grid_ratio * grid_ratio;
-  candidate* least_evaluations = nullptr;
-  candidate* least_seconds = nullptr;
+  const candidate* least = nullptr;
+  const auto cost_of = [&](const candidate& one) {
+    const double step = grid_step(one, *one.search.below);
+    return unit == cost_unit::evaluations ? one.source.evaluations_per_step / step + processing_of(one)
+                                          : seconds_of_step(one) / step + seconds_of_processing(one);
+  };
+  for (const candidate* one : racing) {
+    if (!one->search.below || !one->reason.empty()) continue;
+    if (least == nullptr || cost_of(*one) < cost_of(*least)) least = one;
+  }
   for (candidate* one : racing) {
-    if (!one->search.below || one->is_left_behind) continue;
+    if (!one->search.below || !one->reason.empty() || one->search.is_found) continue;
+    const double ratio = cost_of(*one) / cost_of(*least);
+    if (ratio <= slack) continue;
     one->step = grid_step(*one, *one->search.below);
     one->evaluations_per_time = one->source.evaluations_per_step / one->step + processing_of(*one);
     one->seconds_per_time = seconds_of_step(*one) / one->step + seconds_of_processing(*one);
-    if (!least_evaluations || one->evaluations_per_time < least_evaluations->evaluations_per_time)
-      least_evaluations = one;
-    if (!least_seconds || one->seconds_per_time < least_seconds->seconds_per_time) least_seconds = one;
-  }
-  for (candidate* one : racing) {
-    if (!one->search.below || one->is_left_behind) continue;
-    const double evaluations = one->evaluations_per_time / least_evaluations->evaluations_per_time;
-    const double seconds = one->seconds_per_time / least_seconds->seconds_per_time;
-    if (evaluations <= slack || seconds <= slack) continue;
     one->is_left_behind = true;
-    one->reason = fmt::format(
-        "left behind on {} of {} trajectories: it takes {:.3g} times the evaluations of {}",
-        one->error.trajectories, options_.trajectories, evaluations, least_evaluations->source.typed);
+    one->reason =
+        fmt::format("left behind on {} of {} trajectories: it takes {:.3g} times the {} of {}",
+                    one->error.trajectories, options_.trajectories, ratio,
+                    unit == cost_unit::evaluations ? "evaluations" : "seconds", least->source.typed);
   }
 }
 
@@ -133,7 +136,9 @@ void recommendation::probe(candidate& contender, int k, std::int64_t trajectorie
   if (nearest == thetas.end()) {
     prepare(contender, trajectories);
   } else {
-    prepare(contender, trajectories, nearest->second, !contender.search.is_fine);
+    prepare(
+        contender, trajectories,
+        {.which = contender.search.is_fine ? start_set::all : start_set::known, .known = nearest->second});
   }
   if (contender.learned && contender.learned->fit.usable)
     contender.search.thetas[k] = theta_of(contender.learned->fit);

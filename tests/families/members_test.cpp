@@ -47,8 +47,7 @@ bool is_at(const Eigen::VectorXd& theta, const family& family, const method& met
 }
 
 double largest_defect(const family& family, const Eigen::VectorXd& theta, double z) {
-  return detail::defect_of_rotation(family.letters, family.coefficients(theta), family.symmetric, z * z)
-      .lpNorm<Eigen::Infinity>();
+  return detail::defects_of_rotation(family, theta, {z * z}).front().values.lpNorm<Eigen::Infinity>();
 }
 
 /// The tableau of an explicit two-stage Nystrom method for unit masses, which shares no code with the library

@@ -164,7 +164,8 @@ BOOST_AUTO_TEST_CASE(a_phase_fitted_method_is_the_nearest_member) {
     const Eigen::VectorXd here = Eigen::Map<const Eigen::VectorXd>(theta.data(), n);
     const Eigen::VectorXd moved = here - Eigen::Map<const Eigen::VectorXd>(from.data(), n);
     const nysalt::family data(family);
-    const Eigen::MatrixXd normals = detail::jacobian_of_defect(data, here, z * z).transpose();
+    const Eigen::MatrixXd normals =
+        detail::defects_of_rotation(data, here, {z * z}).front().jacobian.transpose();
     const double beside = (normals * least_squares(normals, moved, 1e-9) - moved).norm();
     BOOST_TEST((beside <= 1e-8 * moved.norm()) == nearest);
   };

@@ -14,17 +14,21 @@
 
 namespace nysalt::detail {
 
-/// By how much a step of a word differs from the rotation by z, z^2 = x, on q'' = -x q, each relative to
-/// the power of x at which consistent words begin to differ, so that nothing cancels as z -> 0:
+/// By how much a step of a word differs from a rotation, and its derivatives by the parameters.
+struct rotation_defects {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd jacobian;  ///< d values_i / d theta_k
+};
+
+/// For each x: by how much a step of a member differs from the rotation by z, z^2 = x, on q'' = -x q, each
+/// relative to the power of x at which consistent words begin to differ, so that nothing cancels as z -> 0:
 ///   (trace/2 - cos z)/x^2,  (M_qp - sin z/z)/x,  (M_pq + z sin z)/x^2
 /// and, where the word is not symmetric, (M_qq - M_pp)/(2 x). As the determinant is 1, one of them follows
-/// from the others; but which does depends on z.
-Eigen::VectorXd defect_of_rotation(const word& letters, const std::vector<double>& coefficients,
-                                   bool symmetric, double x);
-
-/// d defect_i / d theta_k. The matrix of a word is affine in each coefficient (but not in coefficients of
-/// rotations), so that a difference over a step of 1 is the derivative.
-Eigen::MatrixXd jacobian_of_defect(const nysalt::family& family, const Eigen::VectorXd& theta, double x);
+/// from the others; but which does depends on z. The matrix of a word is affine in each coefficient (but not
+/// in coefficients of rotations), so that a difference over a step of 1 is the derivative.
+/// Cost: the matrices, polynomials in x, are made once for all x.
+std::vector<rotation_defects> defects_of_rotation(const nysalt::family& family, const Eigen::VectorXd& theta,
+                                                  const std::vector<double>& all_x);
 
 /// Result of a continuation.
 struct phase_fitting {

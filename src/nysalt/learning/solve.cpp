@@ -28,6 +28,10 @@ namespace {
 std::optional<named_parameters> best_contained(search_task task, const learning_problem& problem) {
   const auto inner = problem.family.contained;
   if (!inner || task.stages.empty() || problem.options.start) return std::nullopt;
+  const auto embedded = [&](const Eigen::VectorXd& theta) {
+    return named_parameters{"best of " + inner->family.name, inner->embed(theta)};
+  };
+  if (problem.options.contained) return embedded(*problem.options.contained);
   const auto options = detail::options_within(*inner, problem.options);
   if (!options) return std::nullopt;
   task.free = detail::free_parameters(inner->family, *options);
@@ -38,7 +42,7 @@ std::optional<named_parameters> best_contained(search_task task, const learning_
   const auto starts = detail::starts_of(inner->family, *options, problem, task.free);
   const search_result found = search(detail::within(*inner, task), starts);
   if (found.lost_after > 0) return std::nullopt;
-  return named_parameters{"best of " + inner->family.name, inner->embed(found.best.theta)};
+  return embedded(found.best.theta);
 }
 
 /// The member at theta, for the step and the system of the data. A covariance loss asks no data, and has seen

@@ -41,15 +41,17 @@ objective oscillator_loss(const family& family, const std::vector<frequency_band
     }
   }
   if (angles.empty() || family.letters.rotates()) return {};
-  return [family, angles](const Eigen::VectorXd& theta) {
+  std::vector<double> squared_angles;
+  for (const double z : angles) squared_angles.push_back(z * z);
+  return [family, angles, squared_angles](const Eigen::VectorXd& theta) {
     const Eigen::Index count = theta.size();
     squares sum{0.0, Eigen::VectorXd::Zero(count), Eigen::MatrixXd::Zero(count, count)};
-    const auto coefficients = family.coefficients(theta);
-    for (const double z : angles) {
-      Eigen::VectorXd r = defect_of_rotation(family.letters, coefficients, family.symmetric, z * z);
-      const Eigen::VectorXd weights = weights_of_defects(r.size(), z, family.letters.is_processed());
-      r = r.cwiseProduct(weights);
-      const Eigen::MatrixXd slopes = weights.asDiagonal() * jacobian_of_defect(family, theta, z * z);
+    const auto defects = defects_of_rotation(family, theta, squared_angles);
+    for (std::size_t n = 0; n < angles.size(); ++n) {
+      const Eigen::VectorXd weights =
+          weights_of_defects(defects[n].values.size(), angles[n], family.letters.is_processed());
+      const Eigen::VectorXd r = defects[n].values.cwiseProduct(weights);
+      const Eigen::MatrixXd slopes = weights.asDiagonal() * defects[n].jacobian;
       sum.value += r.squaredNorm();
       sum.half_gradient += slopes.transpose() * r;
       sum.normal_matrix += slopes.transpose() * slopes;
@@ -198,6 +200,14 @@ void require_sound(const family& family, const fit_options& options) {
     throw std::invalid_argument(
         fmt::format("learn: the start '{}' must have {} parameters, as {} has, got {}", start.name,
                     family.parameters(), family.name, start.theta.size()));
+  }
+  if (options.contained &&
+      (!family.contained || options.contained->size() != family.contained->family.parameters() ||
+       !options.contained->allFinite())) {
+    throw std::invalid_argument(
+        fmt::format("learn: contained must be finite parameters of the family that {} contains, got {} "
+                    "numbers; leave contained out",
+                    family.name, options.contained->size()));
   }
   Eigen::VectorXd first = options.start.value_or(family.starts.front().theta);
   fix(options, first);

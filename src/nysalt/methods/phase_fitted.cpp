@@ -31,12 +31,14 @@ double stumpff(int k, double x) {
   return sum;
 }
 
-}  // namespace
+using polynomials = oscillator_matrix<dense_polynomial>;
 
-Eigen::VectorXd defect_of_rotation(const word& letters, const std::vector<double>& coefficients,
-                                   bool symmetric, double x) {
+polynomials matrix_of(const word& letters, const std::vector<double>& coefficients) {
   const auto times_x = [](const dense_polynomial& a) { return a.times_x(); };
-  const oscillator_matrix<dense_polynomial> m(letters, coefficients, 0.0, {{0.0}}, {{1.0}}, times_x);
+  return {letters, coefficients, 0.0, {{0.0}}, {{1.0}}, times_x};
+}
+
+Eigen::VectorXd defects_at(const polynomials& m, bool symmetric, double x) {
   Eigen::VectorXd defects(symmetric ? 3 : 4);
   defects[0] = m.half_trace().tail(2, x) - stumpff(4, x);
   defects[1] = m.qp.tail(1, x) + stumpff(3, x);
@@ -49,18 +51,30 @@ Eigen::VectorXd defect_of_rotation(const word& letters, const std::vector<double
   return defects;
 }
 
-Eigen::MatrixXd jacobian_of_defect(const family& family, const Eigen::VectorXd& theta, double x) {
+}  // namespace
+
+std::vector<rotation_defects> defects_of_rotation(const family& family, const Eigen::VectorXd& theta,
+                                                  const std::vector<double>& all_x) {
   auto coefficients = family.coefficients(theta);
-  const auto defect = [&] { return defect_of_rotation(family.letters, coefficients, family.symmetric, x); };
-  const Eigen::VectorXd here = defect();
-  Eigen::MatrixXd by_coefficient(here.size(), static_cast<Eigen::Index>(coefficients.size()));
-  for (std::size_t i = 0; i < coefficients.size(); ++i) {
-    const double before = coefficients[i];
-    coefficients[i] = before + 1.0;
-    by_coefficient.col(static_cast<Eigen::Index>(i)) = defect() - here;
-    coefficients[i] = before;
+  const polynomials here = matrix_of(family.letters, coefficients);
+  std::vector<polynomials> beside;
+  for (double& c : coefficients) {
+    const double before = c;
+    c = before + 1.0;
+    beside.push_back(matrix_of(family.letters, coefficients));
+    c = before;
   }
-  return by_coefficient * family.jacobian(theta);
+  const Eigen::MatrixXd slopes = family.jacobian(theta);
+  std::vector<rotation_defects> all;
+  for (const double x : all_x) {
+    const Eigen::VectorXd values = defects_at(here, family.symmetric, x);
+    Eigen::MatrixXd by_coefficient(values.size(), std::ssize(beside));
+    for (std::size_t i = 0; i < beside.size(); ++i) {
+      by_coefficient.col(static_cast<Eigen::Index>(i)) = defects_at(beside[i], family.symmetric, x) - values;
+    }
+    all.push_back({values, by_coefficient * slopes});
+  }
+  return all;
 }
 
 namespace {
@@ -75,9 +89,7 @@ std::optional<Eigen::VectorXd> nearest_phase_fitted(const family& family, const 
   constexpr double redundant = 1e-9;  // pivots of the equation that follows from the others
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most; ++i) {
-    const Eigen::VectorXd defect =
-        defect_of_rotation(family.letters, family.coefficients(theta), family.symmetric, x);
-    const Eigen::MatrixXd slope = jacobian_of_defect(family, theta, x);
+    const auto [defect, slope] = defects_of_rotation(family, theta, {x}).front();
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
     solver.setThreshold(redundant);
     solver.compute(slope);
