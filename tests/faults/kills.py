@@ -4,8 +4,9 @@
 
 usage: kills.py PROGRAM FOLDER [--kills=20] [--ranks=1,4] [--works=NAME,...] [--seed=1]; the exit code is 1 if a promise was broken
 
-A kill (SIGKILL, of all ranks) comes at a moment that is uniform in the time that the command takes. The same command
-with --resume must then give the files of a command that nothing happened to, and leave nothing else. At least half
+A kill (SIGKILL, of all ranks) comes at a moment that is uniform in the time that the command takes, and so does one of
+the command that goes on. The same command with --resume must then give the files of a command that nothing happened to,
+and leave nothing else. At least half
 of the kills must come before the end, and some must leave work: else they tell nothing.
 """
 import os
@@ -34,7 +35,7 @@ WORKS = [
     Work("compare", ["compare", *FPU, "--methods", "verlet,bcss3,srkn6b,learned:bab4", "--steps", "0.005,0.01", "--equal-cost",
                      "--horizon", "20", "--trajectories", "64", "--metric", "state,energy", "--learn-effort", "quick",
                      "--output", "r"], ["r"]),
-    Work("recommend", ["recommend", *FPU, "--families", "bab4,bab5,fg4", "--budget", "80", "--horizon", "5", "--output",
+    Work("recommend", ["recommend", *FPU, "--families", "bab4,fg4", "--learn-trajectories", "32", "--budget", "80", "--horizon", "5", "--output",
                        "out.json"], ["out.json"]),
 ]
 
@@ -106,27 +107,34 @@ def main():
             assert code == 0, said
             expected = {name: comparable(name, contents(folder, name)) for name in files_of(folder, one.outputs)}
             early = resumed = bad = 0
-            for _ in range(kills):
-                moment = moments.uniform(0.0, seconds)
+            for n in range(kills):
                 fresh(folder)
-                process = started(folder, one.arguments, ranks)
-                try:
-                    process.communicate(timeout=moment)
-                except subprocess.TimeoutExpired:
-                    kill(process)
-                    early += 1
-                is_there = any(name.endswith(".work") for _, _, files in os.walk(folder) for name in files)
-                resumed += is_there
-                finished = not is_there and process.returncode == 0
-                again, said = (0, "") if finished else done(folder, one.arguments + ["--resume"], ranks)
-                if not finished and again == 2 and "the output is there" in said:
-                    again = 0  # killed when all was done
+                code, said, has_left = -1, "", False
+                for resume in ([], ["--resume"]):
+                    process = started(folder, one.arguments + resume, ranks)
+                    try:
+                        said = process.communicate(timeout=moments.uniform(0.0, seconds))[0]
+                        code = process.returncode
+                    except subprocess.TimeoutExpired:
+                        kill(process)
+                        code = -9
+                        early += resume == []
+                    is_there = any(name.endswith(".work") for _, _, files in os.walk(folder) for name in files)
+                    has_left = has_left or is_there
+                    if not is_there:
+                        break
+                resumed += has_left
+                again = code if code >= 0 else 0
+                if code < 0:
+                    again, said = done(folder, one.arguments + ["--resume"], ranks)
+                    if again == 2 and "the output is there" in said:
+                        again = 0  # killed when all was done
                 left = [name for _, _, files in os.walk(folder) for name in files if ".part" in name or ".work" in name]
                 differing = [name for name, data in expected.items() if again == 0 and comparable(name, contents(folder, name)) != data]
                 if again != 0 or left or differing:
                     bad += 1
-                    print(f"{one.name}, {ranks} ranks, killed after {moment:.3f} s: exit code {again}, left {left}, other than "
-                          f"without a kill: {differing}; {said.strip()[-300:]}", file=sys.stderr)
+                    print(f"{one.name}, {ranks} ranks, kill {n}: exit code {again}, left {left}, other than without a kill: "
+                          f"{differing}; {said.strip()[-300:]}", file=sys.stderr)
             if 2 * early < kills or (kills >= 10 and resumed == 0):
                 bad += 1
                 print(f"{one.name}, {ranks} ranks: {early} kills came before the end, {resumed} left work: they tell nothing",
