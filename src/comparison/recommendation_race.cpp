@@ -30,19 +30,28 @@ const candidate* least_of(const std::vector<const candidate*>& all, const error_
 /// Each time three times as many, up to all. To judge costs less than to learn, and tails of errors show on
 /// many trajectories only: so all are judged on more than they are learned from. Scouts start from few
 /// points; who is left is searched for from everywhere on a third of the trajectories, which show the same
-/// minima.
+/// minima, or on all where these are few.
 std::vector<recommendation::stage> recommendation::stages() const {
   constexpr std::int64_t fewest = 16;  // a pass over fewer costs as much: they are the lanes of a processor
   const auto part = [](std::int64_t all, std::int64_t divisor, std::int64_t at_least) {
     return divisor == 1 ? all : std::min(all, std::max(at_least, all / divisor / fewest * fewest));
   };
   std::vector<stage> result;
+  bool is_searched_for = false;  // from everywhere
   for (const std::int64_t divisor : {9, 3, 1}) {
-    result.push_back({part(options_.learning.trajectories, divisor, fewest),
-                      part(options_.trajectories, std::max<std::int64_t>(divisor / 3, 1), 2 * fewest),
-                      divisor == 9   ? start_set::few
-                      : divisor == 3 ? start_set::all
-                                     : start_set::known});
+    stage next{part(options_.learning.trajectories, divisor, fewest),
+               part(options_.trajectories, std::max<std::int64_t>(divisor / 3, 1), 2 * fewest),
+               start_set::known};
+    const bool is_scout = divisor == 9 && next.learned_from < options_.learning.trajectories;
+    if (!is_searched_for) next.starts = is_scout ? start_set::few : start_set::all;
+    is_searched_for = is_searched_for || !is_scout;
+    const bool is_new = result.empty() || next.learned_from > result.back().learned_from ||
+                        next.judged_on > result.back().judged_on;
+    if (is_new) {
+      result.push_back(next);
+    } else if (next.starts == start_set::all) {
+      result.back().starts = start_set::all;
+    }
   }
   return result;
 }

@@ -31,7 +31,7 @@ HOLDS = ("good", "near an edge")
 
 
 def options_of(system):
-    return ("--potential", FORMULAS[system]) if system in FORMULAS else ("--system", system)
+    return ("--potential", FORMULAS[system], "--variables", "q1,q2") if system in FORMULAS else ("--system", system)
 
 
 def errors_of(document, statistic):
