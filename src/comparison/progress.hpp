@@ -49,8 +49,8 @@ class progress {
 
   /// The work of all parts to come, in any unit: with it the line has the remaining time.
   void expect(double work);
-  /// Sets the number of items that the following parts work on, shown as in "9 of 21 families, 40 s left". Zero
-  /// ends the count.
+  /// Sets the number of items that the following parts work on, shown as in "9 of 21 families, 40 s left".
+  /// Zero ends the count.
   void count(std::size_t total, std::string things);
   /// Begins the next item.
   void next();

@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(what_is_far_behind_is_not_judged_on_all_trajectories) {
   // 32 trajectories are the first stage, and all: nobody is left behind.
   BOOST_TEST(left_behind_in(document(line + "--budget 8 --trajectories 32 --learn-trajectories 16")).first ==
              0);
-  // At one error those are that need more evaluations and seconds than 1.4 times the least.
+  // At one error those are that need more evaluations than 1.4 times the least.
   const auto at_error = document(line + "--error 1e-3");
   BOOST_TEST(left_behind_in(at_error).first >= 5);
   BOOST_TEST(left_behind_in(at_error).second == 24);
