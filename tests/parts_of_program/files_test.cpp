@@ -94,16 +94,6 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_gone_on_with_is_left_alone) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_is_too_large_to_be_read_is_not_written) {
-  const scratch folder("work_file_large");
-  work_file work(folder / "w", question, false);
-  const std::string sound = contents(folder / "w");
-  const json large(std::string(std::size_t{1} << 28U, 'a'));
-  BOOST_TEST(refuses<refusal>([&] { work.replace("state", large, {}); },
-                              {"at most 256 MB of text", "take fewer trajectories"}));
-  BOOST_TEST(contents(folder / "w") == sound);
-}
-
 // The lock belongs to an open file: a file that is opened twice in one process is refused as by two
 // processes.
 BOOST_AUTO_TEST_CASE(a_work_file_is_of_one_process) {
