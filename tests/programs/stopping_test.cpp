@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // What was stopped goes on to the bytes of a run that nothing happened to: run, sample, compare, learn and
 // recommend, killed at some of their calls of the system; at all of them in
-// tests/long/programs/stopping_test.cpp, at random times in the table killed_at_random.txt beside that.
+// tests/long/programs/stopping_test.cpp, at random times by tests/faults/kills.py.
 #include <boost/test/unit_test.hpp>
 
 #include <string>

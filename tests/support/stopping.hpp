@@ -145,7 +145,8 @@ std::string all_stops_come_to_the_same_bytes(const stoppable& one, Chosen is_cho
       }
     }
   }
-  BOOST_TEST(kills > 2, one.line);
+  // What is not saved every so many steps is written as often as the disk is fast, but at its beginning.
+  BOOST_TEST(kills > (one.options.empty() ? 0 : 2), one.line);
   return expected;
 }
 
