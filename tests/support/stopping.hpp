@@ -145,7 +145,7 @@ std::string all_stops_come_to_the_same_bytes(const stoppable& one, Chosen is_cho
       }
     }
   }
-  // What is not saved every so many steps is written as often as the disk is fast, but at its beginning.
+  // Without --every the number of writes depends on the speed of the disk; the first write always happens.
   BOOST_TEST(kills > (one.options.empty() ? 0 : 2), one.line);
   return expected;
 }

@@ -75,7 +75,7 @@ void require_sound(const run_state& state, std::int64_t trajectories) {
   }
 }
 
-/// Throws refusal unless a run of so many steps prolongs that of the state.
+/// Throws refusal if a run of that many steps cannot continue from the saved state.
 void require_longer(const run_state& state, std::int64_t steps) {
   if (!state.finished) {
     refuse("--horizon must be that of the run that was stopped, {} steps, got {}; finish that run first",
